@@ -1,0 +1,65 @@
+//! One scalar equation at a pose: its value and its gradient at the few points it holds.
+
+use super::geometry::Vector;
+
+/// Index of a point in the columns a constraint is evaluated on.
+pub type PointIdx = u32;
+
+/// A scalar equation `f = 0`, linearised: value and gradient at no more than four points.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// The value of `f`, in the unit of its constraint (length, or radians).
+    pub f: f64,
+    /// How many of `points` and `gradient` are in use.
+    pub n_points: usize,
+    /// The points, each once.
+    pub points: [PointIdx; 4],
+    /// The derivative of `f` by each of these points.
+    pub gradient: [Vector; 4],
+    /// False where an inequality is satisfied: the row asks for nothing then.
+    pub is_active: bool,
+    /// The length of the segment whose direction is the gradient (length rows), else 0.
+    /// A stretched segment is stiff across its direction too: `f / span` per unit length.
+    pub span: f64,
+}
+
+impl Row {
+    /// An equation with value `f` and no points yet.
+    pub fn new(f: f64) -> Self {
+        Self {
+            f,
+            n_points: 0,
+            points: [0; 4],
+            gradient: [Vector::ZERO; 4],
+            is_active: true,
+            span: 0.0,
+        }
+    }
+
+    /// A row that asks for nothing at this pose but keeps its place among `points`.
+    pub fn inactive(points: &[PointIdx]) -> Self {
+        let mut row = points.iter().fold(Self::new(0.0), |row, &p| row.with(p, Vector::ZERO));
+        row.is_active = false;
+        row
+    }
+
+    /// Adds the derivative by a point; a point that occurs twice is merged.
+    #[must_use]
+    pub fn with(mut self, point: PointIdx, gradient: Vector) -> Self {
+        for k in 0..self.n_points {
+            if self.points[k] == point {
+                self.gradient[k] += gradient;
+                return self;
+            }
+        }
+        self.points[self.n_points] = point;
+        self.gradient[self.n_points] = gradient;
+        self.n_points += 1;
+        self
+    }
+
+    /// The points with their derivatives.
+    pub fn terms(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
+        (0..self.n_points).map(|k| (self.points[k], self.gradient[k]))
+    }
+}

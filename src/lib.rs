@@ -1,0 +1,3 @@
+//! Planar mechanisms: a command language, a session and a batch interpreter.
+
+pub mod constraint;
