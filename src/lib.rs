@@ -1,3 +1,5 @@
 //! Planar mechanisms: a command language, a session and a batch interpreter.
 
 pub mod constraint;
+pub mod diag;
+pub mod lang;
