@@ -4,7 +4,10 @@ use std::rc::Rc;
 
 use super::{Function, ParameterId, PointId, Shape};
 use crate::constraint::{Place, Real};
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, SourceId, Span};
+
+/// The place of what no text says.
+const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
 
 /// An expression whose names are resolved; cheap to clone.
 #[derive(Debug, Clone)]
@@ -164,7 +167,7 @@ pub trait Environment<T: Real> {
 impl Formula {
     /// A constant number without a place in a text.
     pub fn constant(value: f64) -> Self {
-        Self::new(Node::Number(value), Shape::Number, Depends::default(), Span::default())
+        Self::new(Node::Number(value), Shape::Number, Depends::default(), NOWHERE)
     }
 
     /// A node with its shape, what it depends on and its place in the text.
