@@ -10,6 +10,7 @@ pub mod geometry;
 // What the kinds are made of.
 mod bounds;
 mod jet;
+mod line;
 mod linear;
 mod place;
 mod row;
@@ -144,9 +145,7 @@ pub enum Field {
 
 /// The excess of a measured value over its bounds, over any number type.
 fn excess<T: Real>(bounds: Bounds, f: T, field: &impl Fn(Field, f64) -> T) -> T {
-    if bounds.is_equality() {
-        f - field(Field::Lo, bounds.lo)
-    } else if f.value() < bounds.lo {
+    if bounds.is_equality() || f.value() < bounds.lo {
         f - field(Field::Lo, bounds.lo)
     } else if f.value() > bounds.hi {
         f - field(Field::Hi, bounds.hi)
