@@ -5,5 +5,10 @@
 //! by who executes the statement.
 
 pub mod ast;
+pub mod catalogue;
 mod expr;
 mod function;
+mod layout;
+mod lower;
+
+pub use lower::{Statements, is_incomplete, parse};
