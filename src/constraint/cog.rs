@@ -187,6 +187,32 @@ impl Relation for Cog {
         field == Field::Ratio
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        let windings = self.lifted.iter().flat_map(|w| w.to_numbers());
+        Some(windings.chain([self.wound]).collect())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[a, b, c, d, e, f, wound] = state {
+            self.lifted = [[a, b], [c, d], [e, f]].map(Winding::from_numbers);
+            self.wound = wound;
+        }
+    }
+
+    fn captured(&self) -> Vec<f64> {
+        vec![self.k]
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        if let &[k] = captured {
+            self.k = k;
+        }
+    }
+
+    fn pick_up(&mut self, x: &[Point]) {
+        *self = Self::new(self.points, self.ratio, x);
+    }
+
     fn accept(&mut self, x: &[Point]) {
         let Some(Spokes(vectors)) = self.spokes(x) else { return };
         for (winding, v) in self.lifted.iter_mut().zip(vectors) {

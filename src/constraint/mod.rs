@@ -127,6 +127,9 @@ pub trait Relation {
     /// Brings back the numbers that `captured` gave.
     fn set_captured(&mut self, _captured: &[f64]) {}
 
+    /// Called when it is switched on again: it goes on from the pose as it is now.
+    fn pick_up(&mut self, _x: &[Point]) {}
+
     /// Goes `dt` on in time; whether that changed anything.
     fn advance(&mut self, _dt: f64) -> bool {
         false

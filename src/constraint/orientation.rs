@@ -166,6 +166,16 @@ impl Relation for Orientation {
         equation(difference + T::constant(f - difference.value()));
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(vec![self.side])
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[side] = state {
+            self.side = side;
+        }
+    }
+
     fn accept(&mut self, x: &[Point]) {
         if let Some((v12, v34)) = self.segments(x) {
             let (offset, _) = self.offset(v12.angle_to(v34));

@@ -137,6 +137,31 @@ impl Relation for Rack {
         field == Field::Radius
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(self.lifted.to_numbers().to_vec())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[turns, angle] = state {
+            self.lifted = Winding::from_numbers([turns, angle]);
+        }
+    }
+
+    fn captured(&self) -> Vec<f64> {
+        vec![self.radius, self.k]
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        if let &[radius, k] = captured {
+            self.radius = radius;
+            self.k = k;
+        }
+    }
+
+    fn pick_up(&mut self, x: &[Point]) {
+        *self = Self::new(self.points, x);
+    }
+
     fn accept(&mut self, x: &[Point]) {
         if let Some(arms) = self.arms(x) {
             self.lifted.follow(arms.line.angle_to(arms.spoke));

@@ -131,6 +131,25 @@ impl Relation for Rigid {
         &mut self.points
     }
 
+    /// Which points are A and B, their distance, and the zeta of each point.
+    fn captured(&self) -> Vec<f64> {
+        let ends = self.ends.map(|i| i as f64);
+        let shape = self.shape.iter().flat_map(|zeta| [zeta.x, zeta.y]);
+        ends.into_iter().chain([self.length]).chain(shape).collect()
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        let n = self.points.len();
+        if let [i, j, length, shape @ ..] = captured
+            && shape.len() == 2 * n
+            && [i, j].iter().all(|&&end| end >= 0.0 && (end as usize) < n)
+        {
+            self.ends = [*i as usize, *j as usize];
+            self.length = *length;
+            self.shape = shape.chunks_exact(2).map(|z| Vector::new(z[0], z[1])).collect();
+        }
+    }
+
     fn n_rows(&self) -> usize {
         (2 * self.points.len()).saturating_sub(3)
     }

@@ -266,7 +266,8 @@ impl Session {
         let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
         let mut many = Vec::new();
         let is_few = arguments.len() <= few.len();
-        let letters = function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
+        let letters =
+            function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
         for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
             // Only a formula keeps the name that a rate needs.
             let term = self.bind(argument, if is_rate { Mode::Live } else { mode })?;
@@ -315,8 +316,11 @@ impl Session {
         let formula = match argument {
             Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => formula.clone(),
             _ => {
-                return Err(Diagnostic::error(format!("`{}` takes the name of a point", function.name()))
-                    .at(arguments[0].span, "this is not a point"));
+                return Err(Diagnostic::error(format!(
+                    "`{}` takes the name of a point",
+                    function.name()
+                ))
+                .at(arguments[0].span, "this is not a point"));
             }
         };
         let depends = Depends { on_rates: true, ..Depends::default() };
@@ -389,11 +393,8 @@ fn binary(
         return operate(operator, *a, *b, expr.span, sides[1].span).map(Term::Constant);
     }
     let depends = left.depends().or(right.depends());
-    let node = Node::Binary(
-        operator,
-        left.into_formula(sides[0].span),
-        right.into_formula(sides[1].span),
-    );
+    let node =
+        Node::Binary(operator, left.into_formula(sides[0].span), right.into_formula(sides[1].span));
     Ok(Term::Live(Formula::new(node, shape, depends, expr.span)))
 }
 
@@ -402,4 +403,25 @@ fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(format!("expected a {}", shape.noun()))
         .at(expr.span, format!("this is a {}", is.noun()))
+}
+
+/// The value of an expression without names, as `--set r=90deg` gives one.
+///
+/// # Errors
+/// Where the text is no such expression.
+pub fn evaluate_constant(text: &str) -> Result<f64, Diagnostic> {
+    use crate::lang::ast::{Command, PrintItem};
+    let mut session = Session::new(Box::new(super::Nowhere));
+    let statement = format!("print {text}");
+    let source = session.add_source("value", &statement, None);
+    let mut statements = crate::lang::parse(source, &statement);
+    let no_value = || Diagnostic::error(format!("`{text}` is not a number"));
+    let statement = statements.next().ok_or_else(no_value)??;
+    match (&statement.command, statements.next()) {
+        (Command::Print(items), None) => match &items[..] {
+            [PrintItem::Value(expr)] => session.number(expr),
+            _ => Err(no_value()),
+        },
+        _ => Err(no_value()),
+    }
 }

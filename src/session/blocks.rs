@@ -59,7 +59,10 @@ impl Session {
         if to - from >= MOST_STATEMENTS as f64 {
             return Err(Diagnostic::error("this loop has too many rounds").at(
                 range.from.span.to(range.to.span),
-                format!("{} rounds, no more than 20 million", crate::diag::format_number(to - from + 1.0)),
+                format!(
+                    "{} rounds, no more than 20 million",
+                    crate::diag::format_number(to - from + 1.0)
+                ),
             ));
         }
         self.nested(span, |session| {

@@ -141,4 +141,3 @@ fn takes(constraint: &Constraint) -> &'static str {
         _ => "this constraint has no part that can be changed",
     }
 }
-

@@ -6,9 +6,7 @@ use crate::constraint::{
     Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
 use crate::diag::Span;
-use crate::lang::ast::{
-    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation,
-};
+use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
 use crate::world::{Edit, Formula, PointId, Record, Shape, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -72,16 +70,24 @@ impl Session {
             Stated::Length(pair, relation) => {
                 let points = self.pair(pair)?;
                 let [a, b] = points.map(|p| self.at(p));
-                let bounds =
-                    self.bounds_or(relation.as_ref(), Measure::Length, a.distance(b), &mut drivers)?;
+                let bounds = self.bounds_or(
+                    relation.as_ref(),
+                    Measure::Length,
+                    a.distance(b),
+                    &mut drivers,
+                )?;
                 (Length { points, bounds }.into(), "length")
             }
             Stated::Orientation(a, b, relation) => {
                 let points = self.pairs(a, b)?;
                 let [p1, p2, p3, p4] = points.map(|p| self.at(p));
                 let now = (p2 - p1).angle_to(p4 - p3);
-                let bounds = self.bounds_or(relation.as_ref(), Measure::Angle, now, &mut drivers)?;
-                (Orientation { points, bounds, period: Period::Whole, side: 0.0 }.into(), "orientation")
+                let bounds =
+                    self.bounds_or(relation.as_ref(), Measure::Angle, now, &mut drivers)?;
+                (
+                    Orientation { points, bounds, period: Period::Whole, side: 0.0 }.into(),
+                    "orientation",
+                )
             }
             Stated::Parallel(a, b) => (self.turned(a, b, 0.0)?, "parallel"),
             Stated::Perpendicular(a, b) => (self.turned(a, b, FRAC_PI_2)?, "perpendicular"),
@@ -116,7 +122,8 @@ impl Session {
                 (Distance { points, bounds }.into(), "distance")
             }
             Stated::Rigid(names) => {
-                let points = names.iter().map(|name| self.idx(name)).collect::<Result<Vec<_>, _>>()?;
+                let points =
+                    names.iter().map(|name| self.idx(name)).collect::<Result<Vec<_>, _>>()?;
                 for (k, name) in names.iter().enumerate() {
                     if points[..k].contains(&points[k]) {
                         return Err(Diagnostic::error("a rigid body holds each point once")

@@ -4,7 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use super::Session;
-use crate::constraint::{Bounds, Constraint, Field, Period, PointIdx, Relation as _, geometry::wrap};
+use crate::constraint::{
+    Bounds, Constraint, Field, Period, PointIdx, Relation as _, geometry::wrap,
+};
 use crate::diag::{SourceId, Span, format_number};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
@@ -82,9 +84,8 @@ impl Session {
 
     /// The statement of a constraint, with its name in front.
     pub(super) fn constraint_statement(&self, record: &Record) -> Command {
-        let number = |field| {
-            self.field(record, field, record.constraint.get(field).unwrap_or_default())
-        };
+        let number =
+            |field| self.field(record, field, record.constraint.get(field).unwrap_or_default());
         let constraint = match &record.constraint {
             Constraint::Coordinate(c) => Stated::Coordinate {
                 point: self.point_name(c.points[0]),
@@ -222,9 +223,7 @@ impl Session {
             Node::Number(n) => return literal(*n),
             Node::Time => Syntax::Time,
             Node::Point(id) => Syntax::Name(named(self.world.points().name(*id))),
-            Node::Parameter(id) => {
-                Syntax::Name(named(self.world.name_of(Entity::Parameter(*id))))
-            }
+            Node::Parameter(id) => Syntax::Name(named(self.world.name_of(Entity::Parameter(*id)))),
             Node::Vector(x, y) => Syntax::Vector(two(x, y)),
             Node::Negate(a) => Syntax::Negate(Box::new(self.unbind(a))),
             Node::Binary(op, a, b) => Syntax::Binary(sign_of(*op), two(a, b)),

@@ -42,3 +42,29 @@ pub trait Host {
     /// Seconds of wall time since some fixed moment; for promises and receipts only.
     fn seconds(&self) -> f64;
 }
+
+/// An outside that says nothing, keeps nothing and has no files.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Nowhere;
+
+impl Host for Nowhere {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        Err(io::Error::from(io::ErrorKind::NotFound))
+    }
+
+    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn written(&self, path: &Path) -> std::path::PathBuf {
+        path.to_path_buf()
+    }
+
+    fn seconds(&self) -> f64 {
+        0.0
+    }
+}

@@ -77,7 +77,8 @@ impl Journal {
         let n_bytes = entry.changes.iter().map(Change::n_bytes).sum();
         self.n_bytes += n_bytes;
         self.done.push_back((entry, n_bytes));
-        while self.done.len() > UNDO_COMMANDS || (self.n_bytes > UNDO_BYTES && self.done.len() > 1) {
+        while self.done.len() > UNDO_COMMANDS || (self.n_bytes > UNDO_BYTES && self.done.len() > 1)
+        {
             if let Some((_, n_bytes)) = self.done.pop_front() {
                 self.n_bytes -= n_bytes;
             }

@@ -233,35 +233,64 @@ impl Session {
     }
 
     pub(super) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
-        let Some(topic) = topic else {
-            for line in catalogue::overview().lines() {
-                self.host.print(line);
-            }
-            return Ok(());
+        let text = match topic {
+            None => overview(),
+            Some(topic) => self.help_on(topic)?,
         };
+        text.lines().for_each(|line| self.host.print(line));
+        Ok(())
+    }
+
+    fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
         let word = &*topic.text;
         let mut text = String::new();
-        if let Some(entry) = catalogue::find(word) {
-            let _ = write!(text, "{entry}");
+        // Writing to a string cannot fail.
+        if let Some(entry) = catalogue::entry(word) {
+            let _ = writeln!(text, "{}\n  {}.", entry.usage, entry.summary);
+            for part in [entry.help, entry.example] {
+                if !part.is_empty() {
+                    let _ = writeln!(text, "\n{part}");
+                }
+            }
         }
         for function in Function::named(word) {
-            let _ = writeln!(text, "{}: {}", function.name(), function.help());
+            let _ = writeln!(text, "{word}: {}", function.help());
         }
-        if let Some((name, what)) = super::settings::SETTINGS.iter().find(|(name, _)| *name == word)
-        {
+        let setting = super::settings::SETTINGS.iter().find(|(name, _)| *name == word);
+        if let Some((name, what)) = setting {
             let _ = writeln!(text, "set {name}: {what}; now {}", self.setting_text(name));
         }
         if text.is_empty() {
             let problem =
                 Diagnostic::error(format!("no help on `{word}`")).at(topic.span, "unknown topic");
-            let known = catalogue::words()
+            let known = catalogue::commands()
+                .chain(catalogue::topics())
+                .map(|entry| entry.keyword)
                 .chain(Function::ALL.iter().map(|f| f.name()))
                 .chain(super::settings::SETTINGS.iter().map(|(name, _)| *name));
             return Err(Self::suggest(problem, word, known).help("`help` alone lists the commands"));
         }
-        for line in text.lines() {
-            self.host.print(line);
-        }
-        Ok(())
+        Ok(text)
     }
+}
+
+/// The commands under their headings, a line each.
+fn overview() -> String {
+    let mut text = String::new();
+    for section in catalogue::Section::ALL {
+        let entries: Vec<_> = catalogue::commands()
+            .chain(catalogue::topics())
+            .filter(|entry| entry.section == section)
+            .collect();
+        if entries.is_empty() {
+            continue;
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", section.title());
+        for entry in entries {
+            let _ = writeln!(text, "  {:<14}{}", entry.keyword, entry.summary);
+        }
+    }
+    text.push_str("`help WORD` says more: `help motor`\n");
+    text
 }

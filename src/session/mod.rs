@@ -29,7 +29,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use host::Host;
+pub use bind::evaluate_constant;
+pub use host::{Host, Nowhere};
 pub use run::Summary;
 pub use settings::Preferences;
 

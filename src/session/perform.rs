@@ -88,8 +88,12 @@ impl Session {
         }
         if n < least || n > most {
             let number = crate::diag::format_number;
-            return Err(Diagnostic::error(format!("expected {} to {} {of}", number(least), number(most)))
-                .at(expr.span, format!("this is {}", number(value))));
+            return Err(Diagnostic::error(format!(
+                "expected {} to {} {of}",
+                number(least),
+                number(most)
+            ))
+            .at(expr.span, format!("this is {}", number(value))));
         }
         Ok(n as u64)
     }
@@ -108,7 +112,10 @@ impl Session {
             return Err(Diagnostic::error(format!("nothing to {word}")).at(span, ""));
         }
         if done < n {
-            self.note(format!("only {done} commands could be taken {}", if is_undo { "back" } else { "again" }));
+            self.note(format!(
+                "only {done} commands could be taken {}",
+                if is_undo { "back" } else { "again" }
+            ));
         }
         Ok(())
     }

@@ -95,11 +95,12 @@ impl Session {
     pub(super) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let given = Path::new(&*path.value);
         if path.value.is_empty() || path.value.contains('\0') {
-            return Err(Diagnostic::error("this is not a file name").at(path.span, "nothing to write to"));
+            return Err(
+                Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
+            );
         }
-        let is_inside = given
-            .components()
-            .all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        let is_inside =
+            given.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
         if is_inside || self.host.allows_any_path() {
             return Ok(given.to_path_buf());
         }
@@ -166,7 +167,8 @@ impl Session {
         for recorder in &self.recorders {
             match recorder.format {
                 Format::Table => {
-                    let file = (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
+                    let file =
+                        (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
                     self.outbox.push(file);
                 }
                 Format::Frames => {

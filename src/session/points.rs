@@ -60,11 +60,8 @@ impl Session {
         }
         let (was, is) = (old.formula.shape(), formula.shape());
         if was != is && !self.world.users(&[Entity::Parameter(id)]).is_empty() {
-            return Err(Diagnostic::error(format!(
-                "`{text}` is a {} and used as one",
-                was.noun()
-            ))
-            .at(value.span, format!("this is a {}", is.noun())));
+            return Err(Diagnostic::error(format!("`{text}` is a {} and used as one", was.noun()))
+                .at(value.span, format!("this is a {}", is.noun())));
         }
         self.set_parameter(id, text, formula)
     }
@@ -112,7 +109,10 @@ impl Session {
                 Some(instance) => {
                     let prefix = format!("{instance}.");
                     let constraints = self.world.constraints();
-                    constraints.filter(|(_, r)| r.name.starts_with(&prefix)).map(|(id, _)| id).collect()
+                    constraints
+                        .filter(|(_, r)| r.name.starts_with(&prefix))
+                        .map(|(id, _)| id)
+                        .collect()
                 }
                 None => vec![self.constraint(name)?],
             };

@@ -112,8 +112,9 @@ impl Session {
         let n = (value / self.world.clock().dt).round();
         if !(0.0..=super::limits::MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
-            return Err(Diagnostic::error(what)
-                .at(time.span, format!("{} frames of dt", format_number(n))));
+            return Err(
+                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_number(n)))
+            );
         }
         let limits = self.promised(promise)?;
         self.frames(n as u64, limits, span, |_, _| {})

@@ -70,8 +70,7 @@ impl Session {
         }
         let clock = self.world.clock();
         if clock.frame > 0 || clock.base_time != 0.0 {
-            let values =
-                [clock.frame as f64, clock.dt, clock.base_frame as f64, clock.base_time];
+            let values = [clock.frame as f64, clock.dt, clock.base_frame as f64, clock.base_time];
             restore(script, what::CLOCK, None, numbers(&values));
         }
     }

@@ -125,11 +125,10 @@ impl Session {
         match self.meaning(name)? {
             (Meaning::Entity(entity), None) => Ok(entity),
             (Meaning::Bound(Bound::Point(id)), None) => Ok(Entity::Point(id)),
-            (Meaning::Bound(_), _) => Err(Diagnostic::error(format!(
-                "`{}` is a value here",
-                name.head.text
-            ))
-            .at(name.span, "expected the name of a point, a constraint or a parameter")),
+            (Meaning::Bound(_), _) => {
+                Err(Diagnostic::error(format!("`{}` is a value here", name.head.text))
+                    .at(name.span, "expected the name of a point, a constraint or a parameter"))
+            }
             (_, Some(_)) => {
                 let whole = self.spell(name, name.parts.len())?;
                 Err(self.unknown(&whole, name.span))
@@ -212,7 +211,9 @@ impl Session {
             .at(span, "this name is taken")
             .help(match noun {
                 "parameter" => format!("`let {text} = ...` changes it"),
-                "constraint" => format!("`change {text} ...` changes it, `delete {text}` removes it"),
+                "constraint" => {
+                    format!("`change {text} ...` changes it, `delete {text}` removes it")
+                }
                 "point" => format!("`move {text} to (x, y)` moves it, `delete {text}` removes it"),
                 _ => format!("`delete {text} cascade` removes it"),
             }))

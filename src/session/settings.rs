@@ -68,11 +68,10 @@ impl Session {
             ("weight", []) => Err(Diagnostic::error("a weight belongs to a point")
                 .at(setting.span, "")
                 .help("`set weight 100 for A B`")),
-            (_, [first, ..]) => Err(Diagnostic::error(format!(
-                "`{}` is set for the whole session",
-                setting.text
-            ))
-            .at(first.span, "only `rho` and `weight` are set for one thing")),
+            (_, [first, ..]) => {
+                Err(Diagnostic::error(format!("`{}` is set for the whole session", setting.text))
+                    .at(first.span, "only `rho` and `weight` are set for one thing"))
+            }
             ("dt", []) => {
                 let dt = self.positive(value)?;
                 self.edit(Edit::Clock(self.world.clock().with_dt(dt)));
@@ -91,8 +90,10 @@ impl Session {
                     "rho" => {
                         solve.rho = self.positive(value)?;
                         if solve.rho > 2.0 {
-                            return Err(Diagnostic::error("a relaxation coefficient above 2 never converges")
-                                .at(value.span, "expected 0 < rho <= 2"));
+                            return Err(Diagnostic::error(
+                                "a relaxation coefficient above 2 never converges",
+                            )
+                            .at(value.span, "expected 0 < rho <= 2"));
                         }
                     }
                     "iterations" => {
@@ -141,7 +142,8 @@ impl Session {
                     self.edit(Edit::Constraint(id, Some(Box::new(record))));
                 }
                 (_, entity) => {
-                    let wanted = if &*setting.text == "weight" { "a point" } else { "a constraint" };
+                    let wanted =
+                        if &*setting.text == "weight" { "a point" } else { "a constraint" };
                     return Err(Diagnostic::error(format!(
                         "`{}` is set for {wanted}, not for a {}",
                         setting.text,
@@ -175,8 +177,8 @@ fn word_of<T: Copy>(
 }
 
 fn unknown_setting(word: &Ident) -> Diagnostic {
-    let problem =
-        Diagnostic::error(format!("unknown setting `{}`", word.text)).at(word.span, "nothing to set");
+    let problem = Diagnostic::error(format!("unknown setting `{}`", word.text))
+        .at(word.span, "nothing to set");
     let known = SETTINGS.iter().map(|(name, _)| *name).chain(["weight"]);
     Session::suggest(problem, &word.text, known).help("`set` alone lists the settings")
 }

@@ -44,7 +44,11 @@ pub fn operate<T: Real>(
         (Operator::Divide, Number(a), Number(b)) => Number(a / b),
         (Operator::Divide, Vector(v), Number(b)) => Vector(Place { x: v.x / b, y: v.y / b }),
         (Operator::Power, Number(a), Number(b)) => Number(power(a, b).ok_or_else(|| {
-            let what = if a.value() == 0.0 { "0 to a negative power" } else { "a negative number to a broken power" };
+            let what = if a.value() == 0.0 {
+                "0 to a negative power"
+            } else {
+                "a negative number to a broken power"
+            };
             Diagnostic::error("this power has no value").at(span, what)
         })?),
         _ => unreachable!("shapes are checked when a formula is bound"),
@@ -119,8 +123,9 @@ pub fn call<T: Real>(
 
 fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
     if x.value() == 0.0 && y.value() == 0.0 {
-        return Err(Diagnostic::error("two points coincide, so there is no direction")
-            .at(span, "no angle"));
+        return Err(
+            Diagnostic::error("two points coincide, so there is no direction").at(span, "no angle")
+        );
     }
     Ok(Value::Number(y.atan2(x)))
 }

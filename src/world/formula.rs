@@ -254,7 +254,8 @@ impl Formula {
                     }
                     call(*function, few, self.span())
                 } else {
-                    let all = arguments.iter().map(|a| a.evaluate(env)).collect::<Result<Vec<_>, _>>()?;
+                    let all =
+                        arguments.iter().map(|a| a.evaluate(env)).collect::<Result<Vec<_>, _>>()?;
                     call(*function, &all, self.span())
                 };
             }
