@@ -236,13 +236,6 @@ impl Session {
         })
     }
 
-    /// A value as an expression.
-    pub(super) fn value_expr(value: Value) -> Expr {
-        match value {
-            Value::Number(n) => literal(n),
-            Value::Vector(v) => vector(v.x, v.y),
-        }
-    }
 }
 
 fn sign_of(operator: Operator) -> BinaryOp {

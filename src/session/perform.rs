@@ -121,7 +121,7 @@ impl Session {
     }
 
     /// Some commands are transactions on the history itself and cannot be part of another.
-    fn must_stand_alone(&self, word: &str, span: Span) -> Result<(), Diagnostic> {
+    pub(super) fn must_stand_alone(&self, word: &str, span: Span) -> Result<(), Diagnostic> {
         if self.depth == 0 {
             return Ok(());
         }

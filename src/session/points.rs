@@ -2,6 +2,7 @@
 
 use super::journal::Change;
 use super::{Diagnostic, Session};
+use crate::constraint::Relation as _;
 use crate::diag::nearest;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord};
