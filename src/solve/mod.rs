@@ -1,0 +1,3 @@
+//! From constraints to positions: the paper's method and what goes beyond it.
+
+pub mod linear;
