@@ -1,4 +1,7 @@
 //! Planar mechanisms: a command language, a session and a batch interpreter.
 
 pub mod constraint;
+pub mod diag;
+pub mod lang;
 pub mod solve;
+pub mod world;

@@ -1,0 +1,9 @@
+//! Text to statements: the command language, without a world to act on.
+//!
+//! Nothing in here reads a file, knows a point or a constraint, or panics on any text.
+//! Names are not resolved: that `left.B` is a point, and `left.B.x` a number, is found out
+//! by who executes the statement.
+
+pub mod ast;
+mod expr;
+mod function;
