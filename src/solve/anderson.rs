@@ -70,9 +70,8 @@ pub(super) fn solve(
 fn combine(changes: &[(Vec<Vector>, Vec<Vector>)], d: &[Vector]) -> Vec<f64> {
     let m = changes.len();
     let dot = |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum() };
-    let mut matrix: Vec<Vec<f64>> = (0..m)
-        .map(|i| (0..m).map(|j| dot(&changes[i].1, &changes[j].1)).collect())
-        .collect();
+    let mut matrix: Vec<Vec<f64>> =
+        (0..m).map(|i| (0..m).map(|j| dot(&changes[i].1, &changes[j].1)).collect()).collect();
     let mut rhs: Vec<f64> = changes.iter().map(|(_, dd)| dot(dd, d)).collect();
     let largest = (0..m).fold(0.0_f64, |most, i| most.max(matrix[i][i]));
     for i in 0..m {

@@ -3,12 +3,8 @@
 use crate::constraint::{Point, Vector};
 
 /// Extrapolation to the next of equally spaced frames, by how many past ones are used.
-const WEIGHTS: [[f64; 4]; 4] = [
-    [1.0, 0.0, 0.0, 0.0],
-    [2.0, -1.0, 0.0, 0.0],
-    [3.0, -3.0, 1.0, 0.0],
-    [4.0, -6.0, 4.0, -1.0],
-];
+const WEIGHTS: [[f64; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [2.0, -1.0, 0.0, 0.0], [3.0, -3.0, 1.0, 0.0], [4.0, -6.0, 4.0, -1.0]];
 
 /// The last converged poses of the free points of an island, one a frame.
 #[derive(Debug, Clone, Default)]
@@ -83,7 +79,6 @@ impl History {
     pub fn to_past(&self) -> Vec<Point> {
         (1..=self.n_past).flat_map(|k| self.past(k).iter().copied()).collect()
     }
-
 
     /// The history with these past poses of `n_free` points, the latest first.
     pub fn from_past(past: &[Point], n_free: usize) -> Self {

@@ -2,13 +2,13 @@
 
 use super::history::History;
 use super::method::{Limits, Workspace};
-use super::plan::Plan;
+use super::plan::{Plan, n_firm_rows};
 use super::rows::Equations;
 use super::settings::Settings;
 use super::spectrum::Spectrum;
 use super::status::{Budget, Status};
 use crate::constraint::{Constraint, Point, Relation};
-use crate::world::{ConstraintId, PointId};
+use crate::world::{ConstraintId, PointId, Record};
 
 /// A set of points that are not frozen, connected by constraints, and the frozen points that
 /// these constraints hold too. Points have local indices here: free ones first, each group by
@@ -29,6 +29,8 @@ pub(super) struct Island {
     pub ids: Vec<ConstraintId>,
     /// The coefficients of those that have one of their own; empty if none has.
     pub own_rho: Vec<Option<f64>>,
+    /// Those that carry something on from pose to pose: unwrapped angles and the like.
+    pub stateful: Vec<u32>,
     /// What can be found point by point.
     pub plan: Plan,
     /// Up to which degree the motion of each free point is smooth enough to extrapolate.
@@ -45,12 +47,16 @@ pub(super) struct Island {
     pub n_iterations: u64,
     /// The last pose that met everything, kept while none does.
     pub feasible: Option<Box<[Point]>>,
+    /// Whether it was never solved.
+    pub is_new: bool,
     /// Whether a way off a saddle was looked for since the last converged pose.
     pub is_probed: bool,
     /// What drives the island in this frame, as it was before.
     pub inputs: Inputs,
-    /// The room the methods work in, while they need it.
+    /// The room for the island as a whole, while it is needed.
     pub room: Option<Box<Workspace>>,
+    /// The room for each part the plan leaves to be solved as a whole; once needed.
+    pub part_rooms: Vec<Workspace>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }
@@ -125,8 +131,12 @@ impl Island {
         let n_free = free.len();
         let points: Vec<PointId> = free.iter().chain(&frozen).map(|&p| PointId(p)).collect();
         let plan = Plan::new(&constraints, n_free, points.len());
+        let stateful = constraints.iter().enumerate();
+        let stateful = stateful.filter(|(_, c)| !matches!(c, Constraint::Motor(_)));
+        let stateful = stateful.filter(|(_, c)| c.state().is_some()).map(|(c, _)| c as u32);
         let mut island = Self {
             n_free,
+            stateful: stateful.collect(),
             x: points.iter().map(|&p| at(p)).collect(),
             w: points.iter().map(|&p| w(p)).collect(),
             constraints,
@@ -141,9 +151,11 @@ impl Island {
             residual: f64::INFINITY,
             n_iterations: 0,
             feasible: None,
+            is_new: true,
             is_probed: false,
             inputs: Inputs::default(),
             room: None,
+            part_rooms: Vec::new(),
             spectrum: None,
         };
         for block in &island.plan.blocks {
@@ -157,6 +169,17 @@ impl Island {
     pub fn local_point(&self, id: PointId) -> Option<usize> {
         let (free, frozen) = self.points.split_at(self.n_free);
         free.binary_search(&id).ok().or_else(|| Some(self.n_free + frozen.binary_search(&id).ok()?))
+    }
+
+    /// Whether a record differs from the constraint `c` that stands here for it at most in its
+    /// values: same points, equality or not as before, same coefficient.
+    pub fn has_same(&self, c: usize, record: &Record) -> bool {
+        let (here, there) = (&self.constraints[c], &record.constraint);
+        let points = here.points().iter().map(|&p| self.points[p as usize].0);
+        here.kind() == there.kind()
+            && points.eq(there.points().iter().copied())
+            && n_firm_rows(here) == n_firm_rows(there)
+            && self.own_rho.get(c).copied().flatten() == record.rho
     }
 
     /// Puts a constraint's values in place of those it has; it has the same points as before.
@@ -176,6 +199,13 @@ impl Island {
             self.inputs.points.push((p as u32, old));
         } else {
             self.inputs.is_disturbed = true;
+        }
+    }
+
+    /// Exchanges the values that drive the island with those before.
+    pub fn swap_inputs(&mut self) {
+        for (c, other) in &mut self.inputs.constraints {
+            std::mem::swap(&mut self.constraints[*c as usize], other);
         }
     }
 
@@ -220,10 +250,27 @@ impl Island {
         self.room.take().unwrap_or_else(|| Box::new(Workspace::new(self.equations())))
     }
 
-    /// Tells every constraint that this pose counts: angles are unwrapped from here on.
+    /// The blocks are on the sides they were found on.
+    pub fn keep_sides(&mut self) {
+        for block in &mut self.plan.blocks {
+            block.side = block.next_side;
+        }
+    }
+
+    /// Tells the constraints that this pose counts: angles are unwrapped from here on.
     pub fn accept_pose(&mut self) {
-        for constraint in &mut self.constraints {
-            constraint.accept(&self.x);
+        for &c in &self.stateful {
+            self.constraints[c as usize].accept(&self.x);
+        }
+        self.begin_velocities();
+    }
+
+    /// The next displacements, which stand for velocities, begin at this pose.
+    pub fn begin_velocities(&mut self) {
+        for &c in &self.stateful {
+            if let Constraint::CogVelocity(wheels) = &mut self.constraints[c as usize] {
+                wheels.begin_frame(&self.x, 0.0);
+            }
         }
     }
 
@@ -239,7 +286,7 @@ impl Island {
 }
 
 /// The length a constraint asks for, where it asks for one.
-fn wanted_length(constraint: &Constraint) -> f64 {
+pub(super) fn wanted_length(constraint: &Constraint) -> f64 {
     use crate::constraint::Field;
     match constraint {
         Constraint::Length(c) => {

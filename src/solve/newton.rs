@@ -24,23 +24,71 @@ const SLOW: f64 = 1e-2;
 /// fit. The gradient's norm would not tell: it is small on any ill-conditioned slope too.
 const FLAT: f64 = 1e-8;
 
-/// Improves a pose; gives how it ended.
+/// Improves a pose until it is solved, a best fit, or the limits are reached.
 pub(super) fn solve(
     room: &mut Workspace,
     pose: &mut Pose,
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    room.evaluate(pose, work);
     let mut nu = FIRST_DAMPING;
     let mut n = 0;
     loop {
+        let left = Limits { n_iterations: limits.n_iterations - n, ..*limits };
+        let end = descend(room, pose, &left, &mut nu, &mut n, work);
+        let status = match end {
+            End::Met => Status::Converged,
+            _ if is_best_fit(room, work) => Status::BestFit,
+            End::Slow => continue,
+            End::Stuck | End::Spent => Status::Stalled,
+        };
+        return room.outcome(status, n);
+    }
+}
+
+/// Improves a pose as long as that goes fast: no question is asked about why it does not.
+pub(super) fn approach(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let (mut nu, mut n) = (FIRST_DAMPING, 0);
+    let end = descend(room, pose, limits, &mut nu, &mut n, work);
+    let status = if end == End::Met { Status::Converged } else { Status::Stalled };
+    room.outcome(status, n)
+}
+
+/// Why a descent ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// Everything holds.
+    Met,
+    /// The last step gained next to nothing.
+    Slow,
+    /// No step gains anything.
+    Stuck,
+    /// The limits are reached.
+    Spent,
+}
+
+/// Takes damped steps until there is a reason to stop; adds up their number in `n`.
+fn descend(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    nu: &mut f64,
+    n: &mut u32,
+    work: &mut Counters,
+) -> End {
+    room.evaluate(pose, work);
+    let most = *n + limits.n_iterations;
+    loop {
         if room.is_met(limits) {
-            return room.outcome(Status::Converged, n);
+            return End::Met;
         }
-        if n >= limits.n_iterations || !room.rows.energy.is_finite() || limits.budget.is_spent() {
-            let status = if is_best_fit(room, work) { Status::BestFit } else { Status::Stalled };
-            return room.outcome(status, n);
+        if *n >= most || !room.rows.energy.is_finite() || limits.budget.is_spent() {
+            return End::Spent;
         }
         let before = room.rows.energy;
         room.assemble();
@@ -49,37 +97,33 @@ pub(super) fn solve(
         let rms = (2.0 * before / room.rows.n_active().max(1) as f64).sqrt();
         let unit = (rms / limits.size).min(1.0);
         loop {
-            let mu = nu * unit + FLOOR;
-            let Some(promised) = aim(room, mu, work) else {
-                return room.outcome(Status::Stalled, n);
+            let Some(promised) = aim(room, *nu * unit + FLOOR, work) else {
+                return End::Stuck;
             };
-            n += 1;
-            let gain = if room.equations.reach(&room.step) > LONGEST_STEP * limits.size {
-                0.0
-            } else {
-                (before - room.try_step(pose, 1.0, work)) / promised
-            };
+            *n += 1;
+            let is_near = room.equations.reach(&room.step) <= LONGEST_STEP * limits.size;
+            let gained = if is_near { before - room.try_step(pose, 1.0, work) } else { 0.0 };
+            let gain = gained / promised;
             if gain > LEAST_GAIN {
                 if gain > 0.75 {
-                    nu = (nu / 4.0).max(LEAST_DAMPING);
+                    *nu = (*nu / 4.0).max(LEAST_DAMPING);
                 } else if gain < 0.25 {
-                    nu = (nu * 4.0).max(1e-3);
+                    *nu = (*nu * 4.0).max(1e-3);
                 }
                 room.accept();
                 break;
             }
             room.reject(pose);
-            nu = (nu * 4.0).max(1e-3);
-            if nu > MOST_DAMPING || n >= limits.n_iterations {
-                let status = if is_best_fit(room, work) { Status::BestFit } else { Status::Stalled };
-                return room.outcome(status, n);
+            *nu = (*nu * 4.0).max(1e-3);
+            if *nu > MOST_DAMPING {
+                return End::Stuck;
+            }
+            if *n >= most {
+                return End::Spent;
             }
         }
-        if before - room.rows.energy < SLOW * before
-            && !room.is_met(limits)
-            && is_best_fit(room, work)
-        {
-            return room.outcome(Status::BestFit, n);
+        if before - room.rows.energy < SLOW * before && !room.is_met(limits) {
+            return End::Slow;
         }
     }
 }

@@ -31,6 +31,8 @@ pub(super) struct Block {
     /// On which side of the singular pose it was last accepted: the sign of the angle between
     /// its first two rows; 0 before that.
     pub side: f64,
+    /// The same for the pose that is tried.
+    pub next_side: f64,
 }
 
 /// Points that are to be found together.
@@ -60,7 +62,8 @@ impl Plan {
             let first = plan.constraints.len() as u32;
             plan.constraints.extend(&ready);
             let end = plan.constraints.len() as u32;
-            plan.blocks.push(Block { point: p, first, end, is_assignment, side: 0.0 });
+            let (side, next_side) = (0.0, 0.0);
+            plan.blocks.push(Block { point: p, first, end, is_assignment, side, next_side });
             queue.extend(search.learn(constraints, p));
         }
         plan.rest = search.rest(constraints, n_free);
@@ -172,7 +175,7 @@ fn distinct(constraint: &Constraint) -> impl Iterator<Item = PointIdx> + '_ {
 }
 
 /// How many equations of a constraint bind at every pose, for any one of its points.
-fn n_firm_rows(constraint: &Constraint) -> usize {
+pub(super) fn n_firm_rows(constraint: &Constraint) -> usize {
     match constraint {
         Constraint::Coordinate(_)
         | Constraint::Coincidence(_)
@@ -185,7 +188,13 @@ fn n_firm_rows(constraint: &Constraint) -> usize {
         Constraint::Distance(c) => usize::from(c.bounds.is_equality()),
         Constraint::Glider(_) | Constraint::Cog(_) | Constraint::Rack(_) => 1,
         // A body with two known points says where its others are.
-        Constraint::Rigid(c) => if c.points().len() > 2 { 2 } else { 1 },
+        Constraint::Rigid(c) => {
+            if c.points().len() > 2 {
+                2
+            } else {
+                1
+            }
+        }
         // Depends on how its points moved, not only on where they are.
         Constraint::CogVelocity(_) => 0,
     }

@@ -37,9 +37,8 @@ impl Coefficient {
             let rows = island.constraints.iter().zip(&island.own_rho);
             rows.flat_map(|(c, own)| std::iter::repeat_n(own.unwrap_or(rho), c.n_rows())).collect()
         };
-        let largest = spectrum.largest(&room.equations, &room.rows, |r| {
-            by_row.get(r).copied().unwrap_or(rho)
-        });
+        let largest = spectrum
+            .largest(&room.equations, &room.rows, |r| by_row.get(r).copied().unwrap_or(rho));
         island.spectrum = Some(spectrum);
         island.room = Some(room);
         let factor = if largest > MOST_RHO { MOST_RHO / largest } else { 1.0 };
@@ -48,7 +47,7 @@ impl Coefficient {
     }
 
     /// The coefficient of constraint `c`.
-    fn of(self, own: &[Option<f64>], c: usize) -> f64 {
+    pub fn of(self, own: &[Option<f64>], c: usize) -> f64 {
         own.get(c).copied().flatten().map_or(self.rho, |own| own * self.factor)
     }
 }

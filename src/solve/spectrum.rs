@@ -22,7 +22,8 @@ pub(super) struct Spectrum {
 impl Spectrum {
     /// A start for these points: arbitrary, always the same, and along no symmetry.
     pub fn new(points: &[PointId]) -> Self {
-        let v: Vec<f64> = points.iter().flat_map(|p| [noise(2 * p.0), noise(2 * p.0 + 1)]).collect();
+        let v: Vec<f64> =
+            points.iter().flat_map(|p| [noise(2 * p.0), noise(2 * p.0 + 1)]).collect();
         Self { scratch: vec![0.0; v.len()], v, is_warm: false }
     }
 

@@ -61,6 +61,18 @@ pub struct Counters {
     pub substeps: u64,
 }
 
+impl Counters {
+    /// Adds the work of another call.
+    pub fn add(&mut self, other: &Self) {
+        self.islands_visited += other.islands_visited;
+        self.islands_rebuilt += other.islands_rebuilt;
+        self.evaluations += other.evaluations;
+        self.wheel_evaluations += other.wheel_evaluations;
+        self.factorisations += other.factorisations;
+        self.substeps += other.substeps;
+    }
+}
+
 /// What limits the work of one call.
 #[derive(Clone, Copy, Default)]
 pub struct Budget<'a> {

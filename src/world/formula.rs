@@ -261,9 +261,7 @@ impl Formula {
             (Operator::Add, Number(a), Number(b)) => Number(a + b),
             (Operator::Subtract, Number(a), Number(b)) => Number(a - b),
             (Operator::Multiply, Number(a), Number(b)) => Number(a * b),
-            (Operator::Add, Vector(a), Vector(b)) => {
-                Vector(Place { x: a.x + b.x, y: a.y + b.y })
-            }
+            (Operator::Add, Vector(a), Vector(b)) => Vector(Place { x: a.x + b.x, y: a.y + b.y }),
             (Operator::Subtract, Vector(a), Vector(b)) => Vector(a - b),
             (Operator::Multiply, Number(k), Vector(v))
             | (Operator::Multiply, Vector(v), Number(k)) => scaled(k, v),
@@ -271,14 +269,14 @@ impl Formula {
                 return Err(Diagnostic::error("division by zero").at(right.span(), "this is 0"));
             }
             (Operator::Divide, Number(a), Number(b)) => Number(a / b),
-            (Operator::Divide, Vector(v), Number(b)) => {
-                Vector(Place { x: v.x / b, y: v.y / b })
-            }
+            (Operator::Divide, Vector(v), Number(b)) => Vector(Place { x: v.x / b, y: v.y / b }),
             (Operator::Power, Number(a), Number(b)) => match power(a, b) {
                 Some(p) => Number(p),
                 None => {
-                    return Err(Diagnostic::error("this power has no value")
-                        .at(self.span(), "a negative number to a broken power, or 0 to a negative"));
+                    return Err(Diagnostic::error("this power has no value").at(
+                        self.span(),
+                        "a negative number to a broken power, or 0 to a negative",
+                    ));
                 }
             },
             _ => unreachable!("shapes are checked when a formula is bound"),
@@ -335,9 +333,12 @@ impl Formula {
                     unreachable!("a rate is bound to the name of a point")
                 };
                 let Some((velocity, acceleration)) = env.rates(*id) else {
-                    return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
-                        .at(self.span(), "only where a value is looked at")
-                        .help("use it in `print`, `assert`, or a parameter that these use"));
+                    return Err(Diagnostic::error(format!(
+                        "`{}` cannot be had here",
+                        function.name()
+                    ))
+                    .at(self.span(), "only where a value is looked at")
+                    .help("use it in `print`, `assert`, or a parameter that these use"));
                 };
                 Vector(if function == Function::Velocity { velocity } else { acceleration })
             }
