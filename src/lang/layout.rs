@@ -126,6 +126,9 @@ impl<'a> Layout<'a> {
                     }
                     Some(_) => continue,
                 },
+                b')' | b']' | b'}' if block_is_closed => {
+                    return Err(Flaw::Unopened { closer: at });
+                }
                 _ if block_is_closed => return Err(Flaw::AfterBlock { at }),
                 b'"' => self.at = string_end(bytes, at)?,
                 b'(' | b'[' | b'{' => {

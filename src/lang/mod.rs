@@ -10,5 +10,6 @@ mod expr;
 mod function;
 mod layout;
 mod lower;
+mod print;
 
 pub use lower::{Statements, is_incomplete, parse};

@@ -214,11 +214,11 @@ impl<'a> Cursor<'a> {
         let mut found: [Option<(Expr, Span)>; N] = [const { None }; N];
         while let Some(slot) = rules.iter().position(|&rule| self.peek() == Some(rule)) {
             let clause = self.must(rules[slot]);
-            let mut inner = self.within(clause.clone());
-            let word = inner.pairs.peek().map_or("", |word| word.as_str());
-            let span = self.span(&clause);
+            let mut inner = self.within(clause);
+            let word = inner.pairs.peek().expect("a clause begins with its word");
+            let span = self.span(&word);
             if let Some((_, first)) = &found[slot] {
-                return Err(self.reader.twice(word, *first, span));
+                return Err(self.reader.twice(word.as_str(), *first, span));
             }
             found[slot] = Some((inner.expr()?, span));
         }

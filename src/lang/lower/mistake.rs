@@ -5,6 +5,7 @@ use std::ops::Range;
 use pest::error::{Error, ErrorVariant, InputLocation};
 
 use crate::diag::{Diagnostic, Span, nearest};
+use crate::lang::ast::Unit;
 use crate::lang::catalogue;
 
 use super::grammar::Rule;
@@ -20,27 +21,34 @@ impl Reader<'_> {
         range: &Range<usize>,
     ) -> Diagnostic {
         let (InputLocation::Pos(at) | InputLocation::Span((at, _))) = error.location;
-        let at = range.start + at;
+        let stopped_at = range.start + at;
+        let at = self.start_of_sign(range.start, stopped_at);
         let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
             panic!("only pest itself makes errors")
         };
         let word = first_word(&self.text[range.clone()]);
-        let expected = Expected::new(positives, word);
+        let before = self.text[range.start..at].trim_end();
+        let expected = Expected::new(positives, word, before == word);
         let found = self.found_at(at, range.end);
         let message = match found.what {
             Found::End if rule == Rule::prefix => "the statement is not complete".to_owned(),
             Found::End => format!("`{word}` is not complete"),
             _ => format!("unexpected {}", found.term),
         };
-        let problem = Diagnostic::error(message).at(found.span, expected.to_string());
-        let before = self.text[range.start..at].trim_end();
-        let near = expected.near(found.word(self)).or_else(|| expected.near(last_word(before)));
-        let problem = match near {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None if before == word && found.term == "`=`" => problem.help(format!(
-                "`{word}` is a command; to give a parameter of that name a value, write `let {word} = ...`"
-            )),
-            None => found.explain(problem),
+        let label =
+            if at < stopped_at { "not expected here".to_owned() } else { expected.to_string() };
+        let problem = Diagnostic::error(message).at(found.span, label);
+        let misspelt = expected.near(found.word(self)).or_else(|| {
+            // Taken for a name, it was meant to be the keyword that is now missing.
+            expected.near(last_word(before).filter(|word| word.len() > 2)?)
+        });
+        let help = match misspelt {
+            Some(near) => Some(format!("did you mean `{near}`?")),
+            None => self.hint(&found, &expected, word, before, range.end),
+        };
+        let problem = match help {
+            Some(help) => problem.help(help),
+            None => problem,
         };
         let problem = match self.line_held_open(range.start, at) {
             Some(comma) => problem.also(comma, "this comma holds the statement open"),
@@ -50,6 +58,57 @@ impl Reader<'_> {
             Some(entry) => problem.help(format!("usage: `{}`", entry.usage)),
             None => problem,
         }
+    }
+
+    /// Where the sign begins that `at` is in: of `==` the first `=` is read as one of its own.
+    fn start_of_sign(&self, start: usize, at: usize) -> usize {
+        let begins_sign = |from: usize| {
+            let rest = self.text.get(from..).unwrap_or("");
+            SIGNS.iter().any(|sign| sign.len() > at - from && rest.starts_with(sign))
+        };
+        let before = (start.max(at.saturating_sub(2))..at).find(|&from| begins_sign(from));
+        before.unwrap_or(at)
+    }
+
+    /// What to type instead of what was found behind `before`.
+    fn hint(
+        &self,
+        found: &FoundAt,
+        expected: &Expected,
+        verb: &str,
+        before: &str,
+        end: usize,
+    ) -> Option<String> {
+        let word = found.word(self);
+        let behind = &self.text[found.span.range().end..end];
+        let is_number = word.starts_with(|char: char| char.is_ascii_digit());
+        let help = match &*found.term {
+            "`=`" if before == verb && verb != "let" => format!(
+                "`{verb}` is a command; to give a parameter of that name a value, write \
+                 `let {verb} = ...`"
+            ),
+            "`=`" if verb == "set" => format!("leave the `=` out: `{before} ...`"),
+            "`.`" if behind.starts_with(is_word_char) => {
+                "only vectors have components: `(x, y).x`".to_owned()
+            }
+            "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
+            _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
+            _ if expected.terms == [PATH] && !word.is_empty() => {
+                format!("a path stands in quotes: `{verb} \"{word}{behind}\"`")
+            }
+            _ if expected.has("a relation") && is_number => format!("did you mean `= {word}`?"),
+            _ if expected.has("`to`") && verb == "distance" => {
+                "for the distance of two points, write `length A B`".to_owned()
+            }
+            _ if word.starts_with('\'') => "a string stands in double quotes: `\"...\"`".to_owned(),
+            _ if before.ends_with(|char: char| char.is_ascii_digit())
+                && Unit::ALL.iter().any(|unit| unit.suffix() == word) =>
+            {
+                format!("the unit stands right behind its number: `{}{word}`", last_number(before))
+            }
+            _ => return found.meaning().map(str::to_owned),
+        };
+        Some(help)
     }
 
     /// What stands at `at` in a statement that ends at `end`.
@@ -118,48 +177,60 @@ impl FoundAt {
         if self.what == Found::Word { &reader.text[self.span.range()] } else { "" }
     }
 
-    /// Says what signs of other languages are called here.
-    pub fn explain(&self, problem: Diagnostic) -> Diagnostic {
-        let help = match self.term.trim_matches('`') {
+    /// What a sign of another language is called here.
+    pub fn meaning(&self) -> Option<&'static str> {
+        Some(match self.term.trim_matches('`') {
             "==" => "one `=` compares, and one gives a value",
             ":=" => "write `=`",
             "=<" => "write `<=`",
             "=>" => "write `>=`",
-            "!=" | "<>" => "relations are `=`, `<=`, `>=` and `in a..b`",
+            "!=" | "<>" => "the relations are `=`, `<`, `<=`, `>`, `>=` and `in a..b`",
             "**" => "a power is written `a^b`",
             "%" => "the remainder is `mod(a, b)`",
+            ".." => "a range stands behind `in`",
             "..." => "a range is written `a..b`",
             "//" => "a comment begins with `#`",
             "+=" | "-=" => "write out the new value behind a single `=`",
             "." => "a digit stands behind a decimal point: `2.0`, or `2`",
+            "[" => "an index stands right behind its name: `p[3]`",
             "{" => "a block belongs to `for` and `define` only",
-            "\u{201c}" | "\u{201d}" | "\u{201e}" | "`" => {
+            "\u{201c}" | "\u{201d}" | "\u{201e}" | "\u{2018}" | "\u{2019}" => {
                 "a string stands in straight quotes: `\"...\"`"
             }
             "\u{2212}" | "\u{2013}" | "\u{2014}" => "a minus is the `-` of the keyboard",
             "\u{d7}" | "\u{b7}" => "a product is written `a * b`",
             "\u{b0}" => "degrees are written `90deg`",
-            "no-break space" | "odd blank" => "type a space of the keyboard in its place",
-            _ => return problem,
-        };
-        problem.help(help)
+            NO_BREAK_SPACE | ODD_BLANK => "type a space of the keyboard in its place",
+            _ => return None,
+        })
     }
 }
 
+const NO_BREAK_SPACE: &str = "no-break space";
+const ODD_BLANK: &str = "odd blank";
+
 fn odd_char(char: char) -> Option<&'static str> {
     match char {
-        '\u{a0}' | '\u{202f}' | '\u{2007}' => Some("no-break space"),
-        _ if char.is_whitespace() => Some("odd blank"),
+        '\u{a0}' | '\u{202f}' | '\u{2007}' => Some(NO_BREAK_SPACE),
+        _ if char.is_whitespace() => Some(ODD_BLANK),
         _ if char.is_control() => Some("control character"),
         _ => None,
     }
 }
 
-fn last_word(text: &str) -> &str {
-    let start = text.rfind(|char| !is_word_char(char));
-    let from = start.map_or(0, |at| at + text[at..].chars().next().map_or(0, char::len_utf8));
-    first_word(&text[from..])
+/// The word that `text` ends with.
+fn last_word(text: &str) -> Option<&str> {
+    let word = text.rsplit(|char| !is_word_char(char)).next()?;
+    (!first_word(word).is_empty()).then_some(word)
 }
+
+/// The digits that `text` ends with.
+fn last_number(text: &str) -> &str {
+    text.rsplit(|char: char| !char.is_ascii_digit() && char != '.').next().unwrap_or("")
+}
+
+/// What a command that names a file expects.
+const PATH: &str = "a path in quotes";
 
 /// What could have stood there, in a user's terms.
 struct Expected {
@@ -168,46 +239,52 @@ struct Expected {
 }
 
 impl Expected {
-    fn new(rules: &[Rule], verb: &str) -> Self {
+    fn new(rules: &[Rule], verb: &str, is_first: bool) -> Self {
         let has = |rule| rules.contains(&rule);
         let is_value = has(Rule::expr) || has(Rule::number) || has(Rule::range);
         let mut expected = Self { terms: Vec::new(), keywords: Vec::new() };
         for &rule in rules {
             match rule {
                 // A value could go on with any of these; that says nothing.
-                Rule::operator | Rule::member | Rule::index | Rule::arguments | Rule::EOI => {}
+                Rule::operator
+                | Rule::member
+                | Rule::index
+                | Rule::open_bracket
+                | Rule::arguments
+                | Rule::EOI => {}
                 Rule::number
                 | Rule::reference
                 | Rule::parens
                 | Rule::minus
                 | Rule::expr
                 | Rule::range => expected.add("a value"),
-                Rule::open_paren | Rule::name if is_value => {}
+                Rule::name | Rule::ident if is_value => {}
+                // Behind a name: it could be a function's.
+                Rule::open_paren if is_value || rules.len() > 1 => {}
                 Rule::relation => {
                     expected.add("a relation");
                     expected.keywords.push("in");
                 }
-                Rule::string => {
-                    expected.add(if verb == "print" { "a string" } else { "a path in quotes" })
-                }
+                Rule::string => expected.add(if verb == "print" { "a string" } else { PATH }),
                 Rule::name
                 | Rule::names
                 | Rule::ident
                 | Rule::pair
                 | Rule::binding
                 | Rule::point_decl
-                | Rule::drag_target => expected.add(noun(verb, rule)),
+                | Rule::drag_target => expected.add(noun(verb, is_first)),
                 Rule::selection => {
-                    expected.add(noun(verb, rule));
+                    expected.add(noun(verb, is_first));
                     expected.add("`all`");
                     expected.keywords.push("all");
                 }
                 _ => match token(rule) {
                     Some(token) => expected.add(&format!("`{token}`")),
                     None => {
-                        let keyword = keyword(rule);
-                        expected.add(&format!("`{keyword}`"));
-                        expected.keywords.push(keyword);
+                        if let Some(keyword) = keyword(rule) {
+                            expected.add(&format!("`{keyword}`"));
+                            expected.keywords.push(keyword);
+                        }
                     }
                 },
             }
@@ -220,8 +297,12 @@ impl Expected {
         expected
     }
 
+    fn has(&self, term: &str) -> bool {
+        self.terms.iter().any(|known| known == term)
+    }
+
     fn add(&mut self, term: &str) {
-        if self.terms.iter().all(|known| known != term) {
+        if !self.has(term) {
             self.terms.push(term.to_owned());
         }
     }
@@ -251,14 +332,14 @@ impl std::fmt::Display for Expected {
 }
 
 /// What the statement of `verb` has names of.
-fn noun(verb: &str, rule: Rule) -> &'static str {
+fn noun(verb: &str, is_first: bool) -> &'static str {
     match verb {
         "freeze" | "thaw" | "move" | "drag" | "point" | "trace" | "untrace" => "a point",
         "let" => "a parameter",
-        "set" if rule == Rule::ident => "a setting",
+        "set" if is_first => "a setting",
         "off" | "on" => "a constraint",
         "help" => "a command",
-        "use" if rule == Rule::ident => "a definition",
+        "use" | "define" if is_first => "a definition",
         _ if constraint::rule(verb).is_some() => "a point",
         _ => "a name",
     }
@@ -277,15 +358,14 @@ fn token(rule: Rule) -> Option<&'static str> {
         Rule::greater_equal => ">=",
         Rule::open_paren | Rule::parameters => "(",
         Rule::close_paren => ")",
-        Rule::open_bracket => "[",
         Rule::close_bracket => "]",
         _ => return None,
     })
 }
 
 /// The word of a keyword's rule, or the one that a clause begins with.
-fn keyword(rule: Rule) -> &'static str {
-    match rule {
+fn keyword(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
         Rule::radius | Rule::kw_radius => "radius",
         Rule::speed | Rule::kw_speed => "speed",
         Rule::phase | Rule::kw_phase => "phase",
@@ -307,6 +387,6 @@ fn keyword(rule: Rule) -> &'static str {
         Rule::kw_as => "as",
         Rule::kw_all => "all",
         Rule::kw_add => "add",
-        _ => panic!("{rule:?} is no keyword that can be missing"),
-    }
+        _ => return None,
+    })
 }

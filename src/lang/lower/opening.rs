@@ -120,17 +120,19 @@ impl<'a> Reader<'a> {
 
     /// The statement begins with something that is no word.
     fn no_verb(&self, text: &str, prefix: &Prefix, range: &Range<usize>) -> Diagnostic {
-        if text.is_empty() {
+        let has_prefix = prefix.label.is_some() || prefix.add.is_some();
+        if text.is_empty() && has_prefix {
             return Diagnostic::error("the statement is not complete")
                 .at(self.span(range.end..range.end), "expected a constraint")
                 .help("as in `coupler: length B C = 3.5`");
         }
-        let found = self.found_at(range.start, range.end);
-        let expected =
-            if prefix.label.is_some() { "expected a constraint" } else { "expected a command" };
+        let expected = if has_prefix { "expected a constraint" } else { "expected a command" };
+        // A block without a head leaves nothing in front of its brace.
+        let end = if text.is_empty() { self.text.len() } else { range.end };
+        let found = self.found_at(range.start, end);
         let problem =
             Diagnostic::error(format!("unexpected {}", found.term)).at(found.span, expected);
-        match text.as_bytes()[0] {
+        match self.text.as_bytes()[range.start] {
             b'0'..=b'9' | b'.' | b'(' | b'-' => {
                 problem.help("to compute a value, write `print ...`")
             }
@@ -138,7 +140,10 @@ impl<'a> Reader<'a> {
             b'"' => problem.help("to write a text, write `print \"...\"`"),
             b'/' | b'%' => problem.help("a comment begins with `#`"),
             b'?' => problem.help("`help` lists the commands"),
-            _ => found.explain(problem),
+            _ => match found.meaning() {
+                Some(meaning) => problem.help(meaning),
+                None => problem,
+            },
         }
     }
 }
