@@ -1,6 +1,6 @@
 //! The sparse linear algebra against dense algebra that knows nothing of patterns.
 
-use linkwork::solve::linear::{NormalMatrix, Storage};
+use linkwork::solve::linear::{NormalMatrix, RowBasis, Storage};
 use nalgebra::{DMatrix, DVector};
 
 /// A small reproducible source of numbers (Steele, Lea and Flood, `SplitMix64`).
@@ -253,5 +253,30 @@ fn clearing_forgets_to_the_bit() {
         normal.factor(1e-3);
         normal.solve(&mut second);
         assert_eq!(first, second);
+    }
+}
+
+#[test]
+fn rows_join_the_basis_while_they_raise_the_rank() {
+    let mut random = Random(7);
+    for n_points in [2, 5, 12, 25] {
+        let mut rows = Rows::random(n_points, 2 * n_points, 5, &mut random);
+        // Some repeated, some the sum of two others on the same points.
+        for k in 0..n_points {
+            let (points, values) = (rows.points[k].clone(), rows.values[k].clone());
+            let other: Vec<f64> = values.iter().map(|_| random.number()).collect();
+            let sum: Vec<f64> = values.iter().zip(&other).map(|(a, b)| 0.5 * (a + b)).collect();
+            rows.push(&points, &other);
+            rows.push(&points, &sum);
+        }
+        let jacobian = rows.jacobian();
+        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice));
+        for row_idx in 0..rows.points.len() {
+            let (points, values) = (&rows.points[row_idx], &rows.values[row_idx]);
+            let before = jacobian.rows(0, row_idx).into_owned();
+            let rank = if row_idx == 0 { 0 } else { before.rank(1e-9) };
+            let raises = jacobian.rows(0, row_idx + 1).into_owned().rank(1e-9) > rank;
+            assert_eq!(basis.insert(points, values), raises, "row {row_idx} of {n_points} points");
+        }
     }
 }

@@ -12,12 +12,14 @@ mod graph;
 mod kernel;
 mod normal;
 mod order;
+mod orthogonal;
 mod sparse;
 mod supernodal;
 
 pub use block::Pivots;
 use graph::{Graph, Lists, lower_triangle};
 use normal::Normal;
+pub use orthogonal::RowBasis;
 use sparse::Sparse;
 use supernodal::Supernodal;
 
