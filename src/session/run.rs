@@ -67,10 +67,6 @@ struct Limits {
     seconds: Option<f64>,
 }
 
-/// How often a pose is solved anew for values that are measured on it, before it counts as
-/// not settled. Each round shrinks the difference where the measure is a mild function.
-const MEASURE_ROUNDS: u32 = 60;
-
 /// Iterations of `relax` between two looks at whether the user wants to stop.
 const RELAX_CHUNK: u64 = 256;
 
@@ -173,7 +169,6 @@ impl Session {
         let mut summary = Summary::new(tolerance);
         let mut flow = Flow::On;
         let begun = self.host.seconds();
-        let is_measured = self.world.is_measured();
         let leaves_nothing = self.world.traces().is_empty()
             && self.recorders.is_empty()
             && self.preferences.expose_every.is_none();
@@ -184,11 +179,7 @@ impl Session {
                 break;
             }
             hand(self, k);
-            self.world.advance()?;
-            let mut report = self.solve_frame(&limits);
-            if is_measured {
-                self.settle_measured(&mut report, &limits)?;
-            }
+            let report = self.pass(&limits)?;
             summary.add(&report, self.world.clock().frame);
             if !leaves_nothing {
                 self.keep_frame(report.status != Status::Converged);
@@ -200,38 +191,20 @@ impl Session {
         broken.map_or(Ok(flow), Err)
     }
 
-    fn solve_frame(&mut self, limits: &Limits) -> Report {
+    fn pass(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
         let Self { solver, world, preferences, host, .. } = self;
         match limits.seconds {
             None => {
                 let budget = Budget { tolerance: limits.tolerance, stop: None };
-                solver.frame(world, &preferences.solve, &budget)
+                solver.pass(world, &preferences.solve, &budget)
             }
             Some(seconds) => {
                 let deadline = host.seconds() + seconds;
                 let is_late = || host.seconds() >= deadline;
                 let budget = Budget { tolerance: limits.tolerance, stop: Some(&is_late) };
-                solver.frame(world, &preferences.solve, &budget)
+                solver.pass(world, &preferences.solve, &budget)
             }
         }
-    }
-
-    /// Solves until values that are measured on the pose agree with it.
-    fn settle_measured(&mut self, report: &mut Report, limits: &Limits) -> Result<(), Diagnostic> {
-        let tolerance = limits.tolerance.unwrap_or(self.preferences.solve.tolerance);
-        for _ in 0..MEASURE_ROUNDS {
-            let change = self.world.refresh_measured()?;
-            if change <= tolerance * self.solver.size() {
-                return Ok(());
-            }
-            let budget = Budget { tolerance: limits.tolerance, stop: None };
-            let again = self.solver.settle(&mut self.world, &self.preferences.solve, &budget);
-            report.iterations += again.iterations;
-            report.residual = again.residual;
-            report.status = again.status;
-        }
-        report.status = report.status.max(Status::Stalled);
-        Ok(())
     }
 
     /// Says what a run has to confess; gives the error where it broke a promise.
@@ -320,7 +293,9 @@ impl Session {
             solver.settle(world, &preferences.solve, &budget)
         };
         if is_measured {
-            self.settle_measured(&mut report, &limits)?;
+            let Self { solver, world, preferences, .. } = self;
+            let budget = Budget { tolerance: limits.tolerance, stop: None };
+            solver.agree(world, &preferences.solve, &budget, &mut report)?;
         }
         let text = format!(
             "{}: residual {} after {} iterations",

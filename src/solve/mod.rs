@@ -32,6 +32,7 @@ mod successive;
 
 // Their face.
 mod memory;
+mod pass;
 mod settings;
 mod solver;
 mod status;
