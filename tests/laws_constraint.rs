@@ -390,7 +390,9 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
         // spoke or small wheel turns by more than the half turn that can be counted.
         Kind::Rack => {
             let radius = c.get(Field::Radius).map_or(0.0, f64::abs);
-            is_free(1) && shortest_segment(c, &scene.x) > 2.0 && radius > 1.0
+            let rim_is_on_line = c.points()[2..].contains(&c.points()[1]);
+            let is_calm = shortest_segment(c, &scene.x) > 2.0 && radius > 1.0;
+            is_free(1) && is_calm && !rim_is_on_line
         }
         Kind::Cog if shortest_segment(c, &scene.x) < 2.0 => false,
         Kind::Cog => is_free(1) || (is_free(3) && scene.ratio() != 0.0),
