@@ -386,6 +386,8 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
             let shortest = shortest_segment(c, &scene.x);
             n_frozen < 2 && (!scene.has_repeats() || c.residual(&scene.x).abs() < 0.5 * shortest)
         }
+        // No line through a frozen point is farther from another than that point.
+        Kind::Distance => is_free(0),
         // Turning the line or the line of centres alone reaches some way only, and a short
         // spoke or small wheel turns by more than the half turn that can be counted.
         Kind::Rack => {
