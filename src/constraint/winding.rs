@@ -36,8 +36,8 @@ impl Winding {
     /// Takes over a direction, counting a turn where it passed pi.
     pub fn follow(&mut self, direction: f64) {
         let angle = self.near(direction);
-        let turn = (angle / std::f64::consts::TAU).round();
-        self.turns = self.turns.saturating_add(turn as i64);
         self.angle = wrap(angle);
+        let turn = ((angle - self.angle) / std::f64::consts::TAU).round();
+        self.turns = self.turns.saturating_add(turn as i64);
     }
 }
