@@ -186,7 +186,7 @@ mod tests {
         let mut motor = Motor::new([0, 1], 1.0, FRAC_PI_2, TAU);
         let start = motor.target();
         for _ in 0..1000 {
-            (0..360).for_each(|_| motor.begin_frame(&[], 1.0 / 360.0));
+            (0..360).for_each(|_| drop(motor.advance(1.0 / 360.0)));
             assert_eq!(motor.target(), start);
         }
         assert_eq!(motor.total(), FRAC_PI_2 + 1000.0 * TAU);
