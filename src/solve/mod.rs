@@ -6,6 +6,7 @@
 //! here knows statements, clocks on the wall or files.
 
 pub mod linear;
+pub mod mobility;
 
 // What the methods work on.
 mod ends;
@@ -41,3 +42,4 @@ pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
 pub use status::{Budget, Counters, Report, Status};
+pub mod mobility;
