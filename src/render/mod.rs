@@ -1,4 +1,5 @@
 //! stub
+pub mod chart;
 use crate::world::World;
 #[derive(Debug, Clone)]
 pub struct Scene;

@@ -42,4 +42,3 @@ pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
 pub use status::{Budget, Counters, Report, Status};
-pub mod mobility;
