@@ -72,6 +72,11 @@ impl Sources {
     }
 
     /// The text called `id`, if it is one of these.
+    pub fn first(&self) -> Option<&Source> {
+        self.get(SourceId(0))
+    }
+
+    /// The text with this number, if there is one.
     pub fn get(&self, id: SourceId) -> Option<&Source> {
         self.all.get(id.0 as usize)
     }

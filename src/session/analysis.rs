@@ -1,8 +1,7 @@
-//! Questions that take some work: `check`, `why`, `limits`, `effects`, `accuracy`.
+//! Questions that take some work: `check`, `why`, `limits`, `effects`.
 
 use super::{Diagnostic, Session};
-use crate::diag::Span;
-use crate::lang::ast::{Name, Promise};
+use crate::lang::ast::Name;
 
 impl Session {
     pub(super) fn check(&mut self) -> Result<(), Diagnostic> {
@@ -16,8 +15,5 @@ impl Session {
     }
     pub(super) fn effects(&mut self) -> Result<(), Diagnostic> {
         Err(Diagnostic::error("`effects` is not there yet"))
-    }
-    pub(super) fn accuracy(&mut self, _promise: &Promise, span: Span) -> Result<(), Diagnostic> {
-        Err(Diagnostic::error("`accuracy` is not there yet").at(span, ""))
     }
 }

@@ -118,6 +118,7 @@ impl Session {
     fn stop_everything(&mut self) {
         self.change(Change::Recorders(Vec::new()));
         self.change(Change::Memory(Box::default()));
+        self.change(Change::Series(Vec::new()));
         let definitions: Vec<_> = self.definitions.keys().cloned().collect();
         for name in definitions {
             self.change(Change::Definition(name, None));

@@ -23,6 +23,10 @@ pub enum Change {
     Memory(Box<Memory>),
     /// Sets the recorders.
     Recorders(Vec<Recorder>),
+    /// Appends a value to a series, or takes the last one away.
+    Sample(Arc<str>, Option<f64>),
+    /// Sets all series.
+    Series(super::series::SeriesList),
     /// Sets what the recorders have taken.
     Reels(Vec<Reel>),
 }

@@ -4,6 +4,7 @@
 //! edits, lets the solver work, and hands what is to be printed or written to a [`Host`].
 //! It never touches a terminal, and never leaves half an edit behind.
 
+mod accuracy;
 mod analysis;
 mod bind;
 mod blocks;
@@ -13,16 +14,19 @@ mod delete;
 mod describe;
 mod host;
 mod journal;
+mod laps;
 mod limits;
 mod look;
 mod perform;
 mod pictures;
 mod points;
+mod receipt;
 mod recorder;
 mod restore;
 mod run;
 mod save;
 mod scope;
+mod series;
 mod settings;
 
 use std::collections::{BTreeMap, HashMap};
@@ -30,8 +34,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use bind::evaluate_constant;
+pub use accuracy::Telling;
 pub use host::{Host, Nowhere};
-pub use run::Summary;
+pub use receipt::{Summary, Way};
 pub use settings::Preferences;
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
@@ -39,8 +44,10 @@ use crate::lang::ast::{Definition, Statement};
 use crate::solve::Solver;
 use crate::world::{Edit, World};
 use journal::{Change, Entry, Journal};
+use laps::Laps;
 use recorder::Recorder;
 use scope::Scope;
+use series::SeriesList;
 
 /// A world with everything that a user can say to it.
 pub struct Session {
@@ -64,6 +71,10 @@ pub struct Session {
     /// Files to be written when the command under way has succeeded.
     outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     last_run: Option<Summary>,
+    /// What the command under way has run so far.
+    run: Option<Summary>,
+    laps: Laps,
+    series: SeriesList,
 }
 
 /// A value from outside and whether some `let` took it.
@@ -103,6 +114,9 @@ impl Session {
             overrides: BTreeMap::new(),
             outbox: Vec::new(),
             last_run: None,
+            run: None,
+            laps: Laps::default(),
+            series: SeriesList::new(),
         }
     }
 
@@ -152,6 +166,8 @@ impl Session {
         });
         match result {
             Ok(flow) => {
+                self.end_laps();
+                self.give_receipt();
                 let label = self.label(statement.span);
                 self.journal.commit(&label);
                 Ok(flow)
@@ -235,6 +251,8 @@ impl Session {
             Change::Recorders(new) => {
                 Change::Recorders(std::mem::replace(&mut self.recorders, new))
             }
+            Change::Sample(series, value) => self.swap_sample(series, value),
+            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),
@@ -269,6 +287,8 @@ impl Session {
     /// Takes back what the command under way did.
     fn roll_back(&mut self) {
         self.outbox.clear();
+        self.run = None;
+        self.laps.give_up();
         self.journal.has_motion = false;
         self.scopes.truncate(1);
         self.depth = 0;

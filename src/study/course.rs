@@ -85,6 +85,11 @@ impl Course {
         &self.world
     }
 
+    /// Whether nothing is moved from outside.
+    pub fn is_without_hands(&self) -> bool {
+        self.legs.iter().all(|leg| leg.hands.is_empty())
+    }
+
     /// The points that hands hold at some time.
     pub(super) fn held(&self) -> impl Iterator<Item = PointId> {
         self.legs.iter().flat_map(|leg| leg.hands.iter().map(|hand| hand.point))

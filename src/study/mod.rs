@@ -19,6 +19,7 @@ pub use advice::{Advice, Wish};
 pub use course::{Course, Hand, Leg};
 pub use measure::{Outside, study};
 pub use picture::picture;
+pub use reference::freedoms;
 pub use report::{Cut, Measure, Row, Study, Why};
 pub use rung::{Rung, Step, ladder};
 pub use table::{csv, format_seconds, json, table};

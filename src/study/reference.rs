@@ -241,7 +241,8 @@ fn compared(
     None
 }
 
-fn freedoms(world: &World, held: &[PointId]) -> Analysis {
+/// What a world can do at its pose, with some more points held.
+pub fn freedoms(world: &World, held: &[PointId]) -> Analysis {
     with_scene(world, held, |scene| analyse(scene, 1e-9))
 }
 
