@@ -270,7 +270,7 @@ fn rows_join_the_basis_while_they_raise_the_rank() {
             rows.push(&points, &sum);
         }
         let jacobian = rows.jacobian();
-        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice));
+        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice), 1e-9);
         for row_idx in 0..rows.points.len() {
             let (points, values) = (&rows.points[row_idx], &rows.values[row_idx]);
             let before = jacobian.rows(0, row_idx).into_owned();

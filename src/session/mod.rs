@@ -11,6 +11,7 @@ mod change;
 mod constrain;
 mod delete;
 mod describe;
+mod diagnose;
 mod host;
 mod journal;
 mod limits;
@@ -30,6 +31,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use bind::evaluate_constant;
+pub use diagnose::Check;
 pub use host::{Host, Nowhere};
 pub use run::Summary;
 pub use settings::Preferences;

@@ -1,0 +1,90 @@
+//! What the analysis of a mechanism costs: `cargo bench --bench mobility`.
+
+use linkwork::constraint::{Bounds, Constraint, Length, Point};
+use linkwork::solve::mobility::{Scene, analyse};
+use std::time::Instant;
+
+fn bar(x: &[Point], a: u32, b: u32) -> Constraint {
+    let l = x[a as usize].distance(x[b as usize]);
+    Length { points: [a, b], bounds: Bounds::exactly(l) }.into()
+}
+
+/// Bars of length 1 along half a circle, both ends held.
+fn chain(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let r = f64::from(n) / std::f64::consts::PI;
+    let x: Vec<_> = (0..=n)
+        .map(|k| {
+            let (s, c) = (f64::from(k) / r).sin_cos();
+            Point::new(-r * c, r * s)
+        })
+        .collect();
+    let mut w = vec![1.0; x.len()];
+    w[0] = 0.0;
+    w[n as usize] = 0.0;
+    let bars = (0..n).map(|k| bar(&x, k, k + 1)).collect();
+    (x, w, bars)
+}
+
+/// `n` x `n` squares with both diagonals, one side held.
+fn net(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let side = n + 1;
+    let x: Vec<_> =
+        (0..side * side).map(|k| Point::new(f64::from(k % side), f64::from(k / side))).collect();
+    let mut w = vec![1.0; x.len()];
+    w[0] = 0.0;
+    w[n as usize] = 0.0;
+    let mut bars = Vec::new();
+    for i in 0..side {
+        for j in 0..side {
+            let at = i * side + j;
+            if j < n {
+                bars.push(bar(&x, at, at + 1));
+            }
+            if i < n {
+                bars.push(bar(&x, at, at + side));
+            }
+            if i < n && j < n {
+                bars.push(bar(&x, at, at + side + 1));
+                bars.push(bar(&x, at + 1, at + side));
+            }
+        }
+    }
+    (x, w, bars)
+}
+
+fn main() {
+    let scenes = [
+        ("chain 10", chain(10)),
+        ("chain 1000", chain(1000)),
+        ("chain 10000", chain(10000)),
+        ("net 4", net(4)),
+        ("net 8", net(8)),
+        ("net 16", net(16)),
+        ("net 32", net(32)),
+        ("net 64", net(64)),
+    ];
+    println!(
+        "{:<12} {:>8} {:>8} {:>10} {:>8}  milliseconds",
+        "scene", "rows", "freedoms", "redundant", "analyse"
+    );
+    for (name, (x, w, bars)) in scenes {
+        let constraints: Vec<_> = bars.iter().collect();
+        let scene = Scene { constraints: &constraints, x: &x, w: &w };
+        let mut found = analyse(&scene, 1e-9);
+        let mut times: Vec<_> = (0..5)
+            .map(|_| {
+                let start = Instant::now();
+                found = analyse(&scene, 1e-9);
+                start.elapsed().as_secs_f64() * 1e3
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        println!(
+            "{name:<12} {:>8} {:>8} {:>10} {:>8.2}",
+            bars.len(),
+            found.degrees_of_freedom,
+            found.n_redundant,
+            times[2]
+        );
+    }
+}
