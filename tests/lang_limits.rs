@@ -22,8 +22,8 @@ fn check(text: String, wanted: Result<(), &str>) {
         statements.map(|all| drop(all.iter().map(ToString::to_string).collect::<String>()))
     });
     let read = reader.expect("a thread").join().expect("no overflow");
-    let message = read.as_ref().map_err(|problem| &*problem.message);
-    assert_eq!(message.map(|()| ()), wanted);
+    let message = read.as_ref().copied().map_err(|problem| &*problem.message);
+    assert_eq!(message, wanted);
 }
 
 const TOO_LONG: Result<(), &str> = Err("the expression is too long or too deeply nested");
@@ -75,6 +75,8 @@ fn long_words_are_cut_in_messages() {
     check(format!("print {long}(1)"), Err(&format!("unknown function `{brief}`")));
     check(format!("print 1{long}"), Err(&format!("unknown unit `{brief}`")));
     check(format!("print 1 {long}"), Err(&format!("unexpected `{brief}`")));
+    check(format!("svg {long}"), Err(&format!("unexpected `{brief}`")));
+    check(format!("set {long} = 3"), Err("unexpected `=`"));
 }
 
 #[test]

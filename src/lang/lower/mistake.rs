@@ -91,16 +91,21 @@ impl Reader<'_> {
                 "`{verb}` is a command; to give a parameter of that name a value, write \
                  `let {verb} = ...`"
             ),
-            "`=`" if verb == "set" => format!("leave the `=` out: `{before} ...`"),
+            "`=`" if verb == "set" => format!("leave the `=` out: `{} ...`", brief(before)),
             "`.`" if behind.starts_with(is_word_char) => {
                 "only vectors have components: `(x, y).x`".to_owned()
             }
             "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
             _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
             _ if expected.terms == [PATH] && !word.is_empty() => {
-                format!("a path stands in quotes: `{verb} \"{word}{behind}\"`")
+                format!(
+                    "a path stands in quotes: `{verb} \"{}\"`",
+                    brief(&format!("{word}{behind}"))
+                )
             }
-            _ if expected.has("a relation") && is_number => format!("did you mean `= {word}`?"),
+            _ if expected.has("a relation") && is_number => {
+                format!("did you mean `= {}`?", brief(word))
+            }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
             }
@@ -108,7 +113,10 @@ impl Reader<'_> {
             _ if before.ends_with(|char: char| char.is_ascii_digit())
                 && Unit::ALL.iter().any(|unit| unit.suffix() == word) =>
             {
-                format!("the unit stands right behind its number: `{}{word}`", last_number(before))
+                format!(
+                    "the unit stands right behind its number: `{}{word}`",
+                    brief(last_number(before))
+                )
             }
             _ => return found.meaning().map(str::to_owned),
         };
@@ -136,9 +144,9 @@ impl Reader<'_> {
             Found::String => "string".to_owned(),
             Found::Sign => match odd_char(first) {
                 Some(odd) => odd.to_owned(),
-                None => format!("`{}`", &rest[..len]),
+                None => format!("`{}`", brief(&rest[..len])),
             },
-            _ => format!("`{}`", &rest[..len]),
+            _ => format!("`{}`", brief(&rest[..len])),
         };
         FoundAt { what, term, span: self.span(at..at + len) }
     }
