@@ -1,6 +1,9 @@
 //! Points that constraints tie together, with everything the solver keeps about them.
 
+use std::sync::{Arc, OnceLock};
+
 use super::history::History;
+use super::memory::Remembered;
 use super::method::{Limits, Workspace};
 use super::plan::{Plan, n_firm_rows};
 use super::rows::Equations;
@@ -43,8 +46,6 @@ pub(super) struct Island {
     pub status: Status,
     /// The largest distance to satisfaction it left, relative to the size.
     pub residual: f64,
-    /// The iterations it took.
-    pub n_iterations: u64,
     /// The last pose that met everything, kept while none does.
     pub feasible: Option<Box<[Point]>>,
     /// Whether it was never solved.
@@ -57,6 +58,8 @@ pub(super) struct Island {
     pub room: Option<Box<Workspace>>,
     /// The room for each part the plan leaves to be solved as a whole; once needed.
     pub part_rooms: Vec<Workspace>,
+    /// What is remembered of it, once asked for since the last visit.
+    pub remembered: OnceLock<Arc<Remembered>>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }
@@ -76,6 +79,14 @@ impl Inputs {
     /// Whether nothing changed.
     pub fn is_empty(&self) -> bool {
         self.constraints.is_empty() && self.points.is_empty() && !self.is_disturbed
+    }
+
+    /// What changed twice began where the first change found it.
+    pub fn tidy(&mut self) {
+        self.constraints.sort_by_key(|(c, _)| *c);
+        self.constraints.dedup_by_key(|(c, _)| *c);
+        self.points.sort_by_key(|(p, _)| *p);
+        self.points.dedup_by_key(|(p, _)| *p);
     }
 
     fn clear(&mut self) {
@@ -149,16 +160,16 @@ impl Island {
             history: History::default(),
             status: Status::Stalled,
             residual: f64::INFINITY,
-            n_iterations: 0,
             feasible: None,
             is_new: true,
             is_probed: false,
             inputs: Inputs::default(),
             room: None,
             part_rooms: Vec::new(),
+            remembered: OnceLock::new(),
             spectrum: None,
         };
-        for block in &island.plan.blocks {
+        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
             island.degree[block.point as usize] = 3;
         }
         island.update_sides();
@@ -202,10 +213,24 @@ impl Island {
         }
     }
 
+    /// Notes whether the parts that are solved as a whole have no freedom left, so that their
+    /// motion is as smooth as what drives them.
+    pub fn set_smooth(&mut self, is_smooth: bool) {
+        self.has_degree = true;
+        let free_to_choose = self.plan.rest.iter().flat_map(|part| &part.points);
+        for &p in free_to_choose {
+            self.degree[p as usize] = if is_smooth { 3 } else { 1 };
+        }
+    }
+
     /// Exchanges the values that drive the island with those before.
     pub fn swap_inputs(&mut self) {
+        self.inputs.tidy();
         for (c, other) in &mut self.inputs.constraints {
             std::mem::swap(&mut self.constraints[*c as usize], other);
+        }
+        for (p, other) in &mut self.inputs.points {
+            std::mem::swap(&mut self.x[*p as usize], other);
         }
     }
 

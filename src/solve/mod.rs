@@ -11,8 +11,10 @@ pub mod linear;
 mod ends;
 mod history;
 mod island;
+mod memory;
 mod method;
 mod plan;
+mod rates;
 mod rows;
 mod spectrum;
 mod topology;
@@ -35,6 +37,7 @@ mod settings;
 mod solver;
 mod status;
 
+pub use memory::{Memory, Remembered};
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
 pub use status::{Budget, Counters, Report, Status};
