@@ -1,9 +1,9 @@
 //! The sparse linear algebra against dense algebra that knows nothing of patterns.
 
-use linkwork::solve::linear::NormalMatrix;
+use linkwork::solve::linear::{NormalMatrix, RowBasis, Storage};
 use nalgebra::{DMatrix, DVector};
 
-/// A small reproducible source of numbers (Steele, Lea and Flood, SplitMix64).
+/// A small reproducible source of numbers (Steele, Lea and Flood, `SplitMix64`).
 struct Random(u64);
 
 impl Random {
@@ -46,7 +46,7 @@ impl Rows {
         for _ in 0..n_rows {
             let around = random.index(n_points);
             let mut points: Vec<u32> = Vec::new();
-            for _ in 0..1 + random.index(4) {
+            for _ in 0..=random.index(4) {
                 let p = ((around + random.index(reach)) % n_points) as u32;
                 if !points.contains(&p) {
                     points.push(p);
@@ -87,8 +87,20 @@ impl Rows {
         rows
     }
 
+    /// The normal matrix in each storage.
+    fn normal_matrices(&self) -> [NormalMatrix; 2] {
+        [Storage::Sparse, Storage::Supernodal].map(|storage| {
+            let points = self.points.iter().map(Vec::as_slice);
+            self.filled(NormalMatrix::with_storage(storage, self.n_points, points))
+        })
+    }
+
+    /// The normal matrix in the storage that suits it.
     fn normal_matrix(&self) -> NormalMatrix {
-        let mut normal = NormalMatrix::new(self.n_points, self.points.iter().map(Vec::as_slice));
+        self.filled(NormalMatrix::new(self.n_points, self.points.iter().map(Vec::as_slice)))
+    }
+
+    fn filled(&self, mut normal: NormalMatrix) -> NormalMatrix {
         for (row_idx, values) in self.values.iter().enumerate() {
             normal.add_row(row_idx, values);
         }
@@ -114,16 +126,17 @@ fn check(rows: &Rows, mu: f64) {
     let full = jacobian.transpose() * &jacobian + DMatrix::identity(n, n) * mu;
     let mut random = Random(n as u64);
     let expected = DVector::from_fn(n, |_, _| random.number());
-    let mut rhs = (&full * &expected).as_slice().to_vec();
-
-    let mut normal = rows.normal_matrix();
-    let pivots = normal.factor(mu);
-    normal.solve(&mut rhs);
-    let error = (DVector::from_vec(rhs) - expected).amax();
-    assert!(error < 1e-14 * n as f64 / mu.abs().min(1.0), "n {n} mu {mu}: error {error:e}");
-
+    let rhs = &full * &expected;
     let n_negative = full.symmetric_eigenvalues().iter().filter(|&&e| e < 0.0).count();
-    assert_eq!(pivots.n_negative, n_negative, "n {n} mu {mu}");
+    for mut normal in rows.normal_matrices() {
+        let case = format!("{:?}, {n} unknowns, mu {mu}", normal.storage());
+        let pivots = normal.factor(mu);
+        assert_eq!(pivots.n_negative, n_negative, "{case}");
+        let mut solution = rhs.as_slice().to_vec();
+        normal.solve(&mut solution);
+        let error = (DVector::from_vec(solution) - &expected).amax();
+        assert!(error < 1e-14 * n as f64 / mu.abs().min(1.0), "{case}: error {error:e}");
+    }
 }
 
 #[test]
@@ -240,5 +253,30 @@ fn clearing_forgets_to_the_bit() {
         normal.factor(1e-3);
         normal.solve(&mut second);
         assert_eq!(first, second);
+    }
+}
+
+#[test]
+fn rows_join_the_basis_while_they_raise_the_rank() {
+    let mut random = Random(7);
+    for n_points in [2, 5, 12, 25] {
+        let mut rows = Rows::random(n_points, 2 * n_points, 5, &mut random);
+        // Some repeated, some the sum of two others on the same points.
+        for k in 0..n_points {
+            let (points, values) = (rows.points[k].clone(), rows.values[k].clone());
+            let other: Vec<f64> = values.iter().map(|_| random.number()).collect();
+            let sum: Vec<f64> = values.iter().zip(&other).map(|(a, b)| 0.5 * (a + b)).collect();
+            rows.push(&points, &other);
+            rows.push(&points, &sum);
+        }
+        let jacobian = rows.jacobian();
+        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice));
+        for row_idx in 0..rows.points.len() {
+            let (points, values) = (&rows.points[row_idx], &rows.values[row_idx]);
+            let before = jacobian.rows(0, row_idx).into_owned();
+            let rank = if row_idx == 0 { 0 } else { before.rank(1e-9) };
+            let raises = jacobian.rows(0, row_idx + 1).into_owned().rank(1e-9) > rank;
+            assert_eq!(basis.insert(points, values), raises, "row {row_idx} of {n_points} points");
+        }
     }
 }

@@ -3,7 +3,19 @@
 //! Every file defines the struct, its points, the residual (the paper's `f`), the correction
 //! (the paper's `A_a`, weighted and exact: `f(x + d) = 0`), the linearised rows, and the same
 //! equations over jets. Nothing here knows names, settings or files, looks at another
-//! constraint, or allocates.
+//! constraint, or allocates while relaxing.
+//!
+//! ```
+//! use linkwork::constraint::{Bounds, Constraint, Length, Point, Relation};
+//!
+//! let mut x = [Point::new(0.0, 0.0), Point::new(5.0, 0.0)];
+//! let w = [0.0, 1.0]; // the first point is frozen
+//! let rod = Constraint::from(Length { points: [0, 1], bounds: Bounds::exactly(3.0) });
+//! assert_eq!(rod.residual(&x), 2.0);
+//!
+//! rod.correct(&x.clone(), &w, &mut |point, d| x[point as usize] += d);
+//! assert_eq!(x[1], Point::new(3.0, 0.0));
+//! ```
 
 pub mod geometry;
 
@@ -126,6 +138,9 @@ pub trait Relation {
 
     /// Brings back the numbers that `captured` gave.
     fn set_captured(&mut self, _captured: &[f64]) {}
+
+    /// Called when it is switched on again: it goes on from the pose as it is now.
+    fn pick_up(&mut self, _x: &[Point]) {}
 
     /// Goes `dt` on in time; whether that changed anything.
     fn advance(&mut self, _dt: f64) -> bool {

@@ -33,11 +33,12 @@ mod struggle;
 mod successive;
 
 // Their face.
+mod pass;
 mod settings;
 mod solver;
 mod status;
 
-pub use memory::{Memory, Remembered};
+pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
 pub use status::{Budget, Counters, Report, Status};

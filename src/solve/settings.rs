@@ -90,3 +90,16 @@ pub enum CogForm {
     /// The paper's: velocities at the contact, integrated frame by frame.
     Velocity,
 }
+
+impl CogForm {
+    /// Both forms.
+    pub const ALL: [Self; 2] = [Self::Holonomic, Self::Velocity];
+
+    /// The word of the command language.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holonomic => "holonomic",
+            Self::Velocity => "velocity",
+        }
+    }
+}

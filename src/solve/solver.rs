@@ -1,10 +1,9 @@
 //! The solver as the session knows it: a world goes in as it is driven and comes out solved.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::island::Island;
-use super::memory::{self, Memory, Remembered};
+use super::memory::{self, Memory};
 use super::method::{Limits, Outcome, Pose};
 use super::relaxation::Coefficient;
 use super::settings::{Method, Settings};
@@ -31,13 +30,13 @@ pub struct Solver {
     awake: Vec<u32>,
     is_awake: Vec<bool>,
     /// Islands that are not at a solution.
-    unsolved: std::collections::BTreeSet<u32>,
+    unsolved: BTreeSet<u32>,
     /// Constraints that hold only frozen points and are not satisfied, and how far not.
-    unsatisfiable: std::collections::BTreeMap<ConstraintId, f64>,
+    unsatisfiable: BTreeMap<ConstraintId, f64>,
     /// The settings of the last call: others may wake every island.
     settings: Option<Settings>,
-    /// What islands yet to be made are to remember, by their first points.
-    pending: BTreeMap<PointId, Arc<Remembered>>,
+    /// What islands yet to be made are to remember.
+    pending: Memory,
     /// Whether all islands are to be made anew.
     is_stale: bool,
 }
@@ -51,6 +50,15 @@ enum Task {
     Relax,
     /// Until solved or at rest, at the present time.
     Settle,
+}
+
+/// What changed the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// Time went on, and what it drives.
+    Clock,
+    /// The user.
+    Hand,
 }
 
 impl Solver {
@@ -89,30 +97,36 @@ impl Solver {
         self.run(world, settings, budget, Task::Settle)
     }
 
-    /// Takes in what was edited. To be called before the clock goes on, so that a frame knows
-    /// what its islands were like at its beginning, and before [`Solver::memory`].
+    /// Takes in what the user edited. To be called before the clock goes on and before a point
+    /// is dragged along with it, so that a frame knows what it began with.
     pub fn attend(&mut self, world: &mut World, settings: &Settings) {
-        self.take_in(world, settings, &mut Counters::default());
+        self.take_in(world, settings, Cause::Hand, &mut Counters::default());
     }
 
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
-        let remembered = |island: &Island| {
-            let remembered = || Arc::new(memory::recall(island));
-            island.remembered.get_or_init(remembered).clone()
-        };
-        let known = self.topology.iter().filter(|(_, island)| !island.is_new);
-        let known = known.map(|(_, island)| (island.points[0], remembered(island)));
-        let mut all = self.pending.clone();
-        all.extend(known);
-        Memory { islands: all.into_values().collect() }
+        let mut memory = self.pending.clone();
+        for (_, island) in self.topology.iter() {
+            memory.insert(island);
+        }
+        memory
     }
 
     /// Brings back what was remembered, for a world that is as it was then.
     pub fn set_memory(&mut self, memory: Memory) {
-        let first = |remembered: Arc<Remembered>| Some((*remembered.points.first()?, remembered));
-        self.pending = memory.islands.into_iter().filter_map(first).collect();
+        self.pending = memory;
         self.is_stale = true;
+    }
+
+    /// Whether what was remembered waits for [`Solver::attend`].
+    pub(super) fn is_behind(&self) -> bool {
+        self.is_stale
+    }
+
+    /// The size of the largest island, length units; 1 if there is none.
+    pub fn size(&self) -> f64 {
+        let sizes = self.topology.iter().map(|(_, island)| island.size());
+        sizes.reduce(f64::max).unwrap_or(1.0)
     }
 
     /// Velocities and accelerations of all points at the present pose, exact where it is a
@@ -173,7 +187,8 @@ impl Solver {
         task: Task,
     ) -> Report {
         let mut report = Report::default();
-        let made = self.take_in(world, settings, &mut report.counters);
+        let cause = if task == Task::Frame { Cause::Clock } else { Cause::Hand };
+        let made = self.take_in(world, settings, cause, &mut report.counters);
         if task == Task::Frame {
             for &k in &made {
                 if let Some(island) = self.topology.get_mut(k) {
@@ -205,14 +220,24 @@ impl Solver {
     }
 
     /// Brings the islands up to date with what changed in the world; gives the new ones.
-    fn take_in(&mut self, world: &mut World, settings: &Settings, work: &mut Counters) -> Vec<u32> {
+    fn take_in(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        cause: Cause,
+        work: &mut Counters,
+    ) -> Vec<u32> {
         if let Some(before) = self.settings.replace(*settings)
             && (before.method, before.tolerance) != (settings.method, settings.tolerance)
         {
             self.doubt_all();
         }
         let mut touched = world.take_touched();
-        touched.all |= std::mem::take(&mut self.is_stale);
+        if std::mem::take(&mut self.is_stale) {
+            // What is remembered is what counts: forget the rest.
+            self.topology = Topology::default();
+            touched.all = true;
+        }
         if touched.is_empty() {
             return Vec::new();
         }
@@ -224,10 +249,10 @@ impl Solver {
         touched.constraints = others;
         let mut made = Vec::new();
         if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
-            made = self.topology.update(&touched, world);
+            made = self.topology.update(&touched, world, &mut self.pending);
             work.islands_rebuilt += made.len() as u64;
             made.iter().for_each(|&k| self.remind(k));
-            self.pending.clear();
+            self.pending = Memory::default();
             if touched.all {
                 self.awake.clear();
                 self.is_awake.fill(false);
@@ -250,15 +275,22 @@ impl Solver {
         for &p in &touched.moved {
             self.take_in_move(world, p, settings);
         }
+        if cause == Cause::Hand {
+            for k in self.awake.clone() {
+                if let Some(island) = self.topology.get_mut(k)
+                    && !island.inputs.is_empty()
+                {
+                    island.note_edit(island.inputs.is_disturbed);
+                }
+            }
+        }
         made
     }
 
     /// Gives a new island the memory that waits for it.
     fn remind(&mut self, k: u32) {
         let Some(island) = self.topology.get_mut(k) else { return };
-        if let Some(remembered) = self.pending.remove(&island.points[0])
-            && remembered.points == island.points[..island.n_free]
-        {
+        if let Some(remembered) = self.pending.take(island) {
             memory::restore(island, &remembered);
             if island.status != Status::Converged {
                 self.unsolved.insert(k);
@@ -351,18 +383,22 @@ impl Solver {
         island.remembered.take();
         let is_driven = !island.inputs.is_empty();
         let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
-        if task == Task::Frame && !is_driven && is_at_rest && !island.is_new {
+        if task == Task::Frame && !is_driven && is_at_rest {
             // Nothing moved it for a whole frame: what comes next does not go on from before.
             island.history.forget();
             report.include(Status::Converged, 0, 0.0);
             return;
         }
         let limits = island.limits(settings, budget);
-        if island.is_new && task == Task::Frame && settings.method == Method::Auto {
+        if (island.is_new || island.is_edited)
+            && task == Task::Frame
+            && settings.method == Method::Auto
+        {
             begin(island, &limits, &mut report.counters);
         }
         let (outcome, lowered) = solve(island, settings, &limits, task, &mut report.counters);
         island.is_new = false;
+        island.is_edited = false;
         island.status = outcome.status;
         island.residual = outcome.worst / limits.size;
         island.settle_inputs();

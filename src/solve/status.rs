@@ -14,6 +14,18 @@ pub enum Status {
     Unsatisfiable,
 }
 
+impl Status {
+    /// What it means, in the user's words.
+    pub const fn phrase(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::BestFit => "best fit: the constraints contradict each other here",
+            Self::Stalled => "stalled: not solved, and not known to be unsolvable",
+            Self::Unsatisfiable => "unsatisfiable: a constraint holds frozen points only",
+        }
+    }
+}
+
 /// What one call of the solver came to.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Report {

@@ -7,18 +7,21 @@
 //! row of zeros. No result depends on threads or on the machine's vector width.
 
 mod block;
-mod dense;
 mod elimination;
 mod graph;
+mod kernel;
 mod normal;
 mod order;
+mod orthogonal;
 mod sparse;
+mod supernodal;
 
 pub use block::Pivots;
-use dense::Dense;
 use graph::{Graph, Lists, lower_triangle};
 use normal::Normal;
+pub use orthogonal::RowBasis;
 use sparse::Sparse;
+use supernodal::Supernodal;
 
 /// J^T J and its factor.
 ///
@@ -40,32 +43,78 @@ use sparse::Sparse;
 pub struct NormalMatrix {
     normal: Normal,
     factor: Factor,
+    /// The points in elimination order, and room for a right-hand side in it.
+    order: Vec<u32>,
+    ordered: Vec<f64>,
+}
+
+/// How the factor of a [`NormalMatrix`] is stored and computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// Row by row, block by block: mechanisms, chains, trees, small nets.
+    Sparse,
+    /// By dense fronts: large nets.
+    Supernodal,
 }
 
 enum Factor {
-    Dense(Dense),
-    Sparse { sparse: Sparse, order: Vec<u32>, ordered: Vec<f64> },
+    Sparse(Sparse),
+    Supernodal(Supernodal),
 }
 
 impl NormalMatrix {
-    /// The matrix of `n_points` points that nothing acts on yet; each of `rows` lists the
-    /// points of a row of J, each point once.
+    /// The matrix of `n_points` points that nothing acts on yet, stored as suits its pattern;
+    /// each of `rows` lists the points of a row of J, each point once.
     pub fn new<'a>(n_points: usize, rows: impl Iterator<Item = &'a [u32]> + Clone) -> Self {
-        let graph = Graph::new(n_points, rows.clone());
-        let (order, lower, columns) = analyse(&graph);
-        if is_better_dense(n_points, &columns) {
-            let order: Vec<u32> = (0..n_points as u32).collect();
-            let normal = Normal::new(&lower_triangle(&graph, &order), &order, rows);
-            return Self { normal, factor: Factor::Dense(Dense::new(n_points)) };
-        }
+        let analysis = Analysis::new(&Graph::new(n_points, rows.clone()));
+        let storage = analysis.suitable_storage();
+        Self::stored(storage, analysis, rows)
+    }
+
+    /// The same with a storage of the caller's choice.
+    pub fn with_storage<'a>(
+        storage: Storage,
+        n_points: usize,
+        rows: impl Iterator<Item = &'a [u32]> + Clone,
+    ) -> Self {
+        let analysis = Analysis::new(&Graph::new(n_points, rows.clone()));
+        Self::stored(storage, analysis, rows)
+    }
+
+    fn stored<'a>(
+        storage: Storage,
+        analysis: Analysis,
+        rows: impl Iterator<Item = &'a [u32]>,
+    ) -> Self {
+        let Analysis { order, lower, columns } = analysis;
+        let ordered = vec![0.0; 2 * order.len()];
+        let factor = match storage {
+            Storage::Sparse => Factor::Sparse(Sparse::new(columns)),
+            Storage::Supernodal => Factor::Supernodal(Supernodal::new(&lower, &columns)),
+        };
         let normal = Normal::new(&lower, &order, rows);
-        let ordered = vec![0.0; 2 * n_points];
-        Self { normal, factor: Factor::Sparse { sparse: Sparse::new(columns), order, ordered } }
+        Self { normal, factor, order, ordered }
     }
 
     /// How many unknowns there are: two for each point.
     pub fn n_unknowns(&self) -> usize {
         2 * self.normal.len()
+    }
+
+    /// How the factor is stored.
+    pub fn storage(&self) -> Storage {
+        match self.factor {
+            Factor::Sparse(_) => Storage::Sparse,
+            Factor::Supernodal(_) => Storage::Supernodal,
+        }
+    }
+
+    /// How many numbers the factor stores.
+    pub fn n_stored(&self) -> usize {
+        match &self.factor {
+            Factor::Sparse(sparse) => sparse.n_stored(),
+            Factor::Supernodal(supernodal) => supernodal.n_stored(),
+        }
     }
 
     /// Forgets all rows added.
@@ -83,25 +132,24 @@ impl NormalMatrix {
     /// Factors J^T J + `mu` I into L D L^T.
     pub fn factor(&mut self, mu: f64) -> Pivots {
         match &mut self.factor {
-            Factor::Dense(dense) => dense.factor(&self.normal, mu),
-            Factor::Sparse { sparse, .. } => sparse.factor(&self.normal, mu),
+            Factor::Sparse(sparse) => sparse.factor(&self.normal, mu),
+            Factor::Supernodal(supernodal) => supernodal.factor(&self.normal, mu),
         }
     }
 
     /// Replaces `rhs`, (x, y) for each point, by the solution for the last factor.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         assert_eq!(rhs.len(), self.n_unknowns(), "a right-hand side has two values for each point");
+        let (rhs, _) = rhs.as_chunks_mut::<2>();
+        for (to, &p) in self.ordered.as_chunks_mut::<2>().0.iter_mut().zip(&self.order) {
+            *to = rhs[p as usize];
+        }
         match &mut self.factor {
-            Factor::Dense(dense) => dense.solve(rhs),
-            Factor::Sparse { sparse, order, ordered } => {
-                for (to, &p) in ordered.as_chunks_mut::<2>().0.iter_mut().zip(&*order) {
-                    *to = [rhs[2 * p as usize], rhs[2 * p as usize + 1]];
-                }
-                sparse.solve(ordered);
-                for (from, &p) in ordered.as_chunks::<2>().0.iter().zip(&*order) {
-                    [rhs[2 * p as usize], rhs[2 * p as usize + 1]] = *from;
-                }
-            }
+            Factor::Sparse(sparse) => sparse.solve(&mut self.ordered),
+            Factor::Supernodal(supernodal) => supernodal.solve(&mut self.ordered),
+        }
+        for (from, &p) in self.ordered.as_chunks::<2>().0.iter().zip(&self.order) {
+            rhs[p as usize] = *from;
         }
     }
 
@@ -115,19 +163,37 @@ impl NormalMatrix {
     }
 }
 
-/// An elimination order that follows its own tree, the lower triangle and the fill in it.
-fn analyse(graph: &Graph) -> (Vec<u32>, Lists, Lists) {
-    let order = order::minimum_degree(graph);
-    let parent = elimination::tree(&lower_triangle(graph, &order));
-    let order: Vec<u32> =
-        elimination::postorder(&parent).iter().map(|&k| order[k as usize]).collect();
-    let lower = lower_triangle(graph, &order);
-    let parent = elimination::tree(&lower);
-    let columns = elimination::fill(&lower, &parent);
-    (order, lower, columns)
+/// Products for each block of the factor from which on fronts are faster; see the table in
+/// docs/linear-algebra.md. Choosing wrongly near the limit costs a few percent.
+const FRONTS_PAY: usize = 20;
+
+/// An elimination order that follows its own tree, the lower triangle, and the fill in it.
+struct Analysis {
+    order: Vec<u32>,
+    lower: Lists,
+    columns: Lists,
 }
 
-/// Whether the full matrix is factored faster than its fill, which costs indices.
-fn is_better_dense(n_points: usize, columns: &Lists) -> bool {
-    n_points <= 8 || (n_points <= 24 && 4 * columns.n_items() > n_points * (n_points - 1))
+impl Analysis {
+    fn new(graph: &Graph) -> Self {
+        let order = order::minimum_degree(graph);
+        let parent = elimination::tree(&lower_triangle(graph, &order));
+        let order: Vec<u32> =
+            elimination::postorder(&parent).iter().map(|&k| order[k as usize]).collect();
+        let lower = lower_triangle(graph, &order);
+        let parent = elimination::tree(&lower);
+        let columns = elimination::fill(&lower, &parent);
+        Self { order, lower, columns }
+    }
+
+    /// Fronts pay where each block of the factor is used many times.
+    fn suitable_storage(&self) -> Storage {
+        let rows = self.columns.transposed();
+        let n_products: usize = (0..rows.len()).map(|k| rows.get(k).len().pow(2)).sum();
+        if n_products > FRONTS_PAY * self.columns.n_items() {
+            Storage::Supernodal
+        } else {
+            Storage::Sparse
+        }
+    }
 }

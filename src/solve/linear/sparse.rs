@@ -42,6 +42,11 @@ impl Sparse {
         }
     }
 
+    /// How many numbers the factor stores.
+    pub fn n_stored(&self) -> usize {
+        4 * self.blocks.len() + 3 * self.diagonal.len()
+    }
+
     /// Factors `normal + mu I`.
     ///
     /// Row k of L from those above: `Z_ki = A_ki - sum_j<i Z_kj L_ij^T`, `L_ki = Z_ki / D_i`,
