@@ -1,5 +1,7 @@
 //! The interval a measured value has to lie in: `c1 <= f <= c2` (section 2 of the paper).
 
+use super::Field;
+
 /// A closed interval; an equality is an interval of width 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
@@ -31,5 +33,24 @@ impl Bounds {
     /// How far `f` lies outside; 0 inside.
     pub fn excess(self, f: f64) -> f64 {
         f - self.clamp(f)
+    }
+
+    /// The end an expression drives; none for other fields.
+    pub fn get(self, field: Field) -> Option<f64> {
+        match field {
+            Field::Lo => Some(self.lo),
+            Field::Hi => Some(self.hi),
+            _ => None,
+        }
+    }
+
+    /// Sets one end; false for fields that are not ends.
+    pub fn set(&mut self, field: Field, value: f64) -> bool {
+        match field {
+            Field::Lo => self.lo = value,
+            Field::Hi => self.hi = value,
+            _ => return false,
+        }
+        true
     }
 }

@@ -20,9 +20,15 @@ pub trait Real:
     /// A function of one variable from its value and two derivatives at `self.value()`.
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self;
 
-    /// The square root.
+    /// The number that has `value` now and changes at `rate`.
+    fn integral(value: f64, rate: Self) -> Self;
+
+    /// The square root; at 0, where it has no derivative, one that does not change.
     fn sqrt(self) -> Self {
         let r = self.value().sqrt();
+        if r == 0.0 {
+            return Self::constant(r);
+        }
         self.chain(r, 0.5 / r, -0.25 / (r * r * r))
     }
     /// The sine of an angle in radians.
@@ -51,6 +57,9 @@ impl Real for f64 {
     }
     fn chain(self, f: f64, _df: f64, _ddf: f64) -> Self {
         f
+    }
+    fn integral(value: f64, _rate: Self) -> Self {
+        value
     }
     fn atan2(self, x: Self) -> Self {
         libm::atan2(self, x)
@@ -88,12 +97,19 @@ impl Real for Jet {
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
         Self::new(f, df * self.d, ddf * self.d * self.d + df * self.dd)
     }
+    fn integral(value: f64, rate: Self) -> Self {
+        Self::new(value, rate.v, rate.d)
+    }
     fn atan2(self, x: Self) -> Self {
         // d(theta) = (x dy - y dx) / (x^2 + y^2), as a quotient of jets of first order.
         let y = self;
         let n = x.v * y.d - y.v * x.d;
         let dn = x.v * y.dd - y.v * x.dd;
         let q = x.v * x.v + y.v * y.v;
+        // The zero vector has no direction that could turn.
+        if q == 0.0 {
+            return Self::constant(0.0);
+        }
         let dq = 2.0 * (x.v * x.d + y.v * y.d);
         Self::new(libm::atan2(y.v, x.v), n / q, (dn - n / q * dq) / q)
     }

@@ -16,6 +16,10 @@ impl Relation for Length {
         &self.points
     }
 
+    fn points_mut(&mut self) -> &mut [PointIdx] {
+        &mut self.points
+    }
+
     fn n_rows(&self) -> usize {
         1
     }
@@ -61,5 +65,13 @@ impl Relation for Length {
         let [a, b] = self.points;
         let l12 = (x(b) - x(a)).norm();
         equation(super::excess(self.bounds, l12, field));
+    }
+
+    fn get(&self, field: Field) -> Option<f64> {
+        self.bounds.get(field)
+    }
+
+    fn set(&mut self, field: Field, value: f64) -> bool {
+        self.bounds.set(field, value)
     }
 }

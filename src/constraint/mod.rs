@@ -5,17 +5,59 @@
 //! equations over jets. Nothing here knows names, settings or files, looks at another
 //! constraint, or allocates.
 
-mod bounds;
 pub mod geometry;
-mod jet;
-mod length;
-mod row;
 
+// What the kinds are made of.
+mod bounds;
+mod jet;
+mod linear;
+mod place;
+mod row;
+mod turns;
+mod winding;
+
+// The kinds.
+mod cog;
+mod cog_velocity;
+mod coincidence;
+mod coordinate;
+mod distance;
+mod equal;
+mod equivalence;
+mod glider;
+mod hinge;
+mod length;
+mod motor;
+mod orientation;
+mod rack;
+mod rigid;
+
+// All kinds together.
+mod batches;
+mod kinds;
+
+pub use batches::{Batches, Slot, Visitor, VisitorMut};
 pub use bounds::Bounds;
+pub use cog::Cog;
+pub use cog_velocity::CogVelocity;
+pub use coincidence::Coincidence;
+pub use coordinate::Coordinate;
+pub use distance::Distance;
+pub use equal::Equal;
+pub use equivalence::Equivalence;
 pub use geometry::{Point, Vector};
+pub use glider::Glider;
+pub use hinge::Hinge;
 pub use jet::{Jet, Real};
+pub use kinds::{Constraint, ConstraintMut, ConstraintRef, Kind};
 pub use length::Length;
+pub use motor::Motor;
+pub use orientation::{Orientation, Period};
+pub use place::Place;
+pub use rack::Rack;
+pub use rigid::Rigid;
 pub use row::{PointIdx, Row};
+pub use turns::Turns;
 
 /// What every constraint answers.
 ///
@@ -24,6 +66,9 @@ pub use row::{PointIdx, Row};
 pub trait Relation {
     /// The points it holds, in the order of its statement.
     fn points(&self) -> &[PointIdx];
+
+    /// The same, to renumber them.
+    fn points_mut(&mut self) -> &mut [PointIdx];
 
     /// How many rows `jacobian` gives and values `equations` gives, whatever the pose.
     fn n_rows(&self) -> usize;
@@ -48,11 +93,32 @@ pub trait Relation {
         equation: &mut impl FnMut(T),
     );
 
-    /// Called when a frame begins, with the positions the last one ended with.
+    /// A value an expression may drive; none if this kind has no such field.
+    fn get(&self, _field: Field) -> Option<f64> {
+        None
+    }
+
+    /// Sets a value; false if this kind has no such field. Wheels and motors go on from
+    /// where they stand.
+    fn set(&mut self, _field: Field, _value: f64) -> bool {
+        false
+    }
+
+    /// Called when a frame begins, with the positions the last one ended with: a motor
+    /// turns on by `dt` here.
     fn begin_frame(&mut self, _x: &[Point], _dt: f64) {}
 
     /// Called with a pose that was accepted as converged: angles are unwrapped from here on.
     fn accept(&mut self, _x: &[Point]) {}
+
+    /// The distance to satisfaction, length units: the largest `|f| / |grad f|` of its rows
+    /// in the metric of the weights. A row that holds frozen points only is measured with
+    /// weights 1, one without a gradient by `|f|` itself, so that nothing unsatisfied is 0.
+    fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
+        let mut largest = 0.0;
+        self.jacobian(x, &mut |row| largest = row.distance(w).max(largest));
+        largest
+    }
 }
 
 /// A value of a constraint that an expression may drive.
@@ -66,7 +132,7 @@ pub enum Field {
     X,
     /// The vertical coordinate of a fixed place.
     Y,
-    /// The radius of a motor.
+    /// The radius of a motor or of a wheel on a rack.
     Radius,
     /// The angular speed of a motor, radians per time unit.
     Speed,
@@ -74,29 +140,6 @@ pub enum Field {
     Phase,
     /// The ratio of a hinge or of a cog wheel pair.
     Ratio,
-}
-
-/// A position whose coordinates are any kind of number.
-#[derive(Debug, Clone, Copy)]
-pub struct Place<T> {
-    /// The horizontal coordinate.
-    pub x: T,
-    /// The vertical coordinate.
-    pub y: T,
-}
-
-impl<T: Real> std::ops::Sub for Place<T> {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        Self { x: self.x - o.x, y: self.y - o.y }
-    }
-}
-
-impl<T: Real> Place<T> {
-    /// The length of this difference.
-    pub fn norm(self) -> T {
-        (self.x * self.x + self.y * self.y).sqrt()
-    }
 }
 
 /// The excess of a measured value over its bounds, over any number type.

@@ -62,4 +62,37 @@ impl Row {
     pub fn terms(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
         (0..self.n_points).map(|k| (self.points[k], self.gradient[k]))
     }
+
+    /// The squared norm of the gradient in the metric of the weights; 0 if nothing can move.
+    pub fn norm_squared(&self, w: &[f64]) -> f64 {
+        self.terms().map(|(p, g)| w[p as usize] * g.norm_squared()).sum()
+    }
+
+    /// The distance to satisfaction, see [`super::Relation::violation`].
+    pub fn distance(&self, w: &[f64]) -> f64 {
+        if self.f == 0.0 {
+            return 0.0;
+        }
+        let weighted = self.norm_squared(w);
+        let squared = if weighted > 0.0 {
+            weighted
+        } else {
+            self.terms().map(|(_, g)| g.norm_squared()).sum()
+        };
+        let f = self.f.abs();
+        if squared > 0.0 { f / squared.sqrt() } else { f }
+    }
+
+    /// The shortest displacement that satisfies the linearised equation: the general form of
+    /// the paper's `A_a`, `d = -f W grad f / |grad f|_W^2`.
+    pub fn correct(&self, w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
+        let squared = self.norm_squared(w);
+        if self.f == 0.0 || squared == 0.0 {
+            return;
+        }
+        let tau = -self.f / squared;
+        for (p, g) in self.terms().filter(|&(p, _)| w[p as usize] > 0.0) {
+            move_by(p, g * (w[p as usize] * tau));
+        }
+    }
 }

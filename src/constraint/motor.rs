@@ -1,0 +1,159 @@
+//! The motor constraint, section 3.7: a point that circulates around another.
+
+use super::linear::Linear;
+use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Turns, Vector};
+
+/// The second point lies at distance `radius` from the first, at the angle `phase + turned`
+/// against the x axis.
+///
+/// The radius makes it a vector equation: linear, exact in one step and without the pole of
+/// an angle where the points coincide.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motor {
+    /// The centre and the point driven around it.
+    pub points: [PointIdx; 2],
+    radius: f64,
+    phase: f64,
+    speed: f64,
+    turned: Turns,
+    /// The last step of time, the angle it made at this speed, and the same in turns.
+    step: (f64, Turns),
+    /// Where the driven point belongs, from the centre.
+    target: Vector,
+}
+
+impl Motor {
+    /// A motor of a radius, a phase in radians and a speed in radians per time unit, that
+    /// has not turned yet.
+    pub fn new(points: [PointIdx; 2], radius: f64, phase: f64, speed: f64) -> Self {
+        let target = Vector::polar(radius, phase);
+        let step = (0.0, Turns::default());
+        Self { points, radius, phase, speed, turned: Turns::default(), step, target }
+    }
+
+    /// Turns on by `speed * dt`.
+    pub fn advance(&mut self, dt: f64) {
+        let step = self.speed * dt;
+        if step != self.step.0 {
+            self.step = (step, Turns::from_radians(step));
+        }
+        self.turned = self.turned.plus(self.step.1);
+        self.aim();
+    }
+
+    /// The angle against the x axis without whole turns, radians.
+    pub fn angle(&self) -> f64 {
+        super::geometry::wrap(self.phase + self.turned.angle())
+    }
+
+    /// The angle with whole turns, `phase + turned`, radians.
+    pub fn total(&self) -> f64 {
+        self.phase + self.turned.total()
+    }
+
+    /// How far it has turned since it was made.
+    pub const fn turned(&self) -> Turns {
+        self.turned
+    }
+
+    /// Sets how far it has turned: the clock goes back to where it was.
+    pub fn set_turned(&mut self, turned: Turns) {
+        self.turned = turned;
+        self.aim();
+    }
+
+    /// Goes on from where the driven point is now, by less than half a turn; a point at the
+    /// centre changes nothing.
+    pub fn pick_up(&mut self, x: &[Point]) {
+        let [x1, x2] = self.points.map(|p| x[p as usize]);
+        if x1 != x2 {
+            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
+            self.aim();
+        }
+    }
+
+    /// Where the driven point belongs, from the centre.
+    pub const fn target(&self) -> Vector {
+        self.target
+    }
+
+    fn aim(&mut self) {
+        self.target = Vector::polar(self.radius, self.angle());
+    }
+
+    fn linear(&self) -> Linear {
+        let [a, b] = self.points;
+        Linear::new().with_real(a, -1.0).with_real(b, 1.0)
+    }
+
+    fn value(&self, x: &[Point]) -> Vector {
+        let [x1, x2] = self.points.map(|p| x[p as usize]);
+        (x2 - x1) - self.target
+    }
+}
+
+impl Relation for Motor {
+    fn points(&self) -> &[PointIdx] {
+        &self.points
+    }
+
+    fn points_mut(&mut self) -> &mut [PointIdx] {
+        &mut self.points
+    }
+
+    fn n_rows(&self) -> usize {
+        2
+    }
+
+    fn residual(&self, x: &[Point]) -> f64 {
+        self.value(x).norm()
+    }
+
+    fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
+        self.linear().correct(self.value(x), w, move_by);
+    }
+
+    fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
+        self.linear().rows(self.value(x), row);
+    }
+
+    fn equations<T: Real>(
+        &self,
+        x: &impl Fn(PointIdx) -> Place<T>,
+        field: &impl Fn(Field, f64) -> T,
+        equation: &mut impl FnMut(T),
+    ) {
+        let [x1, x2] = self.points.map(x);
+        let turned = T::integral(self.turned.angle(), field(Field::Speed, self.speed));
+        let angle = field(Field::Phase, self.phase) + turned;
+        let radius = field(Field::Radius, self.radius);
+        let v = x2 - x1;
+        equation(v.x - radius * angle.cos());
+        equation(v.y - radius * angle.sin());
+    }
+
+    fn get(&self, field: Field) -> Option<f64> {
+        match field {
+            Field::Radius => Some(self.radius),
+            Field::Phase => Some(self.phase),
+            Field::Speed => Some(self.speed),
+            _ => None,
+        }
+    }
+
+    fn set(&mut self, field: Field, value: f64) -> bool {
+        match field {
+            Field::Radius => self.radius = value,
+            Field::Phase => self.phase = value,
+            // The angle so far stays: a change of speed is no jump.
+            Field::Speed => self.speed = value,
+            _ => return false,
+        }
+        self.aim();
+        true
+    }
+
+    fn begin_frame(&mut self, _x: &[Point], dt: f64) {
+        self.advance(dt);
+    }
+}
