@@ -3,3 +3,4 @@
 pub mod constraint;
 pub mod diag;
 pub mod lang;
+pub mod world;

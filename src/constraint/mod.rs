@@ -108,6 +108,29 @@ pub trait Relation {
     /// turns on by `dt` here.
     fn begin_frame(&mut self, _x: &[Point], _dt: f64) {}
 
+    /// The numbers that running changes beyond the points: how far a motor has turned, the
+    /// turns a wheel has made. None where there are no such.
+    fn state(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Brings back a state that `state` gave.
+    fn set_state(&mut self, _state: &[f64]) {}
+
+    /// The numbers taken from the pose at creation that its statement does not say: the shape
+    /// of a rigid body, the constant of a mesh. Empty where there are none.
+    fn captured(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Brings back the numbers that `captured` gave.
+    fn set_captured(&mut self, _captured: &[f64]) {}
+
+    /// Goes `dt` on in time; whether that changed anything.
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
+    }
+
     /// Called with a pose that was accepted as converged: angles are unwrapped from here on.
     fn accept(&mut self, _x: &[Point]) {}
 

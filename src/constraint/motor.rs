@@ -31,16 +31,6 @@ impl Motor {
         Self { points, radius, phase, speed, turned: Turns::default(), step, target }
     }
 
-    /// Turns on by `speed * dt`.
-    pub fn advance(&mut self, dt: f64) {
-        let step = self.speed * dt;
-        if step != self.step.0 {
-            self.step = (step, Turns::from_radians(step));
-        }
-        self.turned = self.turned.plus(self.step.1);
-        self.aim();
-    }
-
     /// The angle against the x axis without whole turns, radians.
     pub fn angle(&self) -> f64 {
         super::geometry::wrap(self.phase + self.turned.angle())
@@ -153,7 +143,27 @@ impl Relation for Motor {
         true
     }
 
-    fn begin_frame(&mut self, _x: &[Point], dt: f64) {
-        self.advance(dt);
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(self.turned.to_numbers().to_vec())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[whole, hi, lo] = state {
+            self.set_turned(Turns::from_numbers([whole, hi, lo]));
+        }
+    }
+
+    /// Turns on by `speed * dt`.
+    fn advance(&mut self, dt: f64) -> bool {
+        let step = self.speed * dt;
+        if step == 0.0 {
+            return false;
+        }
+        if step != self.step.0 {
+            self.step = (step, Turns::from_radians(step));
+        }
+        self.turned = self.turned.plus(self.step.1);
+        self.aim();
+        true
     }
 }

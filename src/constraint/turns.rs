@@ -81,6 +81,16 @@ impl Turns {
         (self.whole as f64).mul_add(TAU, self.angle())
     }
 
+    /// The amount as whole turns and the two parts of the fraction.
+    pub const fn to_numbers(self) -> [f64; 3] {
+        [self.whole as f64, self.fraction.hi, self.fraction.lo]
+    }
+
+    /// The amount that [`to_numbers`](Self::to_numbers) gave.
+    pub const fn from_numbers([whole, hi, lo]: [f64; 3]) -> Self {
+        Self { whole: whole as i64, fraction: Double { hi, lo } }
+    }
+
     /// The amount nearest to this one that differs from `angle` by whole turns.
     #[must_use]
     pub fn pick_up(self, angle: f64) -> Self {

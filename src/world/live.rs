@@ -7,7 +7,7 @@ use super::{
     ConstraintId, Depends, Edit, Environment, Formula, Mention, Parameter, ParameterId, PointId,
     Record, Value, World,
 };
-use crate::constraint::{Field, Jet, Place, Real, Vector};
+use crate::constraint::{Field, Jet, Kind, Place, Real, Relation, Vector};
 use crate::diag::Diagnostic;
 
 /// What was worked out about live expressions; a scene without any keeps nothing here.
@@ -458,7 +458,7 @@ impl World {
         let mut measured = Vec::new();
         let mut motors = Vec::new();
         for (id, record) in self.constraints() {
-            if record.is_on && record.constraint.is_motor() {
+            if record.is_on && is_motor(record) {
                 motors.push(id);
             }
             let depends = record
@@ -481,13 +481,17 @@ impl World {
         for (_, formula) in &record.drivers {
             link(&mut self.live.dependents, formula, Dependent::Constraint(id));
         }
-        self.live.is_dirty |= !record.drivers.is_empty() || record.constraint.is_motor();
+        self.live.is_dirty |= !record.drivers.is_empty() || is_motor(record);
     }
 
     pub(super) fn unlink_constraint(&mut self, id: ConstraintId, record: &Record) {
         for (_, formula) in &record.drivers {
             unlink(&mut self.live.dependents, formula, Dependent::Constraint(id));
         }
-        self.live.is_dirty |= !record.drivers.is_empty() || record.constraint.is_motor();
+        self.live.is_dirty |= !record.drivers.is_empty() || is_motor(record);
     }
+}
+
+fn is_motor(record: &Record) -> bool {
+    record.constraint.kind() == Kind::Motor
 }

@@ -3,6 +3,7 @@
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
 use crate::constraint::Point;
+use crate::constraint::Relation;
 use crate::diag::Diagnostic;
 
 /// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.

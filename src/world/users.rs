@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use crate::constraint::Relation;
+
 use super::{ConstraintId, Entity, Formula, Mention, ParameterId, World};
 
 /// Something that uses an entity.
