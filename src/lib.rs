@@ -3,4 +3,5 @@
 pub mod constraint;
 pub mod diag;
 pub mod lang;
+pub mod render;
 pub mod world;
