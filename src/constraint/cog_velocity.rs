@@ -1,13 +1,24 @@
-//! The cog wheel constraint as printed.
+//! The cog wheel constraint of section 3.10 as printed: between velocities.
+//!
+//! Kept to show its drift; [`super::Cog`] is the same condition without.
 
+use super::geometry::has_direction;
+use super::linear::Linear;
 use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Vector};
 
-/// Two wheels in mesh.
+/// In one frame the two wheels move alike where they touch.
+///
+/// Displacements since the frame began stand for velocities, and the matrices `A_i` of the
+/// paper's appendix are those of the pose it began with: the explicit Euler scheme. Wheels
+/// with ratio -1 have no point of contact, and a marker on its centre shows no rotation:
+/// the constraint asks for nothing then.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CogVelocity {
     /// Centre and marker of the one wheel, centre and marker of the other.
     pub points: [PointIdx; 4],
-    ratio: f64,
+    /// The second radius over the first, negative for internal contact.
+    pub ratio: f64,
+    /// Where the points were when the frame began.
     previous: [Point; 4],
 }
 
@@ -16,15 +27,99 @@ impl CogVelocity {
     pub fn new(points: [PointIdx; 4], ratio: f64, x: &[Point]) -> Self {
         Self { points, ratio, previous: points.map(|p| x[p as usize]) }
     }
+
+    /// The complex coefficients `1 - A1, A1, A2 - 1, -A2` of the displacements.
+    fn coefficients(&self) -> Option<[Vector; 4]> {
+        let [x1, x2, x3, x4] = self.previous;
+        let r = self.ratio;
+        if r == -1.0 || !has_direction(x1, x2) || !has_direction(x3, x4) {
+            return None;
+        }
+        // The point of contact t = (r x1 + x3) / (r + 1), from either centre.
+        let centres = x3 - x1;
+        let a1 = (centres / (r + 1.0)).over(x2 - x1);
+        let a2 = (centres * (-r / (r + 1.0))).over(x4 - x3);
+        let one = Vector::new(1.0, 0.0);
+        Some([one - a1, a1, a2 - one, -a2])
+    }
+
+    fn linear(&self, coefficients: [Vector; 4]) -> Linear {
+        self.points.iter().zip(coefficients).fold(Linear::new(), |sum, (&p, c)| sum.with(p, c))
+    }
+
+    /// How much farther the first wheel has moved at the point of contact.
+    fn value(&self, coefficients: [Vector; 4], x: &[Point]) -> Vector {
+        let mut sum = Vector::ZERO;
+        for ((p, before), c) in self.points.into_iter().zip(self.previous).zip(coefficients) {
+            sum += (x[p as usize] - before).times(c);
+        }
+        sum
+    }
 }
 
-// STUB
 impl Relation for CogVelocity {
-    fn points(&self) -> &[PointIdx] { &self.points }
-    fn points_mut(&mut self) -> &mut [PointIdx] { &mut self.points }
-    fn n_rows(&self) -> usize { 2 }
-    fn residual(&self, _x: &[Point]) -> f64 { 0.0 }
-    fn correct(&self, _x: &[Point], _w: &[f64], _move_by: &mut impl FnMut(PointIdx, Vector)) {}
-    fn jacobian(&self, _x: &[Point], row: &mut impl FnMut(Row)) { for _ in 0..self.n_rows() { row(Row::inactive(&self.points[..3.min(self.points.len())])); } }
-    fn equations<T: Real>(&self, _x: &impl Fn(PointIdx) -> Place<T>, _field: &impl Fn(Field, f64) -> T, equation: &mut impl FnMut(T)) { for _ in 0..self.n_rows() { equation(T::constant(0.0)); } }
+    fn points(&self) -> &[PointIdx] {
+        &self.points
+    }
+
+    fn points_mut(&mut self) -> &mut [PointIdx] {
+        &mut self.points
+    }
+
+    fn n_rows(&self) -> usize {
+        2
+    }
+
+    fn residual(&self, x: &[Point]) -> f64 {
+        self.coefficients().map_or(0.0, |c| self.value(c, x).norm())
+    }
+
+    fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
+        // The printed (I - A)^-1 has a pole where a marker passes the point of contact; the
+        // shortest displacement has none.
+        if let Some(c) = self.coefficients() {
+            self.linear(c).correct(self.value(c, x), w, move_by);
+        }
+    }
+
+    fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
+        if let Some(c) = self.coefficients() {
+            self.linear(c).rows(self.value(c, x), row);
+        } else {
+            row(Row::inactive(&self.points));
+            row(Row::inactive(&self.points));
+        }
+    }
+
+    fn equations<T: Real>(
+        &self,
+        x: &impl Fn(PointIdx) -> Place<T>,
+        _field: &impl Fn(Field, f64) -> T,
+        equation: &mut impl FnMut(T),
+    ) {
+        let mut sum = Place::constant(Vector::ZERO);
+        if let Some(c) = self.coefficients() {
+            for ((p, before), c) in self.points.into_iter().zip(self.previous).zip(c) {
+                let moved = x(p) - Place::constant(before.to_vector());
+                sum = sum + moved.times(Place::constant(c));
+            }
+        }
+        equation(sum.x);
+        equation(sum.y);
+    }
+
+    fn get(&self, field: Field) -> Option<f64> {
+        (field == Field::Ratio).then_some(self.ratio)
+    }
+
+    fn set(&mut self, field: Field, value: f64) -> bool {
+        if field == Field::Ratio {
+            self.ratio = value;
+        }
+        field == Field::Ratio
+    }
+
+    fn begin_frame(&mut self, x: &[Point], _dt: f64) {
+        self.previous = self.points.map(|p| x[p as usize]);
+    }
 }

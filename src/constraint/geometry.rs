@@ -13,6 +13,7 @@ pub struct Point {
 }
 
 /// A difference of two places.
+#[must_use]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector {
     /// Component to the right.
@@ -125,6 +126,12 @@ impl Vector {
         Self::new(self.x * z.x + self.y * z.y, self.y * z.x - self.x * z.y)
     }
 
+    /// The quotient as complex numbers; `z` is not zero.
+    pub fn over(self, z: Self) -> Self {
+        let l = z.norm();
+        self.times_conj(z / l) / l
+    }
+
     /// Whether neither component is infinite or not a number.
     pub const fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite()
@@ -138,6 +145,13 @@ pub fn wrap(phi: f64) -> f64 {
     }
     let r = phi - TAU * (phi / TAU).round();
     if r <= -PI { r + TAU } else { r }
+}
+
+/// Whether two points are far enough apart to have a direction: below the rounding of their
+/// coordinates it would be noise.
+pub fn has_direction(a: Point, b: Point) -> bool {
+    let largest = a.x.abs().max(a.y.abs()).max(b.x.abs()).max(b.y.abs());
+    a.distance(b) > 4.0 * f64::EPSILON * largest
 }
 
 impl Sub for Point {

@@ -1,8 +1,12 @@
 //! The glider constraint, section 3.8: a point on a line, between end stops.
 
-use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Vector};
+use super::line::Foot;
+use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Vector, hinge};
 
 /// The first point lies on the segment between the second and the third, or on their line.
+///
+/// A foot strictly beyond an end makes it a hinge on that end. A foot exactly on the end
+/// leaves the point free to slide inward, as any inequality that is met asks for nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glider {
     /// The point, then the two that span the line.
@@ -11,13 +15,94 @@ pub struct Glider {
     pub bounded: bool,
 }
 
-// STUB
+/// What the constraint asks for at a pose.
+enum Demand {
+    /// To come onto the line.
+    Line(Foot),
+    /// To come to the place that divides the segment so.
+    Place(f64),
+}
+
+impl Glider {
+    fn demand(&self, x: [Point; 3]) -> Demand {
+        match Foot::new(x) {
+            // Without a line, the middle: symmetric, and met where all three coincide.
+            None => Demand::Place(0.5),
+            Some(foot) if self.bounded && foot.mu < 0.0 => Demand::Place(0.0),
+            Some(foot) if self.bounded && foot.mu > 1.0 => Demand::Place(1.0),
+            Some(foot) => Demand::Line(foot),
+        }
+    }
+
+    fn places(&self, x: &[Point]) -> [Point; 3] {
+        self.points.map(|p| x[p as usize])
+    }
+}
+
 impl Relation for Glider {
-    fn points(&self) -> &[PointIdx] { &self.points }
-    fn points_mut(&mut self) -> &mut [PointIdx] { &mut self.points }
-    fn n_rows(&self) -> usize { 2 }
-    fn residual(&self, _x: &[Point]) -> f64 { 0.0 }
-    fn correct(&self, _x: &[Point], _w: &[f64], _move_by: &mut impl FnMut(PointIdx, Vector)) {}
-    fn jacobian(&self, _x: &[Point], row: &mut impl FnMut(Row)) { for _ in 0..self.n_rows() { row(Row::inactive(&self.points[..3.min(self.points.len())])); } }
-    fn equations<T: Real>(&self, _x: &impl Fn(PointIdx) -> Place<T>, _field: &impl Fn(Field, f64) -> T, equation: &mut impl FnMut(T)) { for _ in 0..self.n_rows() { equation(T::constant(0.0)); } }
+    fn points(&self) -> &[PointIdx] {
+        &self.points
+    }
+
+    fn points_mut(&mut self) -> &mut [PointIdx] {
+        &mut self.points
+    }
+
+    fn n_rows(&self) -> usize {
+        2
+    }
+
+    fn residual(&self, x: &[Point]) -> f64 {
+        let places = self.places(x);
+        match self.demand(places) {
+            Demand::Line(foot) => foot.height,
+            Demand::Place(mu) => hinge::value(places, mu).norm(),
+        }
+    }
+
+    fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
+        let places = self.places(x);
+        match self.demand(places) {
+            // Both are the paper's shares of t, with d2 and d3 the right way round: along
+            // the normal here, which leaves mu as it is.
+            Demand::Line(foot) => foot.row(foot.height, self.points).correct(w, move_by),
+            Demand::Place(mu) => {
+                hinge::linear(self.points, mu).correct(hinge::value(places, mu), w, move_by);
+            }
+        }
+    }
+
+    fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
+        let places = self.places(x);
+        match self.demand(places) {
+            Demand::Line(foot) => {
+                row(foot.row(foot.height, self.points));
+                row(Row::inactive(&self.points));
+            }
+            Demand::Place(mu) => {
+                hinge::linear(self.points, mu).rows(hinge::value(places, mu), row);
+            }
+        }
+    }
+
+    fn equations<T: Real>(
+        &self,
+        x: &impl Fn(PointIdx) -> Place<T>,
+        _field: &impl Fn(Field, f64) -> T,
+        equation: &mut impl FnMut(T),
+    ) {
+        let [x1, x2, x3] = self.points.map(x);
+        match self.demand([x1, x2, x3].map(|p| p.value().to_point())) {
+            Demand::Line(_) => {
+                let v = x3 - x2;
+                equation(v.cross(x1 - x2) / v.norm());
+                equation(T::constant(0.0));
+            }
+            Demand::Place(mu) => {
+                let g = (x1 - x2) - (x3 - x2).scale(T::constant(mu));
+                equation(g.x);
+                equation(g.y);
+            }
+        }
+    }
 }

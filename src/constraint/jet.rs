@@ -18,12 +18,14 @@ pub trait Real:
     /// Whether it does not change in time.
     fn is_constant(self) -> bool;
     /// A function of one variable from its value and two derivatives at `self.value()`.
+    #[must_use]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self;
 
     /// The number that has `value` now and changes at `rate`.
     fn integral(value: f64, rate: Self) -> Self;
 
     /// The square root; at 0, where it has no derivative, one that does not change.
+    #[must_use]
     fn sqrt(self) -> Self {
         let r = self.value().sqrt();
         if r == 0.0 {
@@ -32,16 +34,19 @@ pub trait Real:
         self.chain(r, 0.5 / r, -0.25 / (r * r * r))
     }
     /// The sine of an angle in radians.
+    #[must_use]
     fn sin(self) -> Self {
         let (s, c) = libm::sincos(self.value());
         self.chain(s, c, -s)
     }
     /// The cosine of an angle in radians.
+    #[must_use]
     fn cos(self) -> Self {
         let (s, c) = libm::sincos(self.value());
         self.chain(c, -s, -c)
     }
     /// The angle of the vector (x, y) for y = `self`, in (-pi, pi].
+    #[must_use]
     fn atan2(self, x: Self) -> Self;
 }
 

@@ -99,6 +99,10 @@ macro_rules! writes {
         $vis fn set_captured(&mut self, captured: &[f64]) {
             match self { $(Self::$Name(c) => c.set_captured(captured),)* }
         }
+        /// See [`Relation::pick_up`].
+        $vis fn pick_up(&mut self, x: &[Point]) {
+            match self { $(Self::$Name(c) => c.pick_up(x),)* }
+        }
         /// See [`Relation::advance`].
         $vis fn advance(&mut self, dt: f64) -> bool {
             match self { $(Self::$Name(c) => c.advance(dt),)* }

@@ -10,6 +10,7 @@ pub mod geometry;
 // What the kinds are made of.
 mod bounds;
 mod jet;
+mod line;
 mod linear;
 mod place;
 mod row;
@@ -126,6 +127,9 @@ pub trait Relation {
     /// Brings back the numbers that `captured` gave.
     fn set_captured(&mut self, _captured: &[f64]) {}
 
+    /// Called when it is switched on again: it goes on from the pose as it is now.
+    fn pick_up(&mut self, _x: &[Point]) {}
+
     /// Goes `dt` on in time; whether that changed anything.
     fn advance(&mut self, _dt: f64) -> bool {
         false
@@ -134,13 +138,14 @@ pub trait Relation {
     /// Called with a pose that was accepted as converged: angles are unwrapped from here on.
     fn accept(&mut self, _x: &[Point]) {}
 
-    /// The distance to satisfaction, length units: the largest `|f| / |grad f|` of its rows
-    /// in the metric of the weights. A row that holds frozen points only is measured with
-    /// weights 1, one without a gradient by `|f|` itself, so that nothing unsatisfied is 0.
+    /// The distance to satisfaction, length units: the norm over its rows of `|f| / |grad f|`
+    /// in the metric of the weights, which does not depend on the axes. A row that holds
+    /// frozen points only is measured with weights 1, one without a gradient by `|f|` itself,
+    /// so that nothing unsatisfied is 0.
     fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
-        let mut largest = 0.0;
-        self.jacobian(x, &mut |row| largest = row.distance(w).max(largest));
-        largest
+        let mut norm = 0.0;
+        self.jacobian(x, &mut |row| norm = Vector::new(norm, row.distance(w)).norm());
+        norm
     }
 }
 
@@ -167,9 +172,7 @@ pub enum Field {
 
 /// The excess of a measured value over its bounds, over any number type.
 fn excess<T: Real>(bounds: Bounds, f: T, field: &impl Fn(Field, f64) -> T) -> T {
-    if bounds.is_equality() {
-        f - field(Field::Lo, bounds.lo)
-    } else if f.value() < bounds.lo {
+    if bounds.is_equality() || f.value() < bounds.lo {
         f - field(Field::Lo, bounds.lo)
     } else if f.value() > bounds.hi {
         f - field(Field::Hi, bounds.hi)

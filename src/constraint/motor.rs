@@ -52,16 +52,6 @@ impl Motor {
         self.aim();
     }
 
-    /// Goes on from where the driven point is now, by less than half a turn; a point at the
-    /// centre changes nothing.
-    pub fn pick_up(&mut self, x: &[Point]) {
-        let [x1, x2] = self.points.map(|p| x[p as usize]);
-        if x1 != x2 {
-            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
-            self.aim();
-        }
-    }
-
     /// Where the driven point belongs, from the centre.
     pub const fn target(&self) -> Vector {
         self.target
@@ -150,6 +140,16 @@ impl Relation for Motor {
     fn set_state(&mut self, state: &[f64]) {
         if let &[whole, hi, lo] = state {
             self.set_turned(Turns::from_numbers([whole, hi, lo]));
+        }
+    }
+
+    /// Goes on from where the driven point is now, by less than half a turn; a point at the
+    /// centre changes nothing.
+    fn pick_up(&mut self, x: &[Point]) {
+        let [x1, x2] = self.points.map(|p| x[p as usize]);
+        if x1 != x2 {
+            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
+            self.aim();
         }
     }
 

@@ -4,6 +4,7 @@ use super::{Real, Vector};
 use std::ops::{Add, Sub};
 
 /// A position, or a difference of two, whose coordinates are any kind of number.
+#[must_use]
 #[derive(Debug, Clone, Copy)]
 pub struct Place<T> {
     /// The horizontal coordinate.

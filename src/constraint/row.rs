@@ -48,7 +48,13 @@ impl Row {
     pub fn with(mut self, point: PointIdx, gradient: Vector) -> Self {
         for k in 0..self.n_points {
             if self.points[k] == point {
+                let size = self.gradient[k].norm() + gradient.norm();
                 self.gradient[k] += gradient;
+                // Derivatives that cancel leave their rounding; dividing by that would
+                // throw the point across the plane.
+                if self.gradient[k].norm() <= 4.0 * f64::EPSILON * size {
+                    self.gradient[k] = Vector::ZERO;
+                }
                 return self;
             }
         }

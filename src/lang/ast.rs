@@ -413,6 +413,23 @@ pub enum ListWhat {
     Definitions,
 }
 
+impl ListWhat {
+    /// Every list, in the order of the reference.
+    pub const ALL: [Self; 5] =
+        [Self::Points, Self::Constraints, Self::Traces, Self::Parameters, Self::Definitions];
+
+    /// How it is asked for.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Constraints => "constraints",
+            Self::Traces => "traces",
+            Self::Parameters => "parameters",
+            Self::Definitions => "definitions",
+        }
+    }
+}
+
 /// One item of a `print`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PrintItem {

@@ -5,5 +5,11 @@
 //! by who executes the statement.
 
 pub mod ast;
+pub mod catalogue;
 mod expr;
 mod function;
+mod layout;
+mod lower;
+mod print;
+
+pub use lower::{Statements, is_incomplete, parse};

@@ -121,7 +121,11 @@ impl World {
         self.touched.constraints.push(id);
         if let Some(record) = &record {
             self.n_constraints += 1;
-            self.names_swap(self.constraints.get(id.idx()).map(|r| r.name.clone()), &record.name, id);
+            self.names_swap(
+                self.constraints.get(id.idx()).map(|r| r.name.clone()),
+                &record.name,
+                id,
+            );
             self.link_constraint(id, record);
         }
         let is_deleted = record.is_none();
@@ -184,7 +188,8 @@ impl World {
         edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
         edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
         edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
-        let mut parameters: Vec<_> = self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();
+        let mut parameters: Vec<_> =
+            self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();
         parameters.reverse();
         edits.extend(parameters);
         edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));

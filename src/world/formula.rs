@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::arithmetic::{call, finite, operate};
 use super::{Function, ParameterId, PointId, Shape};
 use crate::constraint::{Place, Real};
 use crate::diag::{Diagnostic, SourceId, Span};
@@ -95,8 +96,9 @@ impl Depends {
         !self.is_live() && !self.on_parameters
     }
 
+    /// What can change one or the other.
     #[must_use]
-    pub(super) const fn or(self, o: Self) -> Self {
+    pub const fn or(self, o: Self) -> Self {
         Self {
             on_time: self.on_time || o.on_time,
             on_points: self.on_points || o.on_points,
@@ -237,144 +239,45 @@ impl Formula {
             Node::X(a) => Number(a.evaluate(env)?.vector().x),
             Node::Y(a) => Number(a.evaluate(env)?.vector().y),
             Node::Binary(operator, a, b) => {
-                self.operate(*operator, a.evaluate(env)?, b.evaluate(env)?, b)?
+                let (left, right) = (a.evaluate(env)?, b.evaluate(env)?);
+                return operate(*operator, left, right, self.span(), b.span());
             }
-            Node::Call(function, arguments) => self.call(*function, arguments, env)?,
+            Node::Call(function @ (Function::Velocity | Function::Acceleration), arguments) => {
+                return self.rate(*function, &arguments[0], env);
+            }
+            Node::Call(function, arguments) => {
+                // Few arguments but for `min` and `max`: no allocation then.
+                let mut few = [Number(T::constant(0.0)); 4];
+                return if let Some(few) = few.get_mut(..arguments.len()) {
+                    for (value, argument) in few.iter_mut().zip(arguments) {
+                        *value = argument.evaluate(env)?;
+                    }
+                    call(*function, few, self.span())
+                } else {
+                    let all =
+                        arguments.iter().map(|a| a.evaluate(env)).collect::<Result<Vec<_>, _>>()?;
+                    call(*function, &all, self.span())
+                };
+            }
         };
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(Diagnostic::error("this has no finite value").at(self.span(), "overflows"))
-        }
+        finite(value, self.span())
     }
 
-    fn operate<T: Real>(
-        &self,
-        operator: Operator,
-        a: Value<T>,
-        b: Value<T>,
-        right: &Self,
-    ) -> Result<Value<T>, Diagnostic> {
-        use Value::{Number, Vector};
-        let scaled = |k: T, v: Place<T>| Vector(Place { x: k * v.x, y: k * v.y });
-        Ok(match (operator, a, b) {
-            (Operator::Add, Number(a), Number(b)) => Number(a + b),
-            (Operator::Subtract, Number(a), Number(b)) => Number(a - b),
-            (Operator::Multiply, Number(a), Number(b)) => Number(a * b),
-            (Operator::Add, Vector(a), Vector(b)) => {
-                Vector(Place { x: a.x + b.x, y: a.y + b.y })
-            }
-            (Operator::Subtract, Vector(a), Vector(b)) => Vector(a - b),
-            (Operator::Multiply, Number(k), Vector(v))
-            | (Operator::Multiply, Vector(v), Number(k)) => scaled(k, v),
-            (Operator::Divide, _, Number(b)) if b.value() == 0.0 => {
-                return Err(Diagnostic::error("division by zero").at(right.span(), "this is 0"));
-            }
-            (Operator::Divide, Number(a), Number(b)) => Number(a / b),
-            (Operator::Divide, Vector(v), Number(b)) => {
-                Vector(Place { x: v.x / b, y: v.y / b })
-            }
-            (Operator::Power, Number(a), Number(b)) => match power(a, b) {
-                Some(p) => Number(p),
-                None => {
-                    return Err(Diagnostic::error("this power has no value")
-                        .at(self.span(), "a negative number to a broken power, or 0 to a negative"));
-                }
-            },
-            _ => unreachable!("shapes are checked when a formula is bound"),
-        })
-    }
-
-    fn call<T: Real>(
+    fn rate<T: Real>(
         &self,
         function: Function,
-        arguments: &[Self],
+        argument: &Self,
         env: &impl Environment<T>,
     ) -> Result<Value<T>, Diagnostic> {
-        use Value::{Number, Vector};
-        let number = |k: usize| Ok::<_, Diagnostic>(arguments[k].evaluate(env)?.number());
-        let vector = |k: usize| Ok::<_, Diagnostic>(arguments[k].evaluate(env)?.vector());
-        Ok(match function {
-            Function::Norm => Number(length(vector(0)?)),
-            Function::Dot => Number(dot(vector(0)?, vector(1)?)),
-            Function::Cross => Number(cross(vector(0)?, vector(1)?)),
-            Function::Rotate => {
-                let (v, phi) = (vector(0)?, number(1)?);
-                let (s, c) = (phi.sin(), phi.cos());
-                Vector(Place { x: v.x * c - v.y * s, y: v.x * s + v.y * c })
-            }
-            Function::Polar => {
-                let (r, phi) = (number(0)?, number(1)?);
-                Vector(Place { x: r * phi.cos(), y: r * phi.sin() })
-            }
-            Function::Midpoint => {
-                let (p, q, half) = (vector(0)?, vector(1)?, T::constant(0.5));
-                Vector(Place { x: half * (p.x + q.x), y: half * (p.y + q.y) })
-            }
-            Function::Distance => Number(length(vector(1)? - vector(0)?)),
-            Function::DistanceToLine => {
-                let (p, a, b) = (vector(0)?, vector(1)?, vector(2)?);
-                let l = length(b - a);
-                if l.value() == 0.0 {
-                    return Err(Diagnostic::error("the two points of the line coincide")
-                        .at(self.span(), "no line to measure from"));
-                }
-                Number(cross(b - a, p - a) / l)
-            }
-            Function::Angle => {
-                let v = vector(1)? - vector(0)?;
-                self.angle_of(v.x, v.y)?
-            }
-            Function::AngleBetween => {
-                let u = vector(1)? - vector(0)?;
-                let v = vector(3)? - vector(2)?;
-                self.angle_of(dot(u, v), cross(u, v))?
-            }
-            Function::Velocity | Function::Acceleration => {
-                let Node::Point(id) = arguments[0].node() else {
-                    unreachable!("a rate is bound to the name of a point")
-                };
-                let Some((velocity, acceleration)) = env.rates(*id) else {
-                    return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
-                        .at(self.span(), "only where a value is looked at")
-                        .help("use it in `print`, `assert`, or a parameter that these use"));
-                };
-                Vector(if function == Function::Velocity { velocity } else { acceleration })
-            }
-            _ => {
-                // Two numbers at most, but for `min` and `max`.
-                let mut few = [T::constant(0.0); 2];
-                let value = if arguments.len() <= 2 {
-                    for (k, slot) in few.iter_mut().enumerate().take(arguments.len()) {
-                        *slot = number(k)?;
-                    }
-                    function.of_numbers(&few[..arguments.len()])
-                } else {
-                    let all = (0..arguments.len()).map(number).collect::<Result<Vec<T>, _>>()?;
-                    function.of_numbers(&all)
-                };
-                match value {
-                    Some(value) => Number(value),
-                    None => {
-                        let given = few[usize::from(function == Function::Mod)].value();
-                        return Err(Diagnostic::error(format!(
-                            "`{}` has no value at {}",
-                            function.name(),
-                            crate::diag::format_number(given)
-                        ))
-                        .at(self.span(), "outside its domain"));
-                    }
-                }
-            }
-        })
-    }
-
-    fn angle_of<T: Real>(&self, x: T, y: T) -> Result<Value<T>, Diagnostic> {
-        if x.value() == 0.0 && y.value() == 0.0 {
-            return Err(Diagnostic::error("two points coincide, so there is no direction")
-                .at(self.span(), "no angle"));
-        }
-        Ok(Value::Number(y.atan2(x)))
+        let Node::Point(id) = argument.node() else {
+            unreachable!("a rate is bound to the name of a point")
+        };
+        let Some((velocity, acceleration)) = env.rates(*id) else {
+            return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
+                .at(self.span(), "only where a value is looked at")
+                .help("use it in `print`, `assert`, or a parameter that these use"));
+        };
+        Ok(Value::Vector(if function == Function::Velocity { velocity } else { acceleration }))
     }
 }
 
@@ -385,40 +288,4 @@ pub enum Mention {
     Point(PointId),
     /// A parameter.
     Parameter(ParameterId),
-}
-
-fn dot<T: Real>(a: Place<T>, b: Place<T>) -> T {
-    a.x * b.x + a.y * b.y
-}
-
-fn cross<T: Real>(a: Place<T>, b: Place<T>) -> T {
-    a.x * b.y - a.y * b.x
-}
-
-/// The length of a vector; the value never overflows before its result does.
-fn length<T: Real>(v: Place<T>) -> T {
-    let squares = v.norm();
-    let exact = crate::constraint::Vector::new(v.x.value(), v.y.value()).norm();
-    if squares.value() == exact { squares } else { squares.chain(exact, 1.0, 0.0) }
-}
-
-/// a^b; none where it has no real value.
-fn power<T: Real>(a: T, b: T) -> Option<T> {
-    let (x, p) = (a.value(), b.value());
-    if (x == 0.0 && p < 0.0) || (x < 0.0 && p != p.trunc()) {
-        return None;
-    }
-    let v = libm::pow(x, p);
-    // As a function of the base with a constant power, then of the power with a constant base.
-    let by_base = a.chain(v, slope(p, x, p - 1.0), slope(p * (p - 1.0), x, p - 2.0));
-    if b.is_constant() || x <= 0.0 {
-        return Some(by_base);
-    }
-    let e = b * a.chain(libm::log(x), 1.0 / x, -1.0 / (x * x));
-    Some(e.chain(v, v, v))
-}
-
-/// k x^p, 0 where k is.
-fn slope(k: f64, x: f64, p: f64) -> f64 {
-    if k == 0.0 { 0.0 } else { k * libm::pow(x, p) }
 }

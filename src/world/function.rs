@@ -133,8 +133,12 @@ impl Function {
             Self::Sqrt => (v >= 0.0).then(|| x.sqrt())?,
             Self::Abs => x.chain(v.abs(), sign(v), 0.0),
             Self::Sign => x.chain(sign(v), 0.0, 0.0),
-            Self::Min => a.iter().copied().reduce(|p, q| if q.value() < p.value() { q } else { p })?,
-            Self::Max => a.iter().copied().reduce(|p, q| if q.value() > p.value() { q } else { p })?,
+            Self::Min => {
+                a.iter().copied().reduce(|p, q| if q.value() < p.value() { q } else { p })?
+            }
+            Self::Max => {
+                a.iter().copied().reduce(|p, q| if q.value() > p.value() { q } else { p })?
+            }
             Self::Hypot => {
                 // The value by the function that cannot overflow, the slopes by the formula.
                 let r = libm::hypot(v, a[1].value());
@@ -169,4 +173,3 @@ impl Function {
 fn sign(v: f64) -> f64 {
     if v == 0.0 { 0.0 } else { v.signum() }
 }
-

@@ -39,11 +39,7 @@ impl Live {
     }
 }
 
-fn link(
-    dependents: &mut HashMap<ParameterId, Vec<Dependent>>,
-    formula: &Formula,
-    user: Dependent,
-) {
+fn link(dependents: &mut HashMap<ParameterId, Vec<Dependent>>, formula: &Formula, user: Dependent) {
     formula.mentions(&mut |mention| {
         if let Mention::Parameter(used) = mention {
             dependents.entry(used).or_default().push(user);
@@ -418,7 +414,8 @@ impl World {
         }
         let mut all = Vec::new();
         for &id in &self.live.driven {
-            for (field, formula) in &self.constraint(id).expect("a listed constraint lives").drivers {
+            for (field, formula) in &self.constraint(id).expect("a listed constraint lives").drivers
+            {
                 let jet = match (*field, formula.evaluate(&moving)?) {
                     (Field::X, Value::Vector(v)) => v.x,
                     (Field::Y, Value::Vector(v)) => v.y,

@@ -3,6 +3,7 @@
 //! All edits go through [`World::apply`], which gives the edit that takes it back. Nothing
 //! here iterates towards a solution, parses, prints or holds a number that is not finite.
 
+mod arithmetic;
 mod clock;
 mod edit;
 mod formula;
@@ -17,6 +18,7 @@ mod touched;
 mod trace;
 mod users;
 
+pub use arithmetic::{call, operate};
 pub use clock::Clock;
 pub use edit::Edit;
 pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};

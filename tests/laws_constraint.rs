@@ -1,0 +1,447 @@
+//! What every kind of constraint promises, held against random scenes of one generator.
+
+use linkwork::constraint::{
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
+    Field, Glider, Hinge, Jet, Kind, Length, Motor, Orientation, Period, Place, Point, PointIdx,
+    Rack, Real, Relation, Rigid, Row, Vector,
+};
+use proptest::prelude::*;
+use proptest::test_runner::{RngSeed, TestCaseError};
+
+const N_POINTS: usize = 6;
+
+/// Turns, stretches and shifts the plane.
+#[derive(Debug, Clone, Copy)]
+struct Similarity {
+    angle: f64,
+    scale: f64,
+    shift: Vector,
+}
+
+impl Similarity {
+    const NONE: Self = Self { angle: 0.0, scale: 1.0, shift: Vector::ZERO };
+
+    fn vector(self, v: Vector) -> Vector {
+        v.rotate(self.angle) * self.scale
+    }
+
+    fn point(self, p: Point) -> Point {
+        (self.vector(p.to_vector()) + self.shift).to_point()
+    }
+
+    fn points(self, x: &[Point]) -> Vec<Point> {
+        x.iter().map(|&p| self.point(p)).collect()
+    }
+}
+
+/// One constraint among points that do not satisfy it.
+#[derive(Debug, Clone)]
+struct Scene {
+    kind: Kind,
+    /// Positions, and those at which wheels and bodies were made.
+    x: Vec<Point>,
+    before: Vec<Point>,
+    w: Vec<f64>,
+    points: Vec<PointIdx>,
+    /// Numbers in -1..1 and a choice among variants of the kind.
+    numbers: [f64; 3],
+    variant: u8,
+}
+
+impl Scene {
+    /// The constraint, as it would have been stated in the plane so moved.
+    fn constraint(&self, by: Similarity) -> Constraint {
+        let p = &self.points;
+        let [n0, n1, n2] = self.numbers;
+        let before = by.points(&self.before);
+        let (three, four) = ([p[0], p[1], p[2]], [p[0], p[1], p[2], p[3]]);
+        let length = |n: f64| (4.0 * n.abs() + 0.1) * by.scale;
+        let bounds = |lo: f64, hi: f64| match self.variant {
+            0 | 1 => Bounds::exactly(lo),
+            2 => Bounds { lo: lo.min(hi), hi: lo.max(hi) },
+            3 => Bounds { lo: f64::NEG_INFINITY, hi },
+            _ => Bounds { lo, hi: f64::INFINITY },
+        };
+        match self.kind {
+            Kind::Coordinate => {
+                let target = by.point(Point::new(4.0 * n0, 4.0 * n1));
+                Coordinate { points: [p[0]], target }.into()
+            }
+            Kind::Coincidence => Coincidence { points: [p[0], p[1]] }.into(),
+            Kind::Equivalence => Equivalence { points: four }.into(),
+            Kind::Equal => {
+                let bounds = bounds(4.0 * n0 * by.scale, 4.0 * n1 * by.scale);
+                Equal { points: four, bounds }.into()
+            }
+            Kind::Length => {
+                Length { points: [p[0], p[1]], bounds: bounds(length(n0), length(n1)) }.into()
+            }
+            Kind::Orientation => {
+                let period = if n2 > 0.0 { Period::Whole } else { Period::Half };
+                let bounds = bounds(3.0 * n0, 3.0 * n1);
+                Orientation { points: four, bounds, period, side: 0.0 }.into()
+            }
+            Kind::Motor => {
+                let mut motor = Motor::new([p[0], p[1]], length(n0), 3.0 * n1 + by.angle, n2);
+                motor.advance(1.0);
+                motor.into()
+            }
+            Kind::Glider => Glider { points: three, bounded: self.variant > 0 }.into(),
+            Kind::Hinge => Hinge { points: three, ratio: 1.5 * n0 + 0.5 }.into(),
+            Kind::Cog => Cog::new(four, self.ratio(), &before).into(),
+            Kind::CogVelocity => CogVelocity::new(four, self.ratio(), &before).into(),
+            Kind::Distance => {
+                let bounds = bounds(2.0 * n0 * by.scale, 2.0 * n1 * by.scale);
+                Distance { points: three, bounds }.into()
+            }
+            Kind::Rigid => {
+                let n_points = 2 + usize::from(self.variant);
+                Rigid::new(&p[..n_points.min(p.len())], &before).into()
+            }
+            Kind::Rack => Rack::new(four, &before).into(),
+        }
+    }
+
+    fn ratio(&self) -> f64 {
+        match self.variant {
+            0 => -1.0,
+            1 => -0.25,
+            _ => 3.0 * self.numbers[0],
+        }
+    }
+
+    /// Whether one correction is exact wherever it starts.
+    fn is_exact(&self) -> bool {
+        !matches!(self.kind, Kind::Cog | Kind::Rack | Kind::Distance) && !self.has_repeats()
+    }
+
+    fn has_repeats(&self) -> bool {
+        (1..self.points.len()).any(|i| self.points[..i].contains(&self.points[i]))
+    }
+
+    /// The length against which an error is small, in the unit of the residual.
+    fn size(&self, c: &Constraint) -> f64 {
+        let coordinates = self.x.iter().chain(&self.before).map(|p| p.x.abs().max(p.y.abs()));
+        let size = coordinates.fold(10.0, f64::max);
+        match c {
+            Constraint::Orientation(_) => 1.0,
+            Constraint::Cog(_) => 1.0 + self.ratio().abs(),
+            // Far from its contact a marker is a long lever.
+            Constraint::CogVelocity(_) => {
+                size * (1.0 + rows(c, &self.x).iter().map(largest).fold(0.0, f64::max))
+            }
+            _ => size,
+        }
+    }
+}
+
+fn largest(row: &Row) -> f64 {
+    row.terms().map(|(_, g)| g.norm()).fold(0.0, f64::max)
+}
+
+/// Scenes of every kind: points within 10, weights 1e-2..1e2 with `frozen` of them 0, each
+/// constraint among `n_places` of the points.
+fn scenes(frozen: f64, n_places: usize) -> impl Strategy<Value = Scene> {
+    let places = proptest::collection::vec((-10.0..10.0, -10.0..10.0), N_POINTS);
+    let shifts = proptest::collection::vec((-1.0..1.0, -1.0..1.0), N_POINTS);
+    let weights = proptest::collection::vec((0.0..1.0, -2.0..2.0), N_POINTS);
+    let points = if n_places < N_POINTS {
+        proptest::collection::vec(0..n_places as PointIdx, N_POINTS).boxed()
+    } else {
+        Just((0..N_POINTS as PointIdx).collect::<Vec<_>>()).prop_shuffle().boxed()
+    };
+    let kinds = proptest::sample::select(Kind::ALL);
+    let numbers = proptest::array::uniform3(-1.0..1.0);
+    (kinds, places, shifts, weights, points, numbers, 0..5u8).prop_map(
+        move |(kind, places, shifts, weights, points, numbers, variant)| {
+            let x: Vec<_> = places.iter().map(|&(x, y)| Point::new(x, y)).collect();
+            let before = x.iter().zip(shifts).map(|(&p, (x, y))| p + Vector::new(x, y)).collect();
+            let weight = |(u, e): (f64, f64)| if u < frozen { 0.0 } else { 10f64.powf(e) };
+            let w = weights.into_iter().map(weight).collect();
+            Scene { kind, x, before, w, points, numbers, variant }
+        },
+    )
+}
+
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: 4000,
+        rng_seed: RngSeed::Fixed(0x006c_696e_6b77_6f72),
+        failure_persistence: None,
+        max_global_rejects: 200_000,
+        ..ProptestConfig::default()
+    }
+}
+
+/// The displacements a correction asks for, summed at each point.
+fn correction(c: &Constraint, x: &[Point], w: &[f64]) -> Vec<Vector> {
+    let mut d = vec![Vector::ZERO; x.len()];
+    c.correct(x, w, &mut |p, v| d[p as usize] += v);
+    d
+}
+
+fn rows(c: &Constraint, x: &[Point]) -> Vec<Row> {
+    let mut all = Vec::new();
+    c.jacobian(x, &mut |row| all.push(row));
+    all
+}
+
+fn equations(c: &Constraint, motion: &[[Vector; 3]]) -> Vec<Jet> {
+    let place = |p: PointIdx| {
+        let [x, v, a] = motion[p as usize];
+        Place { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
+    };
+    // Nothing but the points moves; a motor stands still.
+    let field =
+        |field: Field, value: f64| Jet::constant(if field == Field::Speed { 0.0 } else { value });
+    let mut all = Vec::new();
+    c.equations(&place, &field, &mut |f| all.push(f));
+    all
+}
+
+fn moved(x: &[Point], d: &[Vector], by: f64) -> Vec<Point> {
+    x.iter().zip(d).map(|(&p, &v)| p + v * by).collect()
+}
+
+fn close(a: f64, b: f64, tolerance: f64) -> Result<(), TestCaseError> {
+    prop_assert!((a - b).abs() <= tolerance, "{a} and {b} differ by more than {tolerance}");
+    Ok(())
+}
+
+/// Whether some displacement of the points that may move changes the residual.
+fn can_move(c: &Constraint, x: &[Point], w: &[f64]) -> bool {
+    rows(c, x).iter().any(|row| row.f != 0.0 && row.norm_squared(w) > 1e-20)
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    /// The postcondition of section 2: `f(x + d) = 0`, and frozen points stay.
+    #[test]
+    fn corrections_satisfy(scene in scenes(0.35, N_POINTS)) {
+        check_satisfies(&scene)?;
+    }
+
+    /// The same where one point takes several parts in a constraint.
+    #[test]
+    fn corrections_satisfy_with_repeated_points(scene in scenes(0.2, 3)) {
+        check_satisfies(&scene)?;
+    }
+
+    /// No correction moves the centre of gravity or turns the whole, but where the
+    /// constraint is about a place or a direction of the plane.
+    #[test]
+    fn corrections_keep_centre_and_torque(scene in scenes(0.0, N_POINTS)) {
+        let c = scene.constraint(Similarity::NONE);
+        let d = correction(&c, &scene.x, &scene.w);
+        let (mut force, mut torque, mut total) = (Vector::ZERO, 0.0, 0.0);
+        let mut rounding = 0.0;
+        for ((&x, &d), &w) in scene.x.iter().zip(&d).zip(&scene.w) {
+            force += d / w;
+            torque += x.to_vector().cross(d / w);
+            total += d.norm() / w;
+            rounding += 1e-14 / w;
+        }
+        if scene.kind != Kind::Coordinate {
+            prop_assert!(force.norm() <= 1e-12 * total + rounding, "{force:?} of {total}");
+        }
+        // The two turns of an orientation balance for small angles only.
+        if !matches!(scene.kind, Kind::Coordinate | Kind::Motor | Kind::CogVelocity | Kind::Orientation) {
+            prop_assert!(torque.abs() <= 1e-11 * total + 10.0 * rounding, "{torque} of {total}");
+        }
+    }
+
+    /// Close to satisfaction the correction is the shortest displacement there is.
+    #[test]
+    fn corrections_are_shortest(scene in scenes(0.35, N_POINTS)) {
+        let c = scene.constraint(Similarity::NONE);
+        let Some(met) = satisfied(&c, &scene) else { return Ok(()) };
+        let x = moved(&met, &scene.before.iter().zip(&scene.x).map(|(&a, &b)| a - b).collect::<Vec<_>>(), 1e-6);
+        let d = correction(&c, &x, &scene.w);
+        // Of all corrections the shortest lies in the span of the gradients: no displacement
+        // that leaves every row as it is has a part in it. Rows of two or fewer are
+        // orthogonal or one, which makes their sum the projection.
+        let rows = rows(&c, &x);
+        prop_assume!(rows.iter().filter(|r| r.is_active).count() <= 2);
+        let mut shortest = vec![Vector::ZERO; x.len()];
+        for row in rows.iter().filter(|r| r.is_active) {
+            row.correct(&scene.w, &mut |p, v| shortest[p as usize] += v);
+        }
+        let longest = shortest.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        for (d, s) in d.iter().zip(&shortest) {
+            prop_assert!((*d - *s).norm() <= 1e-3 * longest + 1e-14, "{d:?} for {s:?}");
+        }
+    }
+
+    /// Moving, turning and stretching the plane moves, turns and stretches the answer.
+    #[test]
+    fn nothing_depends_on_the_frame(
+        scene in scenes(0.35, N_POINTS),
+        angle in -3.0..3.0,
+        scale in -3.0..3.0,
+        shift in (-30.0..30.0, -30.0..30.0),
+    ) {
+        let by = Similarity { angle, scale: 10f64.powf(scale), shift: Vector::new(shift.0, shift.1) };
+        let (here, there) = (scene.constraint(Similarity::NONE), scene.constraint(by));
+        let y = by.points(&scene.x);
+        let length_unit = match scene.kind {
+            Kind::Orientation | Kind::Cog => 1.0,
+            _ => by.scale,
+        };
+        // The shift costs digits of the small scales.
+        let tolerance = 1e-9 * (1.0 + 30.0 / by.scale);
+        let f = here.residual(&scene.x);
+        // A turned half period decides by the last bit.
+        prop_assume!(scene.kind != Kind::Orientation || f.abs() < 1.5);
+        let size = scene.size(&here);
+        close(f, there.residual(&y) / length_unit, tolerance * size)?;
+        close(here.violation(&scene.x, &scene.w), there.violation(&y, &scene.w) / by.scale, tolerance * (size + here.violation(&scene.x, &scene.w)))?;
+        let d = correction(&here, &scene.x, &scene.w);
+        let longest = d.iter().map(|v| v.norm()).fold(size, f64::max);
+        for (d, e) in d.iter().zip(correction(&there, &y, &scene.w)) {
+            let e = (e / by.scale).rotate(-by.angle);
+            prop_assert!((*d - e).norm() <= tolerance * longest, "{d:?} became {e:?}");
+        }
+    }
+
+    /// Rows, equations and differences of equations tell the same story.
+    #[test]
+    fn derivatives_agree(scene in scenes(0.0, N_POINTS), speeds in proptest::collection::vec((-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0), N_POINTS)) {
+        check_derivatives(&scene, &speeds)?;
+    }
+
+    /// The same where one point takes several parts.
+    #[test]
+    fn derivatives_agree_with_repeated_points(scene in scenes(0.0, 3), speeds in proptest::collection::vec((-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0), N_POINTS)) {
+        check_derivatives(&scene, &speeds)?;
+    }
+
+    /// Points on one spot, in one line, very near, very far or all frozen: every number
+    /// stays a number, and satisfied or not, the same rows are there.
+    #[test]
+    fn degenerate_scenes_stay_finite(
+        scene in scenes(0.35, N_POINTS),
+        places in proptest::collection::vec((0..3i8, 0..2i8), N_POINTS),
+        scale in proptest::sample::select(vec![1e-9, 1.0, 1e9]),
+        all_frozen in any::<bool>(),
+    ) {
+        let mut scene = scene;
+        scene.x = places.iter().map(|&(x, y)| Point::new(f64::from(x), f64::from(y))).collect();
+        scene.before.clone_from(&scene.x);
+        scene.before.reverse();
+        if all_frozen {
+            scene.w.fill(0.0);
+        }
+        let by = Similarity { angle: 0.0, scale, shift: Vector::ZERO };
+        let mut c = scene.constraint(by);
+        let x = by.points(&scene.x);
+        c.begin_frame(&x, 1.0 / 60.0);
+        let rows = rows(&c, &x);
+        prop_assert_eq!(rows.len(), c.n_rows());
+        for row in &rows {
+            prop_assert!(row.f.is_finite() && row.span.is_finite(), "{row:?}");
+            prop_assert!(row.terms().all(|(_, g)| g.is_finite()), "{row:?}");
+        }
+        prop_assert!(c.residual(&x).is_finite());
+        prop_assert!(c.violation(&x, &scene.w).is_finite());
+        let d = correction(&c, &x, &scene.w);
+        let reach = 1e3 * scale * (1.0 + c.violation(&x, &scene.w) / scale);
+        for (d, w) in d.iter().zip(&scene.w) {
+            prop_assert!(d.norm() <= reach, "{d:?}");
+            prop_assert!(*w > 0.0 || *d == Vector::ZERO, "a frozen point moved");
+        }
+        let motion: Vec<_> = x.iter().map(|p| [p.to_vector(), Vector::new(1.0, 0.5), Vector::ZERO]).collect();
+        for f in equations(&c, &motion) {
+            prop_assert!(f.v.is_finite() && f.d.is_finite() && f.dd.is_finite(), "{f:?}");
+        }
+        c.accept(&moved(&x, &d, 1.0));
+        prop_assert!(c.residual(&x).is_finite());
+    }
+}
+
+/// A pose nearby that satisfies the constraint.
+fn satisfied(c: &Constraint, scene: &Scene) -> Option<Vec<Point>> {
+    let mut x = scene.x.clone();
+    for _ in 0..100 {
+        if c.violation(&x, &scene.w) <= 1e-13 * 10.0 {
+            return Some(x);
+        }
+        x = moved(&x, &correction(c, &x, &scene.w), 1.0);
+    }
+    None
+}
+
+fn check_satisfies(scene: &Scene) -> Result<(), TestCaseError> {
+    let c = scene.constraint(Similarity::NONE);
+    // Two frozen points of a body may contradict its shape, a frozen segment the length
+    // another should have from it: there is no answer then.
+    let n_frozen = c.points().iter().filter(|&&p| scene.w[p as usize] == 0.0).count();
+    prop_assume!(n_frozen < 2 || !matches!(scene.kind, Kind::Rigid | Kind::Equal));
+    let segment_is_one_point = c.points().chunks(2).any(|s| s.len() == 2 && s[0] == s[1]);
+    prop_assume!(scene.kind != Kind::Equal || !segment_is_one_point);
+    let tolerance = 1e-12 * scene.size(&c);
+    let mut x = scene.x.clone();
+    let mut n_steps = 0;
+    while c.residual(&x).abs() > tolerance && can_move(&c, &x, &scene.w) {
+        prop_assert!(
+            n_steps < if scene.is_exact() { 1 } else { 100 },
+            "f = {} after {n_steps}",
+            c.residual(&x)
+        );
+        let d = correction(&c, &x, &scene.w);
+        for (d, w) in d.iter().zip(&scene.w) {
+            prop_assert!(*w > 0.0 || *d == Vector::ZERO, "a frozen point moved");
+        }
+        x = moved(&x, &d, 1.0);
+        n_steps += 1;
+    }
+    Ok(())
+}
+
+fn check_derivatives(scene: &Scene, speeds: &[(f64, f64, f64, f64)]) -> Result<(), TestCaseError> {
+    const H: f64 = 1e-5;
+    let c = scene.constraint(Similarity::NONE);
+    let motion: Vec<_> = scene
+        .x
+        .iter()
+        .zip(speeds)
+        .map(|(x, s)| [x.to_vector(), Vector::new(s.0, s.1), Vector::new(s.2, s.3)])
+        .collect();
+    // The same motion a moment later or earlier.
+    let at = |t: f64| -> Vec<[Vector; 3]> {
+        motion.iter().map(|&[x, v, a]| [x + v * t + a * (0.5 * t * t), v + a * t, a]).collect()
+    };
+    let pose = |m: &[[Vector; 3]]| -> Vec<Point> { m.iter().map(|m| m[0].to_point()).collect() };
+    let rate = |m: &[[Vector; 3]], row: &Row| -> f64 {
+        row.terms().map(|(p, g)| g.dot(m[p as usize][1])).sum()
+    };
+    let (early, late) = (at(-H), at(H));
+    let [now_rows, early_rows, late_rows] = [&motion, &early, &late].map(|m| rows(&c, &pose(m)));
+    let jets = equations(&c, &motion);
+    prop_assert_eq!(now_rows.len(), c.n_rows());
+    prop_assert_eq!(jets.len(), c.n_rows());
+    for i in 0..c.n_rows() {
+        let (now, before, after, jet) = (&now_rows[i], &early_rows[i], &late_rows[i], jets[i]);
+        let mut points: Vec<_> = now.terms().map(|(p, _)| p).collect();
+        points.sort_unstable();
+        points.dedup();
+        prop_assert_eq!(points.len(), now.n_points, "a point twice in a row");
+        close(jet.v, now.f, 1e-12 * scene.size(&c))?;
+        // Where an inequality or an end stop switches there is no derivative.
+        if now.is_active != before.is_active || now.is_active != after.is_active {
+            continue;
+        }
+        if (after.f - before.f).abs() > 1.0 || (now.gradient[0] - after.gradient[0]).norm() > 0.3 {
+            continue;
+        }
+        // Short spokes and segments bend the equations: differences are as good as the
+        // gradients are small.
+        let bend = 1.0 + largest(now).max(largest(after)).powi(3);
+        let rate_now = rate(&motion, now);
+        close((after.f - before.f) / (2.0 * H), rate_now, 1e-6 * bend)?;
+        close(jet.d, rate_now, 1e-11 * bend)?;
+        let second = (rate(&late, after) - rate(&early, before)) / (2.0 * H);
+        close(jet.dd, second, 1e-5 * bend * bend)?;
+    }
+    Ok(())
+}
