@@ -1,284 +1,155 @@
-//! One picture that moves: follows each figure through the frames of a recording.
+//! One picture that moves, made from the scenes of a motion.
 
-use std::collections::BTreeMap;
+use super::cast::Cast;
+use super::curve::Curve;
+use super::document::{self, Group};
+use super::figure::Figure;
+use super::ink::{Ink, Lettering};
+use super::motion::{Motion, visibility};
+use super::scene::{Pose, Scene};
+use super::view::{Options, View};
+use super::{pen, strip};
+use std::rc::Rc;
 
-use super::figure::{Figure, Key, Layer, Outline, Placement, Shape};
-use super::motion::{Change, Motion, Track, keys};
-use super::number::push_rounded;
-
-/// How far anything may be drawn from where it is, px: less than can be seen in motion.
-const TOLERANCE: f64 = 0.06;
-/// Digits after the point of px and of degrees.
-const PLACES: usize = 2;
-/// Frames shorter than a screen's are wasted, and a minute is longer than anyone looks.
+/// A picture holds at most so many frames times parts: some ten megabytes. Beyond it frames
+/// are left out evenly, and straight lines lead over the gaps.
+const MOST_POSES: usize = 300_000;
+/// The shortest motion shown, seconds: a shorter one is a flicker.
 const SHORTEST: f64 = 1.0;
+/// The longest motion shown, seconds: more than a minute nobody watches.
 const LONGEST: f64 = 60.0;
 
-/// How long a motion is shown that took this much simulated time: a time unit is a second
-/// where that suits the eye.
-pub fn duration(time: f64) -> f64 {
-    if time > 0.0 { time.clamp(SHORTEST, LONGEST) } else { SHORTEST }
+/// A picture that moves, frame by frame.
+///
+/// It plays in any browser, without an end and without a script, and shows its first frame
+/// where nothing moves. A time unit is shown as a second, unless the whole would be too short
+/// or too long to watch. Paths lie there lightly and are drawn over as the mechanism moves.
+#[derive(Debug, Clone)]
+pub struct Animation {
+    view: View,
+    options: Options,
+    frames: Vec<(Scene, f64)>,
 }
 
-/// Who a figure is, from frame to frame: one that changes its make is another figure.
-type Identity = (Layer, Key, u16, usize);
-
-/// A figure and how it looked in each frame.
-#[derive(Debug)]
-struct Actor {
-    figure: Figure,
-    /// By frame: where it was, none where it was not there.
-    placements: Vec<Option<Placement>>,
-    /// By frame and shape: its numbers, where they are not those of `figure`.
-    forms: BTreeMap<usize, Vec<Vec<f64>>>,
-}
-
-/// All figures of a recording, as they come.
-#[derive(Debug, Default)]
-pub struct Cast {
-    actors: BTreeMap<Identity, Actor>,
-    n_frames: usize,
-}
-
-impl Cast {
-    /// Adds the figures of one more frame.
-    pub fn add(&mut self, figures: Vec<Figure>) {
-        let frame = self.n_frames;
-        for figure in figures {
-            let (layer, key, part) = figure.order();
-            let mut make = 0;
-            while let Some(actor) = self.actors.get(&(layer, key, part, make))
-                && !is_like(&actor.figure, &figure)
-            {
-                make += 1;
-            }
-            let actor = self.actors.entry((layer, key, part, make)).or_insert_with(|| Actor {
-                figure: figure.clone(),
-                placements: Vec::new(),
-                forms: BTreeMap::new(),
-            });
-            actor.placements.resize(frame, None);
-            actor.placements.push(Some(figure.placement));
-            if !is_near(&actor.figure.shapes, &figure.shapes) {
-                let numbers = figure.shapes.iter().map(|shape| shape.outline.numbers());
-                actor.forms.insert(frame, numbers.collect());
-            }
-        }
-        self.n_frames += 1;
+impl Animation {
+    /// A picture without frames.
+    pub fn new(view: View, options: &Options) -> Self {
+        Self { view, options: options.clone(), frames: Vec::new() }
     }
 
-    /// The figures from the bottom up, each with its motion; `times` from 0 to 1, one a frame.
-    pub fn finish(self, times: &[f64], duration: f64) -> Vec<(Figure, Option<Motion>)> {
-        let moving = |mut actor: Actor| {
-            actor.placements.resize(times.len(), None);
-            let tracks = actor.tracks(times);
-            (actor.figure, (!tracks.is_empty()).then_some(Motion { duration, tracks }))
-        };
-        self.actors.into_values().map(moving).collect()
-    }
-}
-
-/// Whether two figures differ in numbers only.
-fn is_like(a: &Figure, b: &Figure) -> bool {
-    a.is_off == b.is_off
-        && a.shapes.len() == b.shapes.len()
-        && a.shapes
-            .iter()
-            .zip(&b.shapes)
-            .all(|(s, t)| s.class == t.class && s.outline.is_like(&t.outline))
-}
-
-/// Whether two figures of one make look the same in their own coordinates.
-fn is_near(a: &[Shape], b: &[Shape]) -> bool {
-    a.iter().zip(b).all(|(s, t)| {
-        let (p, q) = (s.outline.numbers(), t.outline.numbers());
-        p.iter().zip(&q).all(|(x, y)| (x - y).abs() <= TOLERANCE)
-    })
-}
-
-impl Actor {
-    fn tracks(&self, times: &[f64]) -> Vec<Track> {
-        let mut tracks = Vec::new();
-        tracks.extend(visibility(
-            times,
-            &self.placements.iter().map(Option::is_some).collect::<Vec<_>>(),
-        ));
-        let placements = self.placements_throughout();
-        let places: Vec<f64> = placements.iter().flat_map(|p| [p.at.x, p.at.y]).collect();
-        let place = track(Change::Place, times, &places, 2, TOLERANCE, |row| numbers(row));
-
-        let reach = self.figure.reach();
-        let mut turns: Vec<f64> = placements.iter().map(|p| p.turn).collect();
-        unwind(&mut turns);
-        // A turn moves the far end of the figure.
-        let tolerance = TOLERANCE.atan2(reach).to_degrees();
-        let mut turn = track(Change::Turn, times, &turns, 1, tolerance, |row| numbers(row));
-        if turn.is_none() && turns[0] != 0.0 && place.is_some() {
-            // A moving place stands for the whole transform: the turn has to be said again.
-            let value = numbers(&turns[..1]);
-            turn = Some(Track {
-                change: Change::Turn,
-                times: Vec::new(),
-                values: vec![value.clone(), value],
-            });
-        }
-        // On top of a place that does not move, the first turn is there already.
-        if place.is_none()
-            && let Some(turn) = &mut turn
-        {
-            let first = self.figure.placement.turn;
-            for value in &mut turn.values {
-                let by = value.parse::<f64>().expect("a number we wrote") - first;
-                *value = numbers(&[by]);
-            }
-        }
-        tracks.extend(place);
-        tracks.extend(turn);
-        tracks.extend(self.shape_tracks(times));
-        tracks
+    /// Adds a scene at a time.
+    pub fn push(&mut self, scene: &Scene, time: f64) {
+        self.frames.push((scene.clone(), time));
     }
 
-    /// Where it was in each frame; while it is away, where it was last or will be first.
-    fn placements_throughout(&self) -> Vec<Placement> {
-        let mut last = self.figure.placement;
-        let throughout = self.placements.iter().map(|placement| {
-            last = placement.unwrap_or(last);
-            last
+    /// The picture as an SVG document.
+    pub fn finish(mut self) -> String {
+        self.leave_out();
+        let times = self.times();
+        let mut groups = self.ghosts(&times);
+        let mut cast = Cast::default();
+        for (scene, _) in &self.frames {
+            cast.add(self.view.figures(&scene.pose));
+        }
+        let mut figures = cast.finish(&times, self.duration());
+        figures.extend(self.paths(&times));
+        figures.extend(self.strip());
+        figures.sort_by_key(|(figure, _)| figure.order());
+        groups.push(Group { figures, ..Group::of(Vec::new()) });
+        document::write(self.view.page(), &groups, &self.options)
+    }
+
+    /// Leaves out as many frames as it takes.
+    fn leave_out(&mut self) {
+        let n_parts = self.frames.iter().map(|(scene, _)| scene.pose.parts.len()).max();
+        let n_poses = self.frames.len() * n_parts.unwrap_or(0);
+        let stride = n_poses.div_ceil(MOST_POSES).max(1);
+        let last = self.frames.len().saturating_sub(1);
+        let mut k = 0;
+        self.frames.retain(|_| {
+            let is_kept = k % stride == 0 || k == last;
+            k += 1;
+            is_kept
         });
-        throughout.collect()
     }
 
-    fn shape_tracks(&self, times: &[f64]) -> Vec<Track> {
-        let mut tracks = Vec::new();
-        if self.forms.is_empty() {
-            return tracks;
+    /// Simulated time from the first to the last frame.
+    fn span(&self) -> f64 {
+        match &self.frames[..] {
+            [(_, first), .., (_, last)] => last - first,
+            _ => 0.0,
         }
-        for (k, shape) in self.figure.shapes.iter().enumerate() {
-            let own = shape.outline.numbers();
-            let n = own.len();
-            let by_frame = |frame| self.forms.get(&frame).map_or(&own[..], |form| &form[k]);
-            let rows: Vec<f64> =
-                (0..times.len()).flat_map(|frame| by_frame(frame).to_vec()).collect();
-            match &shape.outline {
-                Outline::Path(path) | Outline::Pen { path, .. } => {
-                    let write = |row: &[f64]| path.write(row, PLACES);
-                    tracks.extend(track(Change::Shape(k, "d"), times, &rows, n, TOLERANCE, write));
-                }
-                Outline::Circle { .. } => {
-                    tracks.extend(columns(k, ["cx", "cy", "r"], times, &rows));
-                }
-                Outline::Text { .. } => tracks.extend(columns(k, ["x", "y"], times, &rows)),
+    }
+
+    /// How long the motion is shown, seconds.
+    fn duration(&self) -> f64 {
+        self.span().clamp(SHORTEST, LONGEST)
+    }
+
+    /// When each frame is shown, from 0 to 1.
+    fn times(&self) -> Vec<f64> {
+        let span = self.span();
+        let is_forward = self.frames.windows(2).all(|pair| pair[0].1 < pair[1].1);
+        let n_steps = self.frames.len().max(2) - 1;
+        let time = |(k, (_, time)): (usize, &(Scene, f64))| {
+            // A clock that was set back gives no order; frames do.
+            if is_forward && span > 0.0 {
+                (time - self.frames[0].1) / span
+            } else {
+                k as f64 / n_steps as f64
+            }
+        };
+        self.frames.iter().enumerate().map(time).collect()
+    }
+
+    /// Every ghost of any frame, while it is there.
+    fn ghosts(&self, times: &[f64]) -> Vec<Group> {
+        let mut all: Vec<Rc<Pose>> = Vec::new();
+        let mut is_there: Vec<Vec<bool>> = Vec::new();
+        for (frame, (scene, _)) in self.frames.iter().enumerate() {
+            for ghost in &scene.ghosts {
+                let k = all.iter().position(|other| Rc::ptr_eq(other, ghost)).unwrap_or_else(|| {
+                    all.push(ghost.clone());
+                    is_there.push(vec![false; times.len()]);
+                    all.len() - 1
+                });
+                is_there[k][frame] = true;
             }
         }
-        tracks
-    }
-}
-
-/// A track for each attribute of a shape that is one number.
-fn columns<const N: usize>(
-    shape: usize,
-    attributes: [&'static str; N],
-    times: &[f64],
-    rows: &[f64],
-) -> impl Iterator<Item = Track> {
-    attributes.into_iter().enumerate().filter_map(move |(i, attribute)| {
-        let column: Vec<f64> = rows.iter().skip(i).step_by(N).copied().collect();
-        track(Change::Shape(shape, attribute), times, &column, 1, TOLERANCE, |row| numbers(row))
-    })
-}
-
-/// The track of some numbers a frame; none if they do not change.
-pub fn track(
-    change: Change,
-    times: &[f64],
-    rows: &[f64],
-    n: usize,
-    tolerance: f64,
-    write: impl Fn(&[f64]) -> String,
-) -> Option<Track> {
-    let still = |(k, value): (usize, &f64)| (value - rows[k % n]).abs() <= tolerance;
-    if rows.iter().enumerate().all(still) {
-        return None;
-    }
-    let kept = keys(times, rows, n, tolerance);
-    // Without times frames are evenly spaced; better all of them than most with their times.
-    let is_even = is_even(times);
-    if is_even && 3 * kept.len() > 2 * times.len() {
-        let values = rows.chunks(n).map(write).collect();
-        return Some(Track { change, times: Vec::new(), values });
-    }
-    let values = kept.iter().map(|&k| write(&rows[k * n..(k + 1) * n])).collect();
-    Some(Track { change, times: kept.iter().map(|&k| times[k]).collect(), values })
-}
-
-fn is_even(times: &[f64]) -> bool {
-    let step = 1.0 / (times.len().max(2) - 1) as f64;
-    times.iter().enumerate().all(|(k, &t)| (t - k as f64 * step).abs() < 1e-3 * step)
-}
-
-/// The track of something that comes and goes; none if it is always there.
-pub fn visibility(times: &[f64], is_there: &[bool]) -> Option<Track> {
-    if is_there.iter().all(|&there| there) {
-        return None;
-    }
-    let mut track = Track { change: Change::Visibility, times: Vec::new(), values: Vec::new() };
-    for (k, &there) in is_there.iter().enumerate() {
-        if k == 0 || there != is_there[k - 1] {
-            track.times.push(times[k]);
-            track.values.push(if there { "visible" } else { "hidden" }.to_owned());
+        let mut groups = self.view.ghosts(all.iter().map(|ghost| &**ghost));
+        for (group, is_there) in groups.iter_mut().zip(&is_there) {
+            let track = visibility(times, is_there);
+            let duration = self.duration();
+            group.motion = track.map(|track| Motion { duration, tracks: vec![track] });
         }
+        groups
     }
-    Some(track)
-}
 
-/// Replaces angles by equal ones such that none is more than half a turn from the one before.
-fn unwind(degrees: &mut [f64]) {
-    for k in 1..degrees.len() {
-        let by = degrees[k] - degrees[k - 1];
-        degrees[k] -= 360.0 * (by / 360.0).round();
-    }
-}
-
-fn numbers(row: &[f64]) -> String {
-    let mut text = String::new();
-    for (k, &value) in row.iter().enumerate() {
-        if k > 0 {
-            text.push(' ');
+    /// Every path of any frame, as far as it came.
+    fn paths(&self, times: &[f64]) -> Vec<(Figure, Option<Motion>)> {
+        let mut all: Vec<(Curve, Vec<usize>)> = Vec::new();
+        for (frame, (scene, _)) in self.frames.iter().enumerate() {
+            for curve in &scene.curves {
+                let is_same = |(other, _): &(Curve, _)| other.is_continued_by(curve);
+                let k = all.iter().position(is_same).unwrap_or_else(|| {
+                    all.push((curve.clone(), vec![0; times.len()]));
+                    all.len() - 1
+                });
+                all[k].0 = curve.clone();
+                all[k].1[frame] = curve.samples.len();
+            }
         }
-        push_rounded(&mut text, value, PLACES);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn angles_go_on_through_whole_turns() {
-        let mut degrees = [170.0, -170.0, -150.0, 160.0, 80.0];
-        unwind(&mut degrees);
-        assert_eq!(degrees, [170.0, 190.0, 210.0, 160.0, 80.0]);
+        let follow = |(curve, n_samples): &(Curve, Vec<usize>)| {
+            pen::follow(curve, self.view.page(), n_samples, times, self.duration())
+        };
+        all.iter().flat_map(follow).collect()
     }
 
-    #[test]
-    fn what_stands_still_has_no_track() {
-        let times = [0.0, 0.5, 1.0];
-        let write = |row: &[f64]| numbers(row);
-        assert_eq!(
-            track(Change::Place, &times, &[1.0, 2.0, 1.0, 2.01, 1.0, 2.0], 2, 0.06, write),
-            None
-        );
-        let moved = track(Change::Place, &times, &[1.0, 2.0, 2.0, 2.0, 3.0, 2.0], 2, 0.06, write);
-        assert_eq!(moved.map(|t| t.values.join(";")), Some("1 2;3 2".to_owned()));
-    }
-
-    #[test]
-    fn what_comes_and_goes_is_hidden_between() {
-        let shown =
-            visibility(&[0.0, 0.25, 0.5, 1.0], &[false, true, true, false]).expect("a track");
-        assert_eq!(shown.values, ["hidden", "visible", "hidden"]);
-        assert_eq!(shown.times, [0.0, 0.25, 1.0]);
-        assert_eq!(visibility(&[0.0, 1.0], &[true, true]), None);
+    fn strip(&self) -> Vec<(Figure, Option<Motion>)> {
+        let none = Lettering::new();
+        let mut ink = Ink::new(self.view.page(), &[], &none);
+        let curves = self.frames.last().map_or(&[][..], |(scene, _)| &scene.curves);
+        strip::draw(&mut ink, curves);
+        ink.finish().into_iter().map(|figure| (figure, None)).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! What of a page is covered: a coarse raster that tells where a name can stand.
 
 use super::figure::{Figure, Layer, Outline};
-use super::view::View;
+use super::page::Page;
 use crate::constraint::{Point, Vector};
 
 /// Width of a cell, px.
@@ -33,8 +33,8 @@ pub struct Area {
 
 impl Cover {
     /// A page with nothing on it.
-    pub fn new(view: &View) -> Self {
-        let (width, height) = view.size();
+    pub fn new(page: &Page) -> Self {
+        let (width, height) = page.size();
         let (n_columns, n_rows) = ((width / CELL).ceil() as usize, (height / CELL).ceil() as usize);
         Self { n_columns, n_rows, cells: vec![0; n_columns * n_rows] }
     }

@@ -4,35 +4,50 @@ use std::rc::Rc;
 
 use super::figure::{Figure, Key, Layer, Path};
 use super::ink::Ink;
+use super::samples::Samples;
 use super::style::{Class, colour_number};
-use super::view::{Extent, View};
+use super::page::{Extent, Page};
 use crate::constraint::{Point, Vector};
-use crate::world::{Entity, Sample, Trace, World};
+use crate::world::{Entity, PointId, Sample, Trace, World};
 
 /// How far a drawn line may pass a sample, px: a tenth of what a screen can show.
 const TOLERANCE: f64 = 0.1;
 
 /// The path of one point.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Curve {
     /// Its place among the paths, which gives it its colour.
     pub idx: usize,
+    /// Whose it is.
+    pub point: PointId,
     /// The point's name.
     pub name: Rc<str>,
     /// Where the point was.
-    pub samples: Rc<[Sample]>,
+    pub samples: Samples,
 }
 
 impl Curve {
     /// The path at a place in the list of a world's traces.
     pub fn of(idx: usize, trace: &Trace, world: &World) -> Self {
         let name = world.name_of(Entity::Point(trace.point)).into();
-        Self { idx, name, samples: trace.samples.as_slice().into() }
+        Self { idx, point: trace.point, name, samples: Samples::new(&trace.samples) }
+    }
+
+    /// The same path somewhat later; none if it is not the same.
+    pub fn grown(&self, trace: &Trace) -> Option<Self> {
+        let is_same = self.point == trace.point;
+        let samples = is_same.then(|| self.samples.grown(&trace.samples))??;
+        Some(Self { samples, ..self.clone() })
+    }
+
+    /// Whether another holds all of this one.
+    pub fn is_continued_by(&self, other: &Self) -> bool {
+        self.samples.is_shared_with(&other.samples) && self.samples.len() <= other.samples.len()
     }
 
     /// Grows the box to hold it.
     pub fn extend(&self, extent: &mut Extent) {
-        self.samples.iter().for_each(|sample| extent.include(sample.at));
+        self.samples.get().iter().for_each(|sample| extent.include(sample.at));
     }
 
     /// The classes of its good and its missed stretches.
@@ -43,7 +58,7 @@ impl Curve {
 
     /// Draws it; the figure is empty while there are fewer than two samples.
     pub fn draw<'i>(&self, ink: &'i mut Ink) -> &'i mut Figure {
-        let paths = self.paths(ink.view);
+        let paths = self.paths(ink.page);
         ink.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
         let figure = ink.figure(Layer::Trace, super::figure::Placement::default());
         for (class, points) in self.classes().into_iter().zip(paths) {
@@ -55,11 +70,11 @@ impl Curve {
     }
 
     /// The stretches that met their tolerance, and those that did not.
-    fn paths(&self, view: &View) -> [Path; 2] {
+    fn paths(&self, page: &Page) -> [Path; 2] {
         let mut paths = [Path::default(), Path::default()];
-        for run in runs(&self.samples) {
+        for run in runs(&self.samples.get()) {
             let is_missed = run[1].missed;
-            let points: Vec<Point> = run.iter().map(|sample| view.px(sample.at)).collect();
+            let points: Vec<Point> = run.iter().map(|sample| page.px(sample.at)).collect();
             paths[usize::from(is_missed)].append(Path::polyline(thin(&points, TOLERANCE)));
         }
         paths

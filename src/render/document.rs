@@ -10,9 +10,9 @@ use svg::node::element::{Element, Style};
 use super::figure::{Figure, Outline, Shape};
 use super::motion::{Change, Motion, Track};
 use super::number::rounded;
-use super::stage::Options;
+use super::view::Options;
 use super::style::{self, PAPER};
-use super::view::{STRIP, View};
+use super::page::{STRIP, Page};
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -41,9 +41,9 @@ impl Group {
 }
 
 /// The document of a page.
-pub fn write(view: &View, groups: &[Group], options: &Options) -> String {
-    let (width, height) = view.size();
-    let height = height + if view.is_empty() { 0.0 } else { STRIP };
+pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
+    let (width, height) = page.size();
+    let height = height + if page.is_empty() { 0.0 } else { STRIP };
     let (width, height) = (rounded(width, PLACES), rounded(height, PLACES));
 
     let mut root = Element::new("svg");
@@ -65,7 +65,7 @@ pub fn write(view: &View, groups: &[Group], options: &Options) -> String {
     let shapes = groups.iter().flat_map(|group| &group.figures);
     let classes: BTreeSet<_> =
         shapes.flat_map(|(figure, _)| figure.shapes.iter().map(|shape| shape.class)).collect();
-    root.append(Style::new(style::sheet(&classes, view.mark())));
+    root.append(Style::new(style::sheet(&classes, page.mark())));
 
     let mut paper = Element::new("rect");
     paper.assign("class", "paper");

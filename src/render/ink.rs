@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::figure::{Figure, Key, Layer, Placement};
-use super::view::View;
+use super::page::Page;
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// Where the name of each point stands, from the point, px. A point that is missing here
@@ -15,7 +15,7 @@ pub type Lettering = BTreeMap<PointIdx, Vector>;
 #[derive(Debug)]
 pub struct Ink<'a> {
     /// The page.
-    pub view: &'a View,
+    pub page: &'a Page,
     /// Where the points are, by handle.
     pub at: &'a [Point],
     /// Where names go.
@@ -29,9 +29,9 @@ pub struct Ink<'a> {
 
 impl<'a> Ink<'a> {
     /// An empty page.
-    pub fn new(view: &'a View, at: &'a [Point], lettering: &'a Lettering) -> Self {
+    pub fn new(page: &'a Page, at: &'a [Point], lettering: &'a Lettering) -> Self {
         Self {
-            view,
+            page,
             at,
             lettering,
             figures: Vec::new(),
@@ -68,12 +68,12 @@ impl<'a> Ink<'a> {
 
     /// Where a point lies on the page.
     pub fn px(&self, p: PointIdx) -> Point {
-        self.view.px(self.at[p as usize])
+        self.page.px(self.at[p as usize])
     }
 
     /// A size of marks on this page, px.
     pub fn size(&self, full: f64) -> f64 {
-        full * self.view.mark()
+        full * self.page.mark()
     }
 
     /// The figures, from the bottom up.

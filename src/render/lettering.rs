@@ -7,7 +7,7 @@ use super::ink::{Ink, Lettering};
 use super::parts::{Form, Joint};
 use super::scene::{Pose, Scene};
 use super::style::{self, JOINT};
-use super::view::View;
+use super::page::Page;
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// With more points than this, names of instances and rows (`left.P`, `p[3]`) are left out.
@@ -21,7 +21,7 @@ const N_DIRECTIONS: u32 = 16;
 
 /// Finds a place for each name that suits all of these scenes at once: in a motion a name
 /// keeps its place beside its point.
-pub fn place(scenes: &[&Scene], view: &View) -> Lettering {
+pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
     let mut placed = Lettering::new();
     let Some(first) = scenes.first() else {
         return placed;
@@ -31,12 +31,12 @@ pub fn place(scenes: &[&Scene], view: &View) -> Lettering {
         return placed;
     }
     let mut pages: Vec<(Cover, &Pose)> =
-        scenes.iter().map(|scene| (cover(scene, view), &scene.pose)).collect();
+        scenes.iter().map(|scene| (cover(scene, page), &scene.pose)).collect();
     for joint in names {
-        let letter = style::letter(view.mark());
+        let letter = style::letter(page.mark());
         let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.42 * letter);
-        let found = candidates(half, view.mark())
-            .filter_map(|offset| Some((cost(&pages, joint.point, half, view, offset)?, offset)))
+        let found = candidates(half, page.mark())
+            .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)))
             .min_by_key(|(cost, _)| *cost);
         let Some((cost, offset)) = found else { continue };
         // Letters half hidden by parts say nothing.
@@ -45,7 +45,7 @@ pub fn place(scenes: &[&Scene], view: &View) -> Lettering {
             continue;
         }
         for (cover, pose) in &mut pages {
-            let middle = view.px(pose.at[joint.point as usize]) + offset;
+            let middle = page.px(pose.at[joint.point as usize]) + offset;
             cover.add_area(Area { middle, half: half + Vector::new(2.0, 2.0) });
         }
         placed.insert(joint.point, offset);
@@ -69,15 +69,15 @@ fn names(pose: &Pose) -> Vec<&Joint> {
 }
 
 /// What a scene covers of its page.
-fn cover(scene: &Scene, view: &View) -> Cover {
-    let mut cover = Cover::new(view);
+fn cover(scene: &Scene, page: &Page) -> Cover {
+    let mut cover = Cover::new(page);
     let none = Lettering::new();
-    let mut ink = Ink::new(view, &scene.pose.at, &none);
+    let mut ink = Ink::new(page, &scene.pose.at, &none);
     scene.pose.parts.iter().for_each(|part| part.draw(&mut ink));
     for curve in &scene.curves {
         curve.draw(&mut ink);
     }
-    ink.finish().iter().for_each(|figure| cover.add(figure, view.mark()));
+    ink.finish().iter().for_each(|figure| cover.add(figure, page.mark()));
     cover
 }
 
@@ -108,12 +108,12 @@ fn cost(
     pages: &[(Cover, &Pose)],
     point: PointIdx,
     half: Vector,
-    view: &View,
+    page: &Page,
     offset: Vector,
 ) -> Option<u32> {
     let mut sum = 0;
     for (cover, pose) in pages {
-        let at: Point = view.px(pose.at[point as usize]);
+        let at: Point = page.px(pose.at[point as usize]);
         sum += cover.cost(Area { middle: at + offset, half })?;
     }
     Some(sum)

@@ -1,15 +1,15 @@
 //! Pictures of a world: stills and moving ones, as SVG.
 //!
-//! A [`Scene`] is what there is to draw, as plain data; a [`Stage`] says what part of the plane
-//! the page shows and where the names stand; figures in px follow from both, and a document
-//! from the figures. Nothing here changes a world or opens a file, and the same scene gives
-//! the same bytes.
+//! A [`Scene`] is what there is to draw, as plain data; a [`View`] says what part of the plane
+//! is shown and where the names stand; figures in px follow from both, and a document from
+//! the figures. Nothing here changes a world or opens a file, and the same scene gives the
+//! same bytes.
 //!
 //! ```
 //! use linkwork::render::{Options, Scene, svg};
 //! use linkwork::world::World;
 //!
-//! let picture = svg(&Scene::of(&World::new()), &Options::default());
+//! let picture = svg(&Scene::new(&World::new()), &Options::default());
 //! assert!(picture.starts_with("<svg"));
 //! ```
 
@@ -18,6 +18,7 @@ mod curve;
 mod groups;
 mod parts;
 mod plan;
+mod samples;
 mod scene;
 
 // From there to figures on a page.
@@ -26,25 +27,20 @@ mod figure;
 mod ink;
 mod lettering;
 mod number;
-mod stage;
+mod page;
 mod strip;
 mod style;
 mod view;
 
 // Figures in motion.
 mod animation;
+mod cast;
 mod motion;
 mod pen;
-mod recording;
 
 mod document;
 
+pub use animation::Animation;
 pub use number::rounded;
-pub use recording::Recording;
 pub use scene::Scene;
-pub use stage::{Options, Stage};
-
-/// A scene as an SVG document, fitted to the page.
-pub fn svg(scene: &Scene, options: &Options) -> String {
-    Stage::of(&[scene]).svg(scene, options)
-}
+pub use view::{Options, View, svg, svg_with_view};

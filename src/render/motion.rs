@@ -43,10 +43,54 @@ impl Change {
     }
 }
 
+/// The track of some numbers a frame; none if they do not change.
+pub fn track(
+    change: Change,
+    times: &[f64],
+    rows: &[f64],
+    n: usize,
+    tolerance: f64,
+    write: impl Fn(&[f64]) -> String,
+) -> Option<Track> {
+    let still = |(k, value): (usize, &f64)| (value - rows[k % n]).abs() <= tolerance;
+    if rows.iter().enumerate().all(still) {
+        return None;
+    }
+    let kept = keys(times, rows, n, tolerance);
+    // Without times frames are evenly spaced; better all of them than most with their times.
+    let is_even = is_even(times);
+    if is_even && 3 * kept.len() > 2 * times.len() {
+        let values = rows.chunks(n).map(write).collect();
+        return Some(Track { change, times: Vec::new(), values });
+    }
+    let values = kept.iter().map(|&k| write(&rows[k * n..(k + 1) * n])).collect();
+    Some(Track { change, times: kept.iter().map(|&k| times[k]).collect(), values })
+}
+
+fn is_even(times: &[f64]) -> bool {
+    let step = 1.0 / (times.len().max(2) - 1) as f64;
+    times.iter().enumerate().all(|(k, &t)| (t - k as f64 * step).abs() < 1e-3 * step)
+}
+
+/// The track of something that comes and goes; none if it is always there.
+pub fn visibility(times: &[f64], is_there: &[bool]) -> Option<Track> {
+    if is_there.iter().all(|&there| there) {
+        return None;
+    }
+    let mut track = Track { change: Change::Visibility, times: Vec::new(), values: Vec::new() };
+    for (k, &there) in is_there.iter().enumerate() {
+        if k == 0 || there != is_there[k - 1] {
+            track.times.push(times[k]);
+            track.values.push(if there { "visible" } else { "hidden" }.to_owned());
+        }
+    }
+    Some(track)
+}
+
 /// The fewest of the rows of `values` (one a frame, `n` numbers each) from which straight
 /// lines in `times` give all the others within `tolerance`: the frames to keep, first and
 /// last among them. One pass, in the manner of a swinging door.
-pub fn keys(times: &[f64], values: &[f64], n: usize, tolerance: f64) -> Vec<usize> {
+fn keys(times: &[f64], values: &[f64], n: usize, tolerance: f64) -> Vec<usize> {
     let n_frames = times.len();
     if n_frames < 2 {
         return (0..n_frames).collect();
@@ -105,5 +149,26 @@ mod tests {
         check("even", &|t| [100.0 * t, -7.0 * t], 2);
         check("circle", &|t| [200.0 * libm::cos(6.3 * t), 200.0 * libm::sin(6.3 * t)], 250);
         check("jump", &|t| [if t < 0.5 { 0.0 } else { 90.0 }, 0.0], 4);
+    }
+
+    #[test]
+    fn what_stands_still_has_no_track() {
+        let times = [0.0, 0.5, 1.0];
+        let write = |row: &[f64]| format!("{row:?}");
+        assert_eq!(
+            track(Change::Place, &times, &[1.0, 2.0, 1.0, 2.01, 1.0, 2.0], 2, 0.06, write),
+            None
+        );
+        let moved = track(Change::Place, &times, &[1.0, 2.0, 2.0, 2.0, 3.0, 2.0], 2, 0.06, write);
+        assert_eq!(moved.map(|t| t.values.join(";")), Some("[1.0, 2.0];[3.0, 2.0]".to_owned()));
+    }
+
+    #[test]
+    fn what_comes_and_goes_is_hidden_between() {
+        let shown =
+            visibility(&[0.0, 0.25, 0.5, 1.0], &[false, true, true, false]).expect("a track");
+        assert_eq!(shown.values, ["hidden", "visible", "hidden"]);
+        assert_eq!(shown.times, [0.0, 0.25, 1.0]);
+        assert_eq!(visibility(&[0.0, 1.0], &[true, true]), None);
     }
 }

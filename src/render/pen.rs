@@ -1,13 +1,12 @@
 //! A path in a moving picture: it lies there lightly and is drawn over as its point moves.
 
-use super::animation::track;
 use super::curve::Curve;
 use super::figure::{Figure, Outline};
 use super::ink::{Ink, Lettering};
-use super::motion::{Change, Motion};
+use super::motion::{Change, Motion, track};
 use super::number::rounded;
 use super::style::{Class, colour_number};
-use super::view::View;
+use super::page::Page;
 
 /// How far the pen may be from its point, px.
 const TOLERANCE: f64 = 0.3;
@@ -15,15 +14,15 @@ const TOLERANCE: f64 = 0.3;
 /// The figures of a path of which there were `n_samples` in each frame.
 pub fn follow(
     curve: &Curve,
-    view: &View,
+    page: &Page,
     n_samples: &[usize],
     times: &[f64],
     duration: f64,
 ) -> Vec<(Figure, Option<Motion>)> {
     let none = Lettering::new();
-    let mut ink = Ink::new(view, &[], &none);
+    let mut ink = Ink::new(page, &[], &none);
     let whole = curve.draw(&mut ink).clone();
-    let lengths = lengths(curve, view);
+    let lengths = lengths(curve, page);
     let length = lengths.last().copied().unwrap_or(0.0);
     // A dash pattern begins anew at each stretch: only a path of one lends itself to it.
     let [shape] = &whole.shapes[..] else {
@@ -47,13 +46,13 @@ pub fn follow(
 }
 
 /// How long the path is up to each of its samples, px.
-fn lengths(curve: &Curve, view: &View) -> Vec<f64> {
+fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
     let mut length = 0.0;
     let mut last = None;
     let up_to = |at| {
-        let here = view.px(at);
+        let here = page.px(at);
         length += last.replace(here).map_or(0.0, |before| here.distance(before));
         length
     };
-    curve.samples.iter().map(|sample| sample.at).map(up_to).collect()
+    curve.samples.get().iter().map(|sample| sample.at).map(up_to).collect()
 }

@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::figure::{Key, Layer, Path, Placement};
 use super::ink::Ink;
 use super::style::{BASE_LINE, CAPTION, Class, text_width};
-use super::view::{STRIP, View};
+use super::page::{STRIP, Page};
 use crate::constraint::Point;
 use crate::diag::format_number;
 
@@ -19,14 +19,14 @@ const GAP: f64 = 7.0;
 
 /// Draws the strip.
 pub fn draw(ink: &mut Ink, curves: &[Curve]) {
-    let view = *ink.view;
-    if view.is_empty() {
+    let page = *ink.page;
+    if page.is_empty() {
         return;
     }
     ink.begin(Key::Strip, false, None);
-    let (width, height) = view.size();
+    let (width, height) = page.size();
     let middle = height + 0.5 * STRIP - 4.0;
-    let free = draw_scale(ink, &view, middle);
+    let free = draw_scale(ink, &page, middle);
     // One path needs no legend: there is nothing to tell it from.
     if curves.len() > 1 {
         draw_legend(ink, curves, middle, width - EDGE - free - 3.0 * GAP);
@@ -34,11 +34,11 @@ pub fn draw(ink: &mut Ink, curves: &[Curve]) {
 }
 
 /// Draws the scale on the left; gives how far it reaches, px.
-fn draw_scale(ink: &mut Ink, view: &View, middle: f64) -> f64 {
-    let Some(length) = round_length(LONGEST / view.scale()) else {
+fn draw_scale(ink: &mut Ink, page: &Page, middle: f64) -> f64 {
+    let Some(length) = round_length(LONGEST / page.scale()) else {
         return EDGE;
     };
-    let (px, tick) = (view.length(length), 3.5);
+    let (px, tick) = (page.length(length), 3.5);
     let mut line = Path::polyline(
         [(0.0, -tick), (0.0, 0.0), (px, 0.0), (px, -tick)].map(|(x, y)| Point::new(x, y)),
     );
@@ -75,7 +75,7 @@ fn draw_legend(ink: &mut Ink, curves: &[Curve], middle: f64, free: f64) {
     while n_shown > 0 && total(n_shown) > free {
         n_shown -= 1;
     }
-    let mut x = ink.view.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
+    let mut x = ink.page.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
     let base_line = BASE_LINE * CAPTION;
     for curve in &curves[..n_shown] {
         let [class, _] = curve.classes();

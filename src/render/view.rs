@@ -1,174 +1,100 @@
-//! What part of the plane a page shows, and where on the page each point of it lies.
+//! A view: what all pictures of one mechanism in motion share, so that they can be laid one
+//! on the other.
 
-use crate::constraint::{Point, Vector};
+use super::document::{self, Group};
+use super::figure::Figure;
+use super::ink::{Ink, Lettering};
+use super::lettering;
+use super::page::{Extent, Page};
+use super::scene::{Pose, Scene};
+use super::strip;
 
-/// The long side of a page, px.
-const LONG_SIDE: f64 = 800.0;
-/// The least short side, px: a row of collinear points still gets a page one can look at.
-const SHORT_SIDE: f64 = 200.0;
-/// Free space around the mechanism, px: room for ground triangles, motors and names, which
-/// have a size on the page and none in the plane.
-pub const MARGIN: f64 = 48.0;
-/// The strip below the drawing with the scale and the legend, px.
-pub const STRIP: f64 = 34.0;
+/// Names are placed to suit so many scenes of a motion.
+const N_PROBES: usize = 16;
 
-/// The smallest box around what was put into it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Extent {
-    corners: Option<(Point, Point)>,
+/// What a picture says besides the drawing.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The title of the document.
+    pub title: Option<String>,
+    /// What made it and from what: keys and values, kept in the document and not drawn.
+    pub receipt: Vec<(String, String)>,
 }
 
-impl Extent {
-    /// Grows to hold a point.
-    pub fn include(&mut self, p: Point) {
-        let (lo, hi) = self.corners.unwrap_or((p, p));
-        self.corners = Some((
-            Point::new(lo.x.min(p.x), lo.y.min(p.y)),
-            Point::new(hi.x.max(p.x), hi.y.max(p.y)),
-        ));
-    }
-
-    /// Grows to hold a circle.
-    pub fn include_circle(&mut self, centre: Point, radius: f64) {
-        let r = Vector::new(radius, radius);
-        for corner in [centre - r, centre + r] {
-            if corner.is_finite() {
-                self.include(corner);
-            }
-        }
-    }
-
-    /// The lower left and the upper right corner; none if nothing was put in.
-    pub const fn corners(&self) -> Option<(Point, Point)> {
-        self.corners
-    }
-}
-
-/// A map from the plane (y up, world units) to a page (y down, px), the same scale on both
-/// axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A part of the plane, and where on it each name stands.
+#[derive(Debug, Clone)]
 pub struct View {
-    /// px per world unit.
-    scale: f64,
-    /// What lies in the middle of the drawing.
-    centre: Point,
-    /// Size of the page without the strip, px.
-    width: f64,
-    height: f64,
-    /// How large marks and strokes are drawn; 1 where there is room.
-    mark: f64,
-    is_empty: bool,
+    page: Page,
+    lettering: Lettering,
 }
 
 impl View {
-    /// The view that shows all of `extent`, as large as the page allows.
-    pub fn fit(extent: &Extent) -> Self {
-        let (lo, hi) = extent.corners.unwrap_or((Point::ORIGIN, Point::ORIGIN));
-        // Halved before they are combined: the corners may be as far apart as f64 reaches.
-        let centre = Point::new(0.5 * lo.x + 0.5 * hi.x, 0.5 * lo.y + 0.5 * hi.y);
-        let (half_x, half_y) = (0.5 * hi.x - 0.5 * lo.x, 0.5 * hi.y - 0.5 * lo.y);
-        let free = 0.5 * LONG_SIDE - MARGIN;
-        let fitted = free / half_x.max(half_y);
-        // All in one place, or closer together than a scale can express.
-        let scale = if fitted.is_finite() && fitted > 0.0 { fitted } else { 1.0 };
-        let side = |half: f64| (2.0 * (half * scale + MARGIN)).clamp(SHORT_SIDE, LONG_SIDE).round();
-        Self {
-            scale,
-            centre,
-            width: side(half_x),
-            height: side(half_y),
-            mark: 1.0,
-            is_empty: extent.corners.is_none(),
+    /// The view that shows all of these scenes.
+    pub fn of<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> Self {
+        let scenes: Vec<&Scene> = scenes.into_iter().collect();
+        let mut extent = Extent::default();
+        for (k, scene) in scenes.iter().enumerate() {
+            scene.pose.extend(&mut extent);
+            scene.extend_by_past(scenes.get(k + 1).copied(), &mut extent);
         }
+        let bars = scenes.first().map_or(0.0, |scene| typical_bar(&scene.pose));
+        let page = Page::fit(&extent);
+        let page = if bars > 0.0 { page.with_bars(bars) } else { page };
+        let n_probes = scenes.len().min(N_PROBES);
+        let probe = |k: usize| scenes[k * (scenes.len() - 1) / (n_probes - 1).max(1)];
+        let probes: Vec<&Scene> = (0..n_probes).map(probe).collect();
+        Self { page, lettering: lettering::place(&probes, &page) }
     }
 
-    /// The same view with marks and strokes in proportion to bars of `typical` length, world
-    /// units, so that a crowd of short bars does not become a blot.
-    #[must_use]
-    pub fn with_bars(self, typical: f64) -> Self {
-        // A bar should be some seven times as long as it is wide, and no finer than a hair.
-        const FULL_SIZE: f64 = 56.0;
-        const FINEST: f64 = 0.3;
-        Self { mark: (self.length(typical) / FULL_SIZE).clamp(FINEST, 1.0), ..self }
+    pub(super) const fn page(&self) -> &Page {
+        &self.page
     }
 
-    /// Where a point lies on the page.
-    pub fn px(&self, p: Point) -> Point {
-        let v = p - self.centre;
-        Point::new(0.5 * self.width + v.x * self.scale, 0.5 * self.height - v.y * self.scale)
+    /// A pose as figures.
+    pub(super) fn figures(&self, pose: &Pose) -> Vec<Figure> {
+        let mut ink = Ink::new(&self.page, &pose.at, &self.lettering);
+        pose.parts.iter().for_each(|part| part.draw(&mut ink));
+        ink.finish()
     }
 
-    /// How long something is on the page, px.
-    pub fn length(&self, world: f64) -> f64 {
-        world * self.scale
-    }
-
-    /// px per world unit.
-    pub const fn scale(&self) -> f64 {
-        self.scale
-    }
-
-    /// How large marks and strokes are drawn, at most 1.
-    pub const fn mark(&self) -> f64 {
-        self.mark
-    }
-
-    /// Size of the drawing without the strip below it, px.
-    pub const fn size(&self) -> (f64, f64) {
-        (self.width, self.height)
-    }
-
-    /// Whether there is nothing to see.
-    pub const fn is_empty(&self) -> bool {
-        self.is_empty
+    /// Poses of the past, the fainter the older.
+    pub(super) fn ghosts<'a>(&self, ghosts: impl ExactSizeIterator<Item = &'a Pose>) -> Vec<Group> {
+        const OLDEST: f64 = 0.14;
+        const NEWEST: f64 = 0.45;
+        let none = Lettering::new();
+        let n = ghosts.len();
+        let group = |(k, ghost): (usize, &Pose)| {
+            let mut ink = Ink::new(&self.page, &ghost.at, &none);
+            ghost.parts.iter().for_each(|part| part.draw(&mut ink));
+            let age = (k + 1) as f64 / n as f64;
+            let figures = ink.finish().into_iter().filter(Figure::is_solid).collect();
+            Group { opacity: OLDEST + (NEWEST - OLDEST) * age, ..Group::of(figures) }
+        };
+        ghosts.enumerate().map(group).collect()
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// A scene as an SVG document, fitted to the page.
+pub fn svg(scene: &Scene, options: &Options) -> String {
+    svg_with_view(scene, &View::of([scene]), options)
+}
 
-    fn view_of(points: &[(f64, f64)]) -> View {
-        let mut extent = Extent::default();
-        points.iter().for_each(|&(x, y)| extent.include(Point::new(x, y)));
-        View::fit(&extent)
+/// A scene as an SVG document, one of several with a view in common.
+pub fn svg_with_view(scene: &Scene, view: &View, options: &Options) -> String {
+    let mut groups = view.ghosts(scene.ghosts.iter().map(|ghost| &**ghost));
+    let mut ink = Ink::new(&view.page, &scene.pose.at, &view.lettering);
+    scene.pose.parts.iter().for_each(|part| part.draw(&mut ink));
+    for curve in &scene.curves {
+        curve.draw(&mut ink);
     }
+    strip::draw(&mut ink, &scene.curves);
+    groups.push(Group::of(ink.finish()));
+    document::write(&view.page, &groups, options)
+}
 
-    #[test]
-    fn everything_is_on_the_page_whatever_the_scale() {
-        for scale in [1e-300, 1e-9, 1.0, 1e6, 1e300] {
-            let corners = [(-scale, 0.0), (3.0 * scale, scale), (0.0, -2.0 * scale)];
-            let view = view_of(&corners);
-            let (width, height) = view.size();
-            for (x, y) in corners {
-                let p = view.px(Point::new(x, y));
-                assert!(p.x >= MARGIN - 1.0 && p.x <= width - MARGIN + 1.0, "{p:?}");
-                assert!(p.y >= MARGIN - 1.0 && p.y <= height - MARGIN + 1.0, "{p:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn degenerate_boxes_have_a_page() {
-        for corners in [
-            &[][..],
-            &[(5.0, -7.0)],
-            &[(0.0, 0.0), (0.0, 5e-324)],
-            &[(f64::MAX, 0.0), (-f64::MAX, 1.0)],
-        ] {
-            let view = view_of(corners);
-            let (width, height) = view.size();
-            assert!(width >= SHORT_SIDE && height >= SHORT_SIDE);
-            for &(x, y) in corners {
-                assert!(view.px(Point::new(x, y)).is_finite());
-            }
-        }
-    }
-
-    #[test]
-    fn up_is_up() {
-        let view = view_of(&[(0.0, 0.0), (1.0, 1.0)]);
-        let (low, high) = (view.px(Point::ORIGIN), view.px(Point::new(1.0, 1.0)));
-        assert!(high.y < low.y && high.x > low.x);
-    }
+/// The length of a bar that a quarter of all bars fall short of; 0 if there is none.
+fn typical_bar(pose: &Pose) -> f64 {
+    let mut lengths: Vec<f64> = pose.bar_lengths().collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 4).copied().unwrap_or(0.0)
 }

@@ -24,7 +24,7 @@ impl Draw for Cord {
     fn draw(&self, ink: &mut Ink) {
         let [a, b] = self.points.map(|p| ink.px(p));
         let span = Span::new(a, b).length;
-        let slack = (ink.view.length(self.length) - span).max(0.0);
+        let slack = (ink.page.length(self.length) - span).max(0.0);
         // A shallow parabola over a span l is longer by 8/3 sag^2 / l. A cord much longer than
         // its span would hang off the page: what is drawn says that it is slack, no more.
         let sag = (0.375 * slack * span).sqrt().min(0.22 * span);

@@ -6,7 +6,7 @@ use crate::constraint::{Point, PointIdx, Vector};
 use crate::render::figure::{Figure, Layer, Path, Placement};
 use crate::render::ink::Ink;
 use crate::render::style::{Class, MOTOR};
-use crate::render::view::Extent;
+use crate::render::page::Extent;
 
 /// Which way a motor turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

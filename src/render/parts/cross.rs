@@ -5,7 +5,7 @@ use crate::constraint::{Point, PointIdx};
 use crate::render::figure::{Layer, Path, Placement};
 use crate::render::ink::Ink;
 use crate::render::style::Class;
-use crate::render::view::Extent;
+use crate::render::page::Extent;
 
 /// A target and the point that belongs there.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl Draw for Cross {
 
     fn draw(&self, ink: &mut Ink) {
         let arm = ink.size(12.0);
-        let target = ink.view.px(self.target);
+        let target = ink.page.px(self.target);
         let mut cross = Path::along_x(-arm, arm);
         cross.move_to(Point::new(0.0, -arm)).line_to(Point::new(0.0, arm));
         let path = Path::segment(ink.px(self.point), target);

@@ -46,7 +46,7 @@ impl Draw for Joint {
         }
         let radius = ink.size(if self.is_driven { 0.75 * JOINT } else { JOINT });
         let offset = ink.lettering.get(&self.point).copied();
-        let to_base_line = Vector::new(0.0, BASE_LINE * letter(ink.view.mark()));
+        let to_base_line = Vector::new(0.0, BASE_LINE * letter(ink.page.mark()));
         let joint = ink.figure(Layer::Joint, at).circle(Class::Joint, Point::ORIGIN, radius);
         if let Some(offset) = offset {
             joint.text(Class::Name, (offset + to_base_line).to_point(), self.name.clone());

@@ -43,7 +43,7 @@ use std::rc::Rc;
 
 use super::figure::Key;
 use super::ink::Ink;
-use super::view::Extent;
+use super::page::Extent;
 use crate::constraint::{Point, PointIdx};
 
 /// What every form answers.

@@ -26,7 +26,7 @@ impl Draw for Telescope {
         let span = Span::between(ink, a, b);
         // Some of the inner stage always shows, and the outer one is never a stump, so that
         // the two can be told apart whatever the bounds.
-        let outer = ink.view.length(self.outer).clamp(0.35 * span.length, 0.72 * span.length);
+        let outer = ink.page.length(self.outer).clamp(0.35 * span.length, 0.72 * span.length);
         let sleeve = Span { length: outer, ..span };
         ink.figure(Layer::Bar, span.placement)
             .path(Class::PistonEdge, Path::along_x(outer, span.length))

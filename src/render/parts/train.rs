@@ -9,7 +9,7 @@ use crate::render::figure::{Layer, Path, Placement};
 use crate::render::groups::Groups;
 use crate::render::ink::Ink;
 use crate::render::style::Class;
-use crate::render::view::Extent;
+use crate::render::page::Extent;
 
 /// From tooth to tooth, px, where there is room for it.
 const PITCH: f64 = 15.0;
@@ -204,7 +204,7 @@ impl Train {
 
     /// The wheels on the page, teeth in gaps; none where pitch circles are drawn instead.
     fn rims(&self, ink: &Ink, radii: &[f64]) -> Option<Vec<Rim>> {
-        let px: Vec<f64> = radii.iter().map(|&r| ink.view.length(r)).collect();
+        let px: Vec<f64> = radii.iter().map(|&r| ink.page.length(r)).collect();
         let n_teeth = self.n_teeth(&px, ink.size(PITCH))?;
         let mut rims: Vec<Rim> = (0..self.wheels.len())
             .map(|k| {
@@ -299,7 +299,7 @@ impl Draw for Train {
         for k in order {
             let wheel = &self.wheels[k];
             let (centre, marker) = (ink.px(wheel.centre), ink.px(wheel.marker));
-            let radius = ink.view.length(radii[k]);
+            let radius = ink.page.length(radii[k]);
             match &rims {
                 Some(rims) => draw_toothed(ink, &rims[k], wheel.is_ring),
                 None => draw_plain(ink, centre, radius, wheel.is_ring),
@@ -340,12 +340,12 @@ fn draw_plain(ink: &mut Ink, centre: Point, radius: f64, is_ring: bool) {
 mod tests {
     use super::*;
     use crate::render::ink::Lettering;
-    use crate::render::view::View;
+    use crate::render::page::Page;
 
-    fn view_over(at: &[Point], train: &Train) -> View {
+    fn page_over(at: &[Point], train: &Train) -> Page {
         let mut extent = Extent::default();
         train.extend(at, &mut extent);
-        View::fit(&extent)
+        Page::fit(&extent)
     }
 
     fn one_train(points: [PointIdx; 4], ratio: f64, at: &[Point]) -> Train {
@@ -365,9 +365,9 @@ mod tests {
                     Point::new(x2, 0.4),
                 ];
                 let train = one_train([0, 1, 2, 3], ratio, &at);
-                let view = view_over(&at, &train);
+                let page = page_over(&at, &train);
                 let lettering = Lettering::default();
-                let ink = Ink::new(&view, &at, &lettering);
+                let ink = Ink::new(&page, &at, &lettering);
                 let rims = train.rims(&ink, &train.radii(&at)).expect("room for teeth");
                 assert_eq!(rims[1].n_teeth / rims[0].n_teeth, ratio.abs());
                 let [from, to] = contact(rims[0], rims[1], ratio < 0.0);
