@@ -30,7 +30,10 @@ fn end_on(error: &io::Error) {
 /// Shows a problem, underlined in its text.
 pub fn show(problem: &Diagnostic, sources: &Sources) {
     flush();
-    let text = render(problem, sources, paint());
+    let mut text = render(problem, sources, paint());
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
     // Nobody is left to tell if standard error is gone.
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }

@@ -10,12 +10,9 @@ use crate::constraint::{
 use crate::diag::{SourceId, Span, format_number};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
-    Name, Node as Syntax, Pair, Range, Relation, Statement,
+    Name, Node as Syntax, Pair, Range, Relation,
 };
-use crate::lang::print_statement;
-use crate::world::{
-    ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record, Value,
-};
+use crate::world::{ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record};
 
 /// The place of what no text says.
 pub(super) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -43,7 +40,7 @@ pub(super) fn vector(x: f64, y: f64) -> Expr {
 
 /// The text of a command.
 pub(super) fn text_of(command: Command) -> String {
-    print_statement(&Statement { command, span: NOWHERE })
+    command.to_string()
 }
 
 impl Session {
@@ -235,7 +232,6 @@ impl Session {
             }
         })
     }
-
 }
 
 fn sign_of(operator: Operator) -> BinaryOp {

@@ -31,10 +31,12 @@ mod struggle;
 mod successive;
 
 // Their face.
+mod memory;
 mod settings;
 mod solver;
 mod status;
 
+pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
 pub use status::{Budget, Counters, Report, Status};
