@@ -108,7 +108,7 @@ impl Animation {
         let mut is_there: Vec<Vec<bool>> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for ghost in &scene.ghosts {
-                let k = all.iter().position(|other| Rc::ptr_eq(other, ghost)).unwrap_or_else(|| {
+                let k = all.iter().position(|other| other == ghost).unwrap_or_else(|| {
                     all.push(ghost.clone());
                     is_there.push(vec![false; times.len()]);
                     all.len() - 1

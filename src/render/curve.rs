@@ -4,14 +4,17 @@ use std::rc::Rc;
 
 use super::figure::{Figure, Key, Layer, Path};
 use super::ink::Ink;
+use super::page::{Extent, Page};
 use super::samples::Samples;
 use super::style::{Class, colour_number};
-use super::page::{Extent, Page};
 use crate::constraint::{Point, Vector};
 use crate::world::{Entity, PointId, Sample, Trace, World};
 
 /// How far a drawn line may pass a sample, px: a tenth of what a screen can show.
 const TOLERANCE: f64 = 0.1;
+
+/// A path longer than this crosses itself many times over and is drawn finer, px.
+const LONG: f64 = 6000.0;
 
 /// The path of one point.
 #[derive(Debug, Clone)]
@@ -40,9 +43,13 @@ impl Curve {
         Some(Self { samples, ..self.clone() })
     }
 
-    /// Whether another holds all of this one.
+    /// Whether another holds all of this one. Paths are cut short or grow: the last sample
+    /// answers for those before.
     pub fn is_continued_by(&self, other: &Self) -> bool {
-        self.samples.is_shared_with(&other.samples) && self.samples.len() <= other.samples.len()
+        let n = self.samples.len();
+        self.point == other.point
+            && n <= other.samples.len()
+            && (n == 0 || self.samples.get()[n - 1] == other.samples.get()[n - 1])
     }
 
     /// Grows the box to hold it.
@@ -50,18 +57,20 @@ impl Curve {
         self.samples.get().iter().for_each(|sample| extent.include(sample.at));
     }
 
-    /// The classes of its good and its missed stretches.
-    pub fn classes(&self) -> [Class; 2] {
-        let colour = colour_number(self.idx);
-        [Class::Trace(colour), Class::Missed(colour)]
+    /// The class it has in a legend.
+    pub const fn class(&self) -> Class {
+        Class::Trace(colour_number(self.idx))
     }
 
     /// Draws it; the figure is empty while there are fewer than two samples.
     pub fn draw<'i>(&self, ink: &'i mut Ink) -> &'i mut Figure {
         let paths = self.paths(ink.page);
+        let colour = colour_number(self.idx);
+        let is_long = paths[0].length() > LONG;
+        let met = if is_long { Class::Fine(colour) } else { Class::Trace(colour) };
         ink.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
         let figure = ink.figure(Layer::Trace, super::figure::Placement::default());
-        for (class, points) in self.classes().into_iter().zip(paths) {
+        for (class, points) in [met, Class::Missed(colour)].into_iter().zip(paths) {
             if !points.is_empty() {
                 figure.path(class, points);
             }

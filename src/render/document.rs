@@ -10,9 +10,9 @@ use svg::node::element::{Element, Style};
 use super::figure::{Figure, Outline, Shape};
 use super::motion::{Change, Motion, Track};
 use super::number::rounded;
-use super::view::Options;
+use super::page::{Page, STRIP};
 use super::style::{self, PAPER};
-use super::page::{STRIP, Page};
+use super::view::Options;
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -170,6 +170,9 @@ fn shape_element(shape: &Shape) -> Element {
 /// Adds those tracks of a motion that act on the figure itself, or on one of its shapes.
 fn append_tracks(element: &mut Element, motion: Option<&Motion>, shape: Option<usize>) {
     let Some(motion) = motion else { return };
+    if shape.is_none() && motion.is_hidden_at_first() {
+        element.assign("visibility", "hidden");
+    }
     for track in motion.tracks.iter().filter(|track| track.change.shape() == shape) {
         element.append(track_element(track, motion.duration));
     }

@@ -20,10 +20,10 @@ pub enum Layer {
     Wheel,
     /// Paths.
     Trace,
-    /// Triangles under frozen points.
-    Ground,
     /// Rods, cords, telescopes, cranks.
     Bar,
+    /// Triangles under frozen points.
+    Ground,
     /// Blocks on rails.
     Slider,
     /// Motors.
@@ -311,6 +311,13 @@ impl Path {
     /// Whether there is nothing to see.
     pub fn is_empty(&self) -> bool {
         self.verbs.is_empty()
+    }
+
+    /// How long it is, arcs as their chords.
+    pub fn length(&self) -> f64 {
+        let mut length = 0.0;
+        self.flatten(&mut |a, b| length += a.distance(b));
+        length
     }
 
     /// Adds another path behind this one.

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::cover::{Area, Cover, OVER_PART};
 use super::ink::{Ink, Lettering};
+use super::page::Page;
 use super::parts::{Form, Joint};
 use super::scene::{Pose, Scene};
 use super::style::{self, JOINT};
-use super::page::Page;
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// With more points than this, names of instances and rows (`left.P`, `p[3]`) are left out.
@@ -15,7 +15,7 @@ const MANY: usize = 30;
 /// More names than this are left out altogether: the page shows a texture, not points.
 const TOO_MANY: usize = 80;
 /// How far a name's box may stand off its joint, px, in order of preference.
-const DISTANCES: [f64; 4] = [3.0, 7.0, 13.0, 22.0];
+const DISTANCES: [f64; 4] = [3.5, 7.0, 13.0, 22.0];
 /// Directions that are tried, to the upper right first.
 const N_DIRECTIONS: u32 = 16;
 
@@ -34,7 +34,7 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
         scenes.iter().map(|scene| (cover(scene, page), &scene.pose)).collect();
     for joint in names {
         let letter = style::letter(page.mark());
-        let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.42 * letter);
+        let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.48 * letter);
         let found = candidates(half, page.mark())
             .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)))
             .min_by_key(|(cost, _)| *cost);

@@ -9,6 +9,17 @@ pub struct Motion {
     pub tracks: Vec<Track>,
 }
 
+impl Motion {
+    /// Whether the figure is not there in the first frame.
+    pub fn is_hidden_at_first(&self) -> bool {
+        let is_hidden = |track: &Track| track.values.first().is_some_and(|v| v == HIDDEN);
+        self.tracks.iter().any(|track| track.change == Change::Visibility && is_hidden(track))
+    }
+}
+
+const VISIBLE: &str = "visible";
+const HIDDEN: &str = "hidden";
+
 /// How one thing about a figure changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
@@ -81,7 +92,7 @@ pub fn visibility(times: &[f64], is_there: &[bool]) -> Option<Track> {
     for (k, &there) in is_there.iter().enumerate() {
         if k == 0 || there != is_there[k - 1] {
             track.times.push(times[k]);
-            track.values.push(if there { "visible" } else { "hidden" }.to_owned());
+            track.values.push(if there { VISIBLE } else { HIDDEN }.to_owned());
         }
     }
     Some(track)

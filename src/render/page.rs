@@ -37,11 +37,6 @@ impl Extent {
             }
         }
     }
-
-    /// The lower left and the upper right corner; none if nothing was put in.
-    pub const fn corners(&self) -> Option<(Point, Point)> {
-        self.corners
-    }
 }
 
 /// A map from the plane (y up, world units) to a page (y down, px), the same scale on both

@@ -5,8 +5,8 @@ use super::figure::{Figure, Outline};
 use super::ink::{Ink, Lettering};
 use super::motion::{Change, Motion, track};
 use super::number::rounded;
-use super::style::{Class, colour_number};
 use super::page::Page;
+use super::style::{Class, colour_number};
 
 /// How far the pen may be from its point, px.
 const TOLERANCE: f64 = 0.3;

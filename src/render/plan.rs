@@ -21,9 +21,9 @@ const MOST_RODS: usize = 400;
 /// The parts of a world, in order of creation, points last.
 pub fn parts(world: &World) -> Vec<Part> {
     let mut plan = Plan::new(world);
-    for (id, record) in world.constraints() {
+    for (_, record) in world.constraints() {
         plan.bars(record);
-        plan.segments(id, record);
+        plan.segments(record);
     }
     for (id, record) in world.constraints() {
         plan.constraint(id, record);
@@ -115,7 +115,7 @@ impl<'a> Plan<'a> {
 
     /// Notes what a constraint connects.
     fn bars(&mut self, record: &Record) {
-        let mut connect = |a: PointIdx, b: PointIdx| drop(self.connected.insert(sorted([a, b])));
+        let mut connect = |a, b| _ = self.connected.insert(sorted([a, b]));
         match (&record.constraint, record.constraint.points()) {
             (Constraint::Length(length), &[a, b]) => {
                 connect(a, b);
@@ -125,8 +125,10 @@ impl<'a> Plan<'a> {
             }
             (Constraint::Motor(_), &[a, b])
             | (Constraint::Glider(_) | Constraint::Hinge(_), &[_, a, b]) => connect(a, b),
-            (Constraint::Cog(_) | Constraint::CogVelocity(_), &[a, b, c, d])
-            | (Constraint::Rack(_), &[a, b, c, d]) => {
+            (
+                Constraint::Cog(_) | Constraint::CogVelocity(_) | Constraint::Rack(_),
+                &[a, b, c, d],
+            ) => {
                 connect(a, b);
                 connect(c, d);
             }
@@ -140,7 +142,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Notes which segments a constraint makes alike.
-    fn segments(&mut self, _id: ConstraintId, record: &Record) {
+    fn segments(&mut self, record: &Record) {
         match &record.constraint {
             Constraint::Equal(equal) => self.equal.join(equal.points),
             Constraint::Equivalence(equivalence) => self.parallel.join(equivalence.points),

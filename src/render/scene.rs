@@ -71,7 +71,7 @@ impl Scene {
     pub(super) fn extend_by_past(&self, later: Option<&Self>, extent: &mut Extent) {
         for (k, ghost) in self.ghosts.iter().enumerate() {
             let same = later.and_then(|scene| scene.ghosts.get(k));
-            if same.is_none_or(|other| !Rc::ptr_eq(other, ghost)) {
+            if same.is_none_or(|other| other != ghost) {
                 ghost.extend(extent);
             }
         }

@@ -3,8 +3,8 @@
 use super::curve::Curve;
 use super::figure::{Key, Layer, Path, Placement};
 use super::ink::Ink;
+use super::page::{Page, STRIP};
 use super::style::{BASE_LINE, CAPTION, Class, text_width};
-use super::page::{STRIP, Page};
 use crate::constraint::Point;
 use crate::diag::format_number;
 
@@ -78,9 +78,8 @@ fn draw_legend(ink: &mut Ink, curves: &[Curve], middle: f64, free: f64) {
     let mut x = ink.page.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
     let base_line = BASE_LINE * CAPTION;
     for curve in &curves[..n_shown] {
-        let [class, _] = curve.classes();
         ink.figure(Layer::Strip, Placement::at(Point::new(x, middle)))
-            .path(class, Path::along_x(0.0, SAMPLE))
+            .path(curve.class(), Path::along_x(0.0, SAMPLE))
             .text(Class::Caption, Point::new(SAMPLE + GAP, base_line), curve.name.clone());
         x += entry(&curve.name);
     }

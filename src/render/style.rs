@@ -10,7 +10,7 @@ const STEEL_DARK: &str = "#94a6b7";
 const BRASS: &str = "#f5ecd3";
 const BRASS_EDGE: &str = "#94793a";
 const PENCIL: &str = "#7b8894";
-const RAIL: &str = "#aab5bf";
+const RAIL: &str = "#9aa7b3";
 
 /// Colours of paths, in order; seven that stay apart for colour-blind eyes and in print
 /// (M. Okabe and K. Ito, Color Universal Design, 2008; its yellow is too pale for lines on
@@ -19,11 +19,11 @@ const PALETTE: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 /// Radius of a joint, px.
-pub const JOINT: f64 = 3.6;
+pub const JOINT: f64 = 3.3;
 /// Half the width of a rod with its edge, px.
-pub const HALF_ROD: f64 = 4.5;
+pub const HALF_ROD: f64 = 4.3;
 /// Radius of a motor, px.
-pub const MOTOR: f64 = 11.5;
+pub const MOTOR: f64 = 8.5;
 /// Size of letters, px.
 const LETTER: f64 = 14.0;
 /// Size of the letters below the drawing, px.
@@ -106,6 +106,8 @@ pub enum Class {
     Scale,
     /// A path.
     Trace(u8),
+    /// A path that covers much of the page.
+    Fine(u8),
     /// A path where frames missed their tolerance.
     Missed(u8),
     /// A path drawn lightly, to be traced over by a moving pen.
@@ -151,8 +153,8 @@ impl Class {
             Self::Rod => line("rod", STEEL, 2.0 * HALF_ROD - 2.6),
             Self::CrankEdge => line("crank-edge", INK, 2.0 * HALF_ROD),
             Self::Crank => line("crank", STEEL_DARK, 2.0 * HALF_ROD - 2.6),
-            Self::PistonEdge => line("piston-edge", INK, 5.2),
-            Self::Piston => line("piston", "#f1f4f7", 2.8),
+            Self::PistonEdge => line("piston-edge", INK, 5.6),
+            Self::Piston => line("piston", "#f1f4f7", 3.2),
             Self::Link => line("link", INK, 2.4),
             Self::Cord => line("cord", INK, 1.3),
             Self::PlateEdge => line("plate-edge", INK, 15.0),
@@ -164,10 +166,10 @@ impl Class {
             Self::Block => area("block", "#eef2f5", INK, 1.5),
             Self::Orbit => dashed(line("orbit", "#c3ccd4", 1.0), &[1.0, 4.0]),
             Self::Motor => area("motor", INK, PAPER, 1.5),
-            Self::Turn => line("turn", "#ffffff", 1.9),
-            Self::TurnHead => area("turn-head", "#ffffff", "none", 0.0),
+            Self::Turn => line("turn", INK, 1.6),
+            Self::TurnHead => area("turn-head", INK, "none", 0.0),
             Self::Wheel => area("wheel", BRASS, BRASS_EDGE, 1.3),
-            Self::Pitch => dashed(line("pitch", "#b9a265", 0.9), &[9.0, 3.0, 1.5, 3.0]),
+            Self::Pitch => dashed(line("pitch", "#cdbb8a", 0.9), &[9.0, 3.0, 1.5, 3.0]),
             Self::RingWheel => area("ring-wheel", BRASS, BRASS_EDGE, 1.3),
             Self::RingPlain => line("ring-plain", BRASS_EDGE, 1.6),
             Self::WheelWeb => area("wheel-web", "#fbf6e8", "#cdb981", 1.0),
@@ -185,7 +187,8 @@ impl Class {
             Self::Caption => area("caption", PENCIL, "none", 0.0),
             Self::Scale => line("scale", PENCIL, 1.2),
             Self::Trace(n) => line("trace", colour(n), 1.7),
-            Self::Missed(n) => dashed(line("missed", colour(n), 1.7), &[2.0, 4.5]),
+            Self::Fine(n) => Look { opacity: 0.85, ..line("fine", colour(n), 0.9) },
+            Self::Missed(n) => dashed(line("missed", colour(n), 1.4), &[2.0, 4.0]),
             Self::Faint(n) => Look { opacity: 0.25, ..line("faint", colour(n), 1.7) },
         }
     }
@@ -193,7 +196,7 @@ impl Class {
     /// The name of the class in the document.
     pub fn name(self) -> String {
         match self {
-            Self::Trace(n) | Self::Missed(n) | Self::Faint(n) => {
+            Self::Trace(n) | Self::Fine(n) | Self::Missed(n) | Self::Faint(n) => {
                 format!("{}-{n}", self.look().name)
             }
             _ => self.look().name.to_owned(),
@@ -210,6 +213,7 @@ impl Class {
         !matches!(
             self,
             Self::Trace(_)
+                | Self::Fine(_)
                 | Self::Missed(_)
                 | Self::Faint(_)
                 | Self::Orbit

@@ -27,7 +27,7 @@ impl Draw for Angle {
         };
         let turn = e.angle_to(f);
         let vertex = vertex([a, b], [c, d]);
-        let (radius, ray) = (ink.size(19.0), ink.size(28.0));
+        let (radius, ray) = (ink.size(25.0), ink.size(34.0));
         let x_axis = Vector::new(1.0, 0.0);
         let figure = ink.figure(Layer::Mark, Placement::along(vertex, e));
         let other = x_axis.rotate(turn);
@@ -37,13 +37,13 @@ impl Draw for Angle {
         // Within a tenth of a degree of a right angle: what is drawn here is what is asked
         // for, and a frame may be off by its tolerance.
         if (turn.abs() - FRAC_PI_2).abs() < 2e-3 {
-            let side = 0.6 * radius;
+            let side = 0.5 * radius;
             let corner = (x_axis + other) * side;
             let square = [x_axis * side, corner, other * side].map(Vector::to_point);
             figure.path(Class::Mark, Path::polyline(square));
         } else {
             figure.path(Class::Mark, Path::arc(radius, 0.0, turn));
-            let head = ink_head(radius, turn);
+            let head = head_length(radius, turn);
             let forward = turn.signum();
             let tip = Vector::polar(radius, turn);
             let direction =
@@ -54,8 +54,8 @@ impl Draw for Angle {
 }
 
 /// The length of the arrow head on an arc: shorter than the arc.
-fn ink_head(radius: f64, turn: f64) -> f64 {
-    (0.38 * radius).min(0.7 * radius * turn.abs())
+fn head_length(radius: f64, turn: f64) -> f64 {
+    (0.3 * radius).min(0.7 * radius * turn.abs())
 }
 
 /// Where the arc goes: where the lines meet if that is on or near both segments, else where

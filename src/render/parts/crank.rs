@@ -5,8 +5,9 @@ use super::bar::{Span, arrow_head, outlined};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::render::figure::{Figure, Layer, Path, Placement};
 use crate::render::ink::Ink;
-use crate::render::style::{Class, MOTOR};
 use crate::render::page::Extent;
+use crate::render::style::{Class, MOTOR};
+use std::f64::consts::FRAC_PI_2;
 
 /// Which way a motor turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,27 +63,26 @@ impl Draw for Crank {
         outlined(ink, &span, [Class::CrankEdge, Class::Crank]);
         if !self.is_bare {
             let disc = ink.figure(Layer::Drive, centre).circle(Class::Motor, Point::ORIGIN, radius);
-            arrow(disc, self.sense, 0.58 * radius);
+            arrow(disc, self.sense, 1.8 * radius);
         }
     }
 }
 
-/// An arrow around the origin, open on one side.
+/// An arrow over the top of the origin.
 fn arrow(figure: &mut Figure, sense: Sense, radius: f64) {
-    // From the lower right over the top to the lower left, or mirrored, in page angles.
-    const FROM: f64 = 0.25;
-    const TO: f64 = -3.9;
-    let (from, to) = match sense {
-        Sense::CounterClockwise => (FROM, TO),
-        Sense::Clockwise => (std::f64::consts::PI - FROM, std::f64::consts::PI - TO),
+    /// From the vertical to either end, radians.
+    const HALF: f64 = 1.1;
+    let forward = match sense {
+        Sense::CounterClockwise => -1.0,
+        Sense::Clockwise => 1.0,
         Sense::Still => return,
     };
-    let forward = if to < from { -1.0 } else { 1.0 };
-    // The head begins where the line ends and is as long as it is drawn.
-    let length = 0.95 * radius;
-    let end = to - forward * 0.35;
-    figure.path(Class::Turn, Path::arc(radius, from, end));
-    let direction = Vector::polar(1.0, end + forward * 0.35).perp() * forward;
-    let tip = Vector::polar(radius, end).to_point() + direction * (0.8 * length);
-    figure.path(Class::TurnHead, arrow_head(tip, direction, length));
+    // Page angles grow clockwise from the right: straight up is a quarter turn back.
+    let (from, tip) = (-FRAC_PI_2 - forward * HALF, -FRAC_PI_2 + forward * HALF);
+    let head = 0.5 * radius;
+    // The line ends within the head, which lies along a chord of the arc.
+    figure.path(Class::Turn, Path::arc(radius, from, tip - forward * 0.6 * head / radius));
+    let direction = Vector::polar(1.0, tip - forward * 0.5 * head / radius).perp() * forward;
+    let tip = Vector::polar(radius, tip).to_point();
+    figure.path(Class::TurnHead, arrow_head(tip, direction, head));
 }

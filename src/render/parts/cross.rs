@@ -4,8 +4,8 @@ use super::Draw;
 use crate::constraint::{Point, PointIdx};
 use crate::render::figure::{Layer, Path, Placement};
 use crate::render::ink::Ink;
-use crate::render::style::Class;
 use crate::render::page::Extent;
+use crate::render::style::Class;
 
 /// A target and the point that belongs there.
 #[derive(Debug, Clone, PartialEq)]

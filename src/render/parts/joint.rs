@@ -42,9 +42,9 @@ impl Draw for Joint {
             Foot::Free => {}
             Foot::Frozen => ground(ink, at, 16.0),
             // The triangle has to look out from under the disc.
-            Foot::FrozenMotor => ground(ink, at, 1.9 * MOTOR),
+            Foot::FrozenMotor => ground(ink, at, 2.5 * MOTOR),
         }
-        let radius = ink.size(if self.is_driven { 0.75 * JOINT } else { JOINT });
+        let radius = ink.size(if self.is_driven { 0.7 * JOINT } else { JOINT });
         let offset = ink.lettering.get(&self.point).copied();
         let to_base_line = Vector::new(0.0, BASE_LINE * letter(ink.page.mark()));
         let joint = ink.figure(Layer::Joint, at).circle(Class::Joint, Point::ORIGIN, radius);

@@ -27,7 +27,7 @@ impl Draw for Link {
         let [a, b] = self.ends;
         let span = Span::between(ink, a, b);
         let (from, to) = (span.length * self.ratio.min(0.0), span.length * self.ratio.max(1.0));
-        let radius = ink.size(1.7 * JOINT);
+        let radius = ink.size(1.5 * JOINT);
         let pin = ink.px(self.pin);
         ink.figure(Layer::Bar, span.placement).path(Class::Link, Path::along_x(from, to));
         ink.figure(Layer::Slider, Placement::at(pin)).circle(Class::Pin, Point::ORIGIN, radius);

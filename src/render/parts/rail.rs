@@ -3,7 +3,7 @@
 use super::Draw;
 use super::bar::Span;
 use crate::constraint::{Point, PointIdx};
-use crate::render::figure::{Layer, Path};
+use crate::render::figure::{Layer, Path, Placement};
 use crate::render::ink::Ink;
 use crate::render::style::Class;
 
@@ -26,17 +26,18 @@ impl Draw for Rail {
     fn draw(&self, ink: &mut Ink) {
         let [a, b] = self.ends;
         let span = Span::between(ink, a, b);
-        let (half_stop, beyond) = (ink.size(9.0), ink.size(34.0));
+        let (half_stop, beyond) = (ink.size(11.0), ink.size(34.0));
         let (half_length, half_width) = (ink.size(12.0), ink.size(7.5));
         let block = ink.px(self.block);
         let along = span.placement;
 
-        let rail =
-            ink.figure(Layer::Rail, along).path(Class::Rail, Path::along_x(0.0, span.length));
+        let rail = ink.figure(Layer::Rail, along);
+        rail.path(Class::Rail, Path::along_x(0.0, span.length));
         if self.is_bounded {
+            let stops = ink.figure(Layer::Slider, along);
             for x in [0.0, span.length] {
-                let stop = [Point::new(x, -half_stop), Point::new(x, half_stop)];
-                rail.path(Class::Stop, Path::polyline(stop));
+                let stop = Path::segment(Point::new(x, -half_stop), Point::new(x, half_stop));
+                stops.path(Class::Stop, stop);
             }
         } else {
             // On to where the block is, and somewhat further: there is no end.
@@ -48,7 +49,7 @@ impl Draw for Rail {
         }
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
         let corners = corners.map(|(x, y)| Point::new(x * half_length, y * half_width));
-        ink.figure(Layer::Slider, crate::render::figure::Placement { at: block, ..along })
+        ink.figure(Layer::Slider, Placement { at: block, ..along })
             .path(Class::Block, Path::polygon(corners));
     }
 }

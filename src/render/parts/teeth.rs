@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// Half of a tooth's width at its tip, its pitch line and its root, as parts of the pitch,
 /// with the height over the pitch line there in modules: the straight flanks of a 20 degree
 /// basic rack, a little slimmer so that meshing teeth do not touch.
-const PROFILE: [(f64, f64); 3] = [(0.125, 1.0), (0.235, 0.0), (0.35, -1.15)];
+const PROFILE: [(f64, f64); 3] = [(0.13, 0.9), (0.23, 0.0), (0.345, -1.1)];
 
 /// The outline of a wheel around the origin, a tooth on the x axis.
 pub fn wheel(radius: f64, n_teeth: u32, is_ring: bool) -> Path {

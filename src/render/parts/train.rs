@@ -8,8 +8,8 @@ use crate::constraint::{Point, PointIdx, Vector};
 use crate::render::figure::{Layer, Path, Placement};
 use crate::render::groups::Groups;
 use crate::render::ink::Ink;
-use crate::render::style::Class;
 use crate::render::page::Extent;
+use crate::render::style::Class;
 
 /// From tooth to tooth, px, where there is room for it.
 const PITCH: f64 = 15.0;
