@@ -1,6 +1,8 @@
 //! The command line: arguments, exit statuses, files, signals.
 
+mod accuracy;
 mod args;
+mod bar;
 mod files;
 pub(crate) mod interrupt;
 mod outside;
@@ -14,6 +16,7 @@ pub fn run() -> ExitCode {
     let args = args::parse();
     match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
+        Some(args::Command::Accuracy(wish)) => accuracy::accuracy(&wish),
         None => run::session(&args.session),
     }
 }

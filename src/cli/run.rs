@@ -12,7 +12,7 @@ use crate::session::{Flow, Session};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Status {
+pub(super) enum Status {
     Fine = 0,
     BrokenPromise = 1,
     Mistake = 2,
@@ -21,7 +21,7 @@ enum Status {
 }
 
 impl Status {
-    const fn of(problem: &Diagnostic) -> Self {
+    pub const fn of(problem: &Diagnostic) -> Self {
         match problem.kind {
             Kind::Promise => Self::BrokenPromise,
             Kind::Mistake => Self::Mistake,
@@ -52,27 +52,9 @@ pub fn batch(batch: &Batch) -> ExitCode {
 }
 
 fn script(file: &Path, outside: &Outside) -> Status {
-    let (name, text, folder) = if file == Path::new("-") {
-        let mut bytes = Vec::new();
-        let read = io::stdin().lock().read_to_end(&mut bytes).and_then(|_| {
-            String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
-        });
-        ("<stdin>".to_owned(), read, PathBuf::new())
-    } else {
-        let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
-        (file.to_string_lossy().into_owned(), files::read(file), folder)
-    };
-    let text = match text {
-        Ok(text) => text,
-        Err(e) => {
-            let why = if e.kind() == io::ErrorKind::InvalidData {
-                "not a text in UTF-8".to_owned()
-            } else {
-                e.to_string()
-            };
-            eprintln!("error: cannot read `{name}`: {why}");
-            return Status::Unreadable;
-        }
+    let Script { name, text, folder } = match read_script(file) {
+        Ok(script) => script,
+        Err(status) => return status,
     };
     let mut session = begin(outside);
     let source = session.add_source(&name, &text, Some(folder));
@@ -97,6 +79,43 @@ fn script(file: &Path, outside: &Outside) -> Status {
         eprintln!("warning: no `let` took `--set {name}`");
     }
     status
+}
+
+/// A text to be run.
+pub(super) struct Script {
+    /// What it is called in messages.
+    pub name: String,
+    /// What it says.
+    pub text: String,
+    /// Where what it includes is looked for.
+    pub folder: PathBuf,
+}
+
+/// Reads a script, `-` from standard input; where it cannot, says so.
+pub(super) fn read_script(file: &Path) -> Result<Script, Status> {
+    let (name, text, folder) = if file == Path::new("-") {
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes).and_then(|_| {
+            String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
+        });
+        ("<stdin>".to_owned(), read, PathBuf::new())
+    } else {
+        let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
+        (file.to_string_lossy().into_owned(), files::read(file), folder)
+    };
+    let text = match text {
+        Ok(text) => text,
+        Err(e) => {
+            let why = if e.kind() == io::ErrorKind::InvalidData {
+                "not a text in UTF-8".to_owned()
+            } else {
+                e.to_string()
+            };
+            eprintln!("error: cannot read `{name}`: {why}");
+            return Err(Status::Unreadable);
+        }
+    };
+    Ok(Script { name, text, folder })
 }
 
 fn begin(outside: &Outside) -> Session {

@@ -71,12 +71,12 @@ impl Sources {
         id
     }
 
-    /// The text called `id`, if it is one of these.
+    /// The text that was added first.
     pub fn first(&self) -> Option<&Source> {
         self.get(SourceId(0))
     }
 
-    /// The text with this number, if there is one.
+    /// The text called `id`, if it is one of these.
     pub fn get(&self, id: SourceId) -> Option<&Source> {
         self.all.get(id.0 as usize)
     }

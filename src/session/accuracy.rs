@@ -134,7 +134,7 @@ impl Session {
         } else {
             self.sources.get(span.source)
         };
-        let stem = source.and_then(|s| Path::new(&s.name).file_stem());
+        let stem = source.and_then(|s| Path::new(&*s.name).file_stem());
         let name = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         if name.is_empty() || name.starts_with("line ") || name.starts_with('<') {
             "what accuracy costs in time".to_owned()

@@ -12,6 +12,7 @@ mod change;
 mod constrain;
 mod delete;
 mod describe;
+mod diagnose;
 mod host;
 mod journal;
 mod laps;
@@ -35,6 +36,7 @@ use std::sync::Arc;
 
 pub use bind::evaluate_constant;
 pub use accuracy::Telling;
+pub use diagnose::Check;
 pub use host::{Host, Nowhere};
 pub use receipt::{Summary, Way};
 pub use settings::Preferences;

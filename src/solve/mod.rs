@@ -12,8 +12,10 @@ pub mod mobility;
 mod ends;
 mod history;
 mod island;
+mod memory;
 mod method;
 mod plan;
+mod rates;
 mod rows;
 mod spectrum;
 mod topology;
@@ -32,7 +34,6 @@ mod struggle;
 mod successive;
 
 // Their face.
-mod memory;
 mod pass;
 mod settings;
 mod solver;

@@ -67,9 +67,11 @@ pub(super) fn correct_all(
         let rho = rho(c);
         let mut squared = 0.0;
         constraint.correct(x, w, &mut |p, v| {
-            let p = p as usize;
-            squared += v.norm_squared() / w[p];
-            d[p] += v * rho;
+            // Frozen points have no place in `d`, nor a share.
+            if let Some(d) = d.get_mut(p as usize) {
+                squared += v.norm_squared() / w[p as usize];
+                *d += v * rho;
+            }
         });
         worst = worst.max(squared);
     }

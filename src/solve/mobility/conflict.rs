@@ -2,6 +2,7 @@
 
 use super::dependence::{Dependence, dependences};
 use super::scene::{Rows, Scene, UnitRow};
+use super::settle::can_hold_alone;
 
 /// Constraints that cannot all hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,56 +28,54 @@ pub struct Repair {
 /// only as exactly as the fit is best.
 const AT_BEST_FIT: f64 = 1e-5;
 
-/// Of the worst residual, what cannot be told from an imperfect fit.
-const IMPERFECT: f64 = 1e-4;
+/// Rows that agree contradict each other at a pose where they do not hold by the square of
+/// their distances; less than this part of the worst contradiction is not looked at.
+const SECOND_ORDER: f64 = 1e-3;
 
 /// Conflicts of an island at its best fit, none of which shares a constraint with another.
 ///
 /// At a best fit the residuals are a stress that the rows bear among themselves. Each
 /// dependent row with those it depends on is a smallest set that can bear one, so it
 /// contradicts itself if its residuals do work on that stress, and no subset of it does.
-pub fn conflicts(island: &Rows, tolerance: f64) -> Vec<Conflict> {
-    if island.worst() <= tolerance {
-        return Vec::new();
-    }
-    let mut found: Vec<_> = contradictions(island, tolerance)
-        .iter()
-        .map(|dependence| conflict(dependence, &island.rows))
-        .collect();
-    found.sort_by_key(|conflict| conflict.constraints.len());
+pub fn conflicts(scene: &Scene, island: &Rows, tolerance: f64) -> Vec<Conflict> {
     let mut apart: Vec<Conflict> = Vec::new();
-    for conflict in found {
-        let is_apart = |c: &Conflict| {
-            c.constraints.iter().all(|c| conflict.constraints.binary_search(c).is_err())
+    for dependence in contradictions(island, tolerance) {
+        let conflict = conflict(&dependence, &island.rows);
+        let is_apart = |known: &Conflict| {
+            known.constraints.iter().all(|c| conflict.constraints.binary_search(c).is_err())
         };
-        if apart.iter().all(is_apart) {
+        if apart.iter().all(is_apart) && !can_hold_alone(scene, &conflict.constraints, tolerance) {
             apart.push(conflict);
         }
     }
-    apart.sort_by_key(|conflict| conflict.constraints[0]);
     apart
 }
 
-/// The smallest set of constraints that `constraint` contradicts at the best fit, if any.
+/// The smallest set of constraints found that `constraint` contradicts at the best fit, if any.
 pub fn conflict_with(scene: &Scene, constraint: usize, tolerance: f64) -> Option<Conflict> {
-    let (rows, unsatisfiable) = scene.rows(tolerance);
-    if unsatisfiable.contains(&constraint) {
-        return None;
-    }
+    let (rows, _) = scene.rows(tolerance);
     let has_it = |island: &Rows| island.rows.iter().any(|row| row.source.0 == constraint);
     let mut island = rows.islands().into_iter().find(has_it)?;
     // Taken last, it depends on the others if it can.
     island.rows.sort_by_key(|row| (row.source.0 == constraint, row.source));
-    let found = contradictions(&island, tolerance);
-    let about_it =
-        found.iter().filter(|d| d.stress().any(|(k, _)| island.rows[k].source.0 == constraint));
-    about_it.map(|d| conflict(d, &island.rows)).min_by_key(|conflict| conflict.constraints.len())
+    contradictions(&island, tolerance)
+        .iter()
+        .map(|dependence| conflict(dependence, &island.rows))
+        .filter(|conflict| conflict.constraints.contains(&constraint))
+        .find(|conflict| !can_hold_alone(scene, &conflict.constraints, tolerance))
 }
 
+/// The dependent rows whose residuals do work on their stress, those of few rows first, and
+/// among equals the worst.
 fn contradictions(island: &Rows, tolerance: f64) -> Vec<Dependence> {
-    let least = tolerance.max(IMPERFECT * island.worst());
+    if island.worst() <= tolerance {
+        return Vec::new();
+    }
+    let misfit = |dependence: &Dependence| dependence.misfit(&island.rows).abs();
     let mut found = dependences(island, AT_BEST_FIT);
-    found.retain(|dependence| dependence.misfit(&island.rows).abs() > least);
+    let worst = found.iter().map(misfit).fold(0.0, f64::max);
+    found.retain(|dependence| misfit(dependence) > tolerance.max(SECOND_ORDER * worst));
+    found.sort_by(|a, b| a.on.len().cmp(&b.on.len()).then(misfit(b).total_cmp(&misfit(a))));
     found
 }
 

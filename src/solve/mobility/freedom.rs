@@ -66,7 +66,7 @@ fn holders(island: &Rows, place: usize, blocked: &[Vector]) -> Vec<usize> {
         let mut push = vec![0.0; island.n_unknowns()];
         push[2 * place] = direction.x;
         push[2 * place + 1] = direction.y;
-        for (force, row) in projector.multipliers(&push).iter().zip(&island.rows) {
+        for (force, row) in projector.multipliers(&push).0.iter().zip(&island.rows) {
             strength.push((force.abs(), row.source.0));
         }
     }

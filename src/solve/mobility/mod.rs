@@ -10,6 +10,7 @@ mod freedom;
 mod pose;
 mod projector;
 mod scene;
+mod settle;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
@@ -121,7 +122,7 @@ impl Analysis {
     fn add(&mut self, scene: &Scene, island: &Rows, tolerance: f64) {
         let mut projector = Projector::of(island);
         let n_free = projector.nullity();
-        let n_redundant = island.rows.len() + n_free - island.n_unknowns();
+        let n_redundant = (island.rows.len() + n_free).saturating_sub(island.n_unknowns());
         self.degrees_of_freedom += n_free;
         self.n_redundant += n_redundant;
         if let Some(found) = projector.extreme_singular_values() {
@@ -130,7 +131,7 @@ impl Analysis {
                 self.singular_values = Some(found);
             }
         }
-        self.conflicts.extend(conflict::conflicts(island, tolerance));
+        self.conflicts.extend(conflict::conflicts(scene, island, tolerance));
         if n_redundant == 0 {
             return;
         }

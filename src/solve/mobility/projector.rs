@@ -12,15 +12,15 @@ const MU: f64 = 1e-8;
 const N_ROUNDS: usize = 4;
 
 /// Rows with the factor of their normal matrix.
-pub struct Projector<'a> {
-    rows: &'a [UnitRow],
+pub struct Projector {
+    rows: Vec<UnitRow>,
     normal: NormalMatrix,
     mu: f64,
 }
 
-impl<'a> Projector<'a> {
+impl Projector {
     /// For `rows` over `n_points` points.
-    pub fn new(n_points: usize, rows: &'a [UnitRow]) -> Self {
+    pub fn new(n_points: usize, rows: Vec<UnitRow>) -> Self {
         let mut normal = NormalMatrix::new(n_points, rows.iter().map(UnitRow::points));
         for (row_idx, row) in rows.iter().enumerate() {
             normal.add_row(row_idx, row.values());
@@ -29,8 +29,8 @@ impl<'a> Projector<'a> {
     }
 
     /// For the rows of an island.
-    pub fn of(island: &'a Rows) -> Self {
-        Self::new(island.points.len(), &island.rows)
+    pub fn of(island: &Rows) -> Self {
+        Self::new(island.points.len(), island.rows.clone())
     }
 
     fn factor(&mut self, mu: f64) {
@@ -51,18 +51,26 @@ impl<'a> Projector<'a> {
         self.normal.nullity(bound)
     }
 
+    /// Replaces a right-hand side by the solution of J^T J + `mu` I.
+    pub fn solve_damped(&mut self, mu: f64, rhs: &mut [f64]) {
+        self.factor(mu);
+        self.normal.solve(rhs);
+    }
+
     /// Projects unknowns onto the motions that change no row.
     pub fn onto_motions(&mut self, y: &mut [f64]) {
         self.factor(MU);
         for _ in 0..N_ROUNDS {
             self.normal.solve(y);
-            y.iter_mut().for_each(|y| *y *= MU);
+            for y in y.iter_mut() {
+                *y *= MU;
+            }
         }
     }
 
-    /// The multiples of the rows whose sum is nearest to `gradient`; the rows must be
-    /// independent for these to be unique.
-    pub fn multipliers(&mut self, gradient: &[f64]) -> Vec<f64> {
+    /// The multiples of the rows whose sum is nearest to `gradient`, and how far away it is;
+    /// the rows must be independent for these to be unique.
+    pub fn multipliers(&mut self, gradient: &[f64]) -> (Vec<f64>, f64) {
         // Rounding along free motions does no harm here, so the first round is nearly exact.
         self.factor(1e-3 * MU);
         let mut multipliers = vec![0.0; self.rows.len()];
@@ -70,20 +78,20 @@ impl<'a> Projector<'a> {
         let mut left = f64::INFINITY;
         for _ in 0..2 * N_ROUNDS {
             self.normal.solve(&mut rest);
-            for (m, row) in multipliers.iter_mut().zip(self.rows) {
+            for (m, row) in multipliers.iter_mut().zip(&self.rows) {
                 *m += row.dot(&rest);
             }
             rest.copy_from_slice(gradient);
-            for (&m, row) in multipliers.iter().zip(self.rows) {
+            for (&m, row) in multipliers.iter().zip(&self.rows) {
                 row.add_to(-m, &mut rest);
             }
-            let now = rest.iter().map(|r| r * r).sum::<f64>();
-            if now < 1e-28 || now > 0.25 * left {
+            let before = left;
+            left = rest.iter().map(|r| r * r).sum::<f64>().sqrt();
+            if left < 1e-14 || left > 0.5 * before {
                 break;
             }
-            left = now;
         }
-        multipliers
+        (multipliers, left)
     }
 
     /// The smallest singular value of J that is not 0, and the largest; none without rows.

@@ -39,6 +39,13 @@ impl UnitRow {
         &self.values[..2 * self.n_points]
     }
 
+    /// The same row over points with other indices.
+    pub fn renumbered(&self, place: impl Fn(u32) -> u32) -> Self {
+        let mut row = self.clone();
+        row.points[..row.n_points].iter_mut().for_each(|p| *p = place(*p));
+        row
+    }
+
     /// The product with a vector of unknowns.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let terms = self.points().iter().zip(self.values().as_chunks::<2>().0);
@@ -75,6 +82,11 @@ impl Rows {
         self.rows.iter().fold(0.0, |worst, row| row.f.abs().max(worst))
     }
 
+    /// Half the sum of the squares of the distances.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.rows.iter().map(|row| row.f * row.f).sum::<f64>()
+    }
+
     /// Those rows that `keep` chooses, over the same points.
     pub fn filtered(&self, keep: impl Fn(&UnitRow) -> bool) -> Self {
         let rows = self.rows.iter().filter(|row| keep(row)).cloned().collect();
@@ -102,12 +114,9 @@ impl Rows {
             place[k] = island.points.len() as u32;
             island.points.push(point);
         }
-        for mut row in self.rows {
+        for row in self.rows {
             let root = sets.find(row.points[0]) as usize;
-            for p in &mut row.points[..row.n_points] {
-                *p = place[*p as usize];
-            }
-            islands[island_of[root]].rows.push(row);
+            islands[island_of[root]].rows.push(row.renumbered(|p| place[p as usize]));
         }
         islands
     }
@@ -120,7 +129,8 @@ impl Scene<'_> {
         let moving = self.w.iter().enumerate().filter(|&(_, &w)| w > 0.0);
         let points = moving.map(|(p, _)| p as PointIdx).collect();
         let mut unsatisfiable = Vec::new();
-        let rows = self.rows_over(points, 0..self.constraints.len(), &mut |constraint, row| {
+        let all = 0..self.constraints.len();
+        let rows = self.rows_and_rest(points, all, &mut |constraint, row| {
             if row.distance(self.w) > tolerance {
                 unsatisfiable.push(constraint);
             }
@@ -131,14 +141,19 @@ impl Scene<'_> {
 
     /// The rows of an island as they are at this pose.
     pub fn rows_like(&self, island: &Rows) -> Rows {
-        let of_one = island.rows.chunk_by(|a, b| a.source.0 == b.source.0);
-        let constraints = of_one.map(|rows| rows[0].source.0);
-        let rows = self.rows_over(island.points.clone(), constraints, &mut |_, _| ());
+        let mut constraints: Vec<_> = island.rows.iter().map(|row| row.source.0).collect();
+        constraints.dedup();
+        let rows = self.rows_over(island.points.clone(), &constraints);
         let sources: Vec<_> = island.rows.iter().map(|row| row.source).collect();
         rows.filtered(|row| sources.binary_search(&row.source).is_ok())
     }
 
-    fn rows_over(
+    /// The rows of some constraints, over those points of theirs that move.
+    pub fn rows_over(&self, points: Vec<PointIdx>, constraints: &[usize]) -> Rows {
+        self.rows_and_rest(points, constraints.iter().copied(), &mut |_, _| ())
+    }
+
+    fn rows_and_rest(
         &self,
         points: Vec<PointIdx>,
         constraints: impl Iterator<Item = usize>,
