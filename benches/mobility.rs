@@ -48,6 +48,22 @@ fn leg() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
     (x, w, bars)
 }
 
+/// Bars of lengths 1, 1 and 3 at their best fit.
+fn impossible_triangle() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let x: Vec<_> = [0.0, 4.0 / 3.0, 8.0 / 3.0].map(|x| Point::new(x, 0.0)).into();
+    let bar = |a, b, l| Length { points: [a, b], bounds: Bounds::exactly(l) }.into();
+    (x, vec![1.0; 3], vec![bar(0, 1, 1.0), bar(1, 2, 1.0), bar(0, 2, 3.0)])
+}
+
+/// Three parallel cranks, coupled by two bars and one too many.
+fn wheels() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let pivots = [0.0, 2.0, 5.0];
+    let mut x: Vec<_> = pivots.map(|x| Point::new(x, 0.0)).into();
+    x.extend(pivots.map(|x| Point::new(x + 0.6, 0.8)));
+    let bars = [(0, 3), (1, 4), (2, 5), (3, 4), (4, 5), (3, 5)].map(|(a, b)| bar(&x, a, b)).into();
+    (x, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], bars)
+}
+
 /// `n` x `n` squares with both diagonals, two corners held.
 fn net(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
     let side = n + 1;
@@ -77,6 +93,8 @@ fn net(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
 
 fn main() {
     let scenes = [
+        ("triangle", impossible_triangle()),
+        ("wheels", wheels()),
         ("leg", leg()),
         ("chain 10", chain(10)),
         ("chain 1000", chain(1000)),

@@ -297,7 +297,7 @@ fn weights_change_no_count() {
         let mut model = Model::default();
         model.net(3);
         for (p, w) in model.w.iter_mut().enumerate() {
-            *w = 10f64.powi((p * (k + 1) % 5) as i32 - 2);
+            *w = [0.01, 0.1, 1.0, 10.0, 100.0][p * (k + 1) % 5];
         }
         check(&model, 3, 13, Pose::Regular);
     }
