@@ -187,6 +187,32 @@ impl Relation for Cog {
         field == Field::Ratio
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        let windings = self.lifted.iter().flat_map(|w| w.to_numbers());
+        Some(windings.chain([self.wound]).collect())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[a, b, c, d, e, f, wound] = state {
+            self.lifted = [[a, b], [c, d], [e, f]].map(Winding::from_numbers);
+            self.wound = wound;
+        }
+    }
+
+    fn captured(&self) -> Vec<f64> {
+        vec![self.k]
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        if let &[k] = captured {
+            self.k = k;
+        }
+    }
+
+    fn pick_up(&mut self, x: &[Point]) {
+        *self = Self::new(self.points, self.ratio, x);
+    }
+
     fn accept(&mut self, x: &[Point]) {
         let Some(Spokes(vectors)) = self.spokes(x) else { return };
         for (winding, v) in self.lifted.iter_mut().zip(vectors) {
@@ -203,5 +229,87 @@ impl Relation for Cog {
                 Some((p, q)) => (first * q + second * p) / q,
                 None => second.mul_add(self.ratio, first),
             };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wheels on frozen centres after the first has made `i` of `n` parts of a turn.
+    fn pair(i: i64, n: i64, (first, second): (i64, i64)) -> [Point; 4] {
+        let spoke = |k: i64| {
+            Vector::polar(1.0, (k.rem_euclid(n * second) as f64) * TAU / (n * second) as f64)
+        };
+        let (o1, o2) = (Point::new(1.0, 2.0), Point::new(5.0, 3.0));
+        [o1, o1 + spoke(i * second), o2, o2 + spoke(-i * first)]
+    }
+
+    #[test]
+    fn external_wheels_turn_opposite_ways_and_return() {
+        // Teeth 12 and 36: the second turns a third as far, the other way.
+        let mut cog = Cog::new([0, 1, 2, 3], 3.0, &pair(0, 36, (1, 3)));
+        let there = 0..36 * 20_000;
+        for i in there.clone().chain(there.rev()) {
+            let x = pair(i, 36, (1, 3));
+            assert!(cog.residual(&x).abs() < 1e-13, "frame {i}: {}", cog.residual(&x));
+            cog.accept(&x);
+        }
+    }
+
+    #[test]
+    fn a_ratio_without_teeth_keeps_its_digits() {
+        let ratio = std::f64::consts::SQRT_2;
+        let x = |i: i32| {
+            let theta = f64::from(i) * 0.1;
+            let [o1, o2] = [Point::ORIGIN, Point::new(3.0, 0.0)];
+            [o1, o1 + Vector::polar(1.0, theta * ratio), o2, o2 + Vector::polar(1.0, -theta)]
+        };
+        let mut cog = Cog::new([0, 1, 2, 3], ratio, &x(0));
+        for i in 0..100_000 {
+            assert!(cog.residual(&x(i)).abs() < 1e-11);
+            cog.accept(&x(i));
+        }
+    }
+
+    #[test]
+    fn a_planet_in_a_frozen_ring_turns_three_times_back() {
+        // Ratio -1/4: theta2 = -3 alpha, a rosette of four leaves.
+        let x = |i: i64| {
+            let [alpha, theta] = [i, -3 * i].map(|k| (k.rem_euclid(360) as f64).to_radians());
+            let centre = Point::ORIGIN + Vector::polar(0.75, alpha);
+            [Point::ORIGIN, Point::new(1.0, 0.0), centre, centre + Vector::polar(0.25, theta)]
+        };
+        let mut cog = Cog::new([0, 1, 2, 3], -0.25, &x(0));
+        for i in (0..360_000).chain((0..360_000).rev()) {
+            assert!(cog.residual(&x(i)).abs() < 1e-13, "frame {i}");
+            cog.accept(&x(i));
+        }
+    }
+
+    #[test]
+    fn concentric_wheels_of_ratio_minus_one_turn_together() {
+        let x = |phi: f64| {
+            [
+                Point::ORIGIN,
+                Vector::polar(1.0, phi).to_point(),
+                Point::ORIGIN,
+                Vector::polar(2.0, phi + 1.0).to_point(),
+            ]
+        };
+        let cog = Cog::new([0, 1, 2, 3], -1.0, &x(0.0));
+        assert!(cog.residual(&x(0.7)).abs() < 1e-15);
+        let mut rows = Vec::new();
+        cog.jacobian(&x(0.7), &mut |row| rows.push(row));
+        assert!(rows[0].is_active && rows[0].norm_squared(&[1.0; 4]) > 0.0);
+    }
+
+    #[test]
+    fn a_gear_change_is_no_jump() {
+        let mut cog = Cog::new([0, 1, 2, 3], 3.0, &pair(0, 36, (1, 3)));
+        (0..100).for_each(|i| cog.accept(&pair(i, 36, (1, 3))));
+        let x = pair(99, 36, (1, 3));
+        assert!(cog.set(Field::Ratio, 5.0));
+        assert!(cog.residual(&x).abs() < 1e-14);
     }
 }

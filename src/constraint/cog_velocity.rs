@@ -123,3 +123,44 @@ impl Relation for CogVelocity {
         self.previous = self.points.map(|p| x[p as usize]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::Cog;
+
+    /// The paper's planet, its centre led around a frozen ring; how far off the marker's
+    /// angle is after one revolution, and how far out the marker.
+    fn planet(cog: &mut impl Relation, frames: u32) -> (f64, f64) {
+        let centre = |i: u32| {
+            Vector::polar(0.75, f64::from(i % frames) * std::f64::consts::TAU / f64::from(frames))
+                .to_point()
+        };
+        let mut x = [Point::ORIGIN, Point::new(1.0, 0.0), centre(0), Point::new(1.0, 0.0)];
+        for i in 1..=frames {
+            cog.begin_frame(&x, 1.0);
+            x[2] = centre(i);
+            for _ in 0..8 {
+                let mut d = Vector::ZERO;
+                cog.correct(&x, &[0.0, 0.0, 0.0, 1.0], &mut |_, v| d += v);
+                x[3] += d;
+            }
+            cog.accept(&x);
+        }
+        let spoke = x[3] - x[2];
+        (spoke.angle().abs(), spoke.norm() / 0.25)
+    }
+
+    #[test]
+    fn the_printed_form_drifts_and_the_angles_do_not() {
+        let points = [0, 1, 2, 3];
+        let x = [Point::ORIGIN, Point::new(1.0, 0.0), Point::new(0.75, 0.0), Point::new(1.0, 0.0)];
+        let (angle, radius) = planet(&mut CogVelocity::new(points, -0.25, &x), 360);
+        assert!(angle > 0.02 && radius > 1.5, "{angle} {radius}");
+        // Four times the frames, a sixteenth of the drift.
+        let (finer, _) = planet(&mut CogVelocity::new(points, -0.25, &x), 1440);
+        assert!((angle / finer - 16.0).abs() < 1.0, "{angle} {finer}");
+        let (angle, _) = planet(&mut Cog::new(points, -0.25, &x), 360);
+        assert!(angle < 1e-13, "{angle}");
+    }
+}

@@ -115,3 +115,31 @@ fn quadratic_step(h: f64, t: f64, sum: f64, tilt: f64) -> Option<f64> {
     // Below 0 in the second form, squaring has swapped the side of the line.
     (below > 0.0 || h * t > 0.0).then(|| above / below)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_step_is_exact_though_the_line_tilts() {
+        let x = [Point::new(1.0, 0.7), Point::ORIGIN, Point::new(4.0, 0.5)];
+        for w in [[1.0, 1.0, 1.0], [0.0, 1.0, 2.0], [0.1, 1.0, 0.0], [1.0, 0.0, 0.0]] {
+            for target in [-0.9, -0.3, 0.0, 0.2, 0.75, 0.9] {
+                let c = Distance { points: [0, 1, 2], bounds: Bounds::exactly(target) };
+                let mut y = x;
+                c.correct(&x, &w, &mut |p, v| y[p as usize] += v);
+                assert!(c.residual(&y).abs() < 1e-15, "{target} with {w:?}: {}", c.residual(&y));
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_step_reaches_is_approached() {
+        // The line turns about B only, and 3 is more than the distance from P to B.
+        let x = [Point::new(2.0, 0.5), Point::ORIGIN, Point::new(4.0, 0.0)];
+        let c = Distance { points: [0, 1, 2], bounds: Bounds::exactly(3.0) };
+        let mut y = x;
+        c.correct(&x, &[0.0, 1.0, 0.0], &mut |p, v| y[p as usize] += v);
+        assert!(c.residual(&y).abs() < c.residual(&x).abs());
+    }
+}

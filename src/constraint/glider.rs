@@ -106,3 +106,34 @@ impl Relation for Glider {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn active(at: f64, bounded: bool) -> usize {
+        let x = [Point::new(at, 0.5), Point::ORIGIN, Point::new(2.0, 0.0)];
+        let mut n_active = 0;
+        Glider { points: [0, 1, 2], bounded }
+            .jacobian(&x, &mut |row| n_active += usize::from(row.is_active));
+        n_active
+    }
+
+    #[test]
+    fn an_end_stop_acts_beyond_the_end_only() {
+        let counts = [-0.1, 0.0, 1.0, 2.0, 2.1].map(|at| active(at, true));
+        assert_eq!(counts, [2, 1, 1, 1, 2]);
+        let counts = [-0.1, 0.0, 1.0, 2.0, 2.1].map(|at| active(at, false));
+        assert_eq!(counts, [1; 5]);
+    }
+
+    #[test]
+    fn the_law_of_the_lever_holds() {
+        let x = [Point::new(0.5, 1.0), Point::ORIGIN, Point::new(2.0, 0.0)];
+        let mut d = [Vector::ZERO; 3];
+        let glider = Glider { points: [0, 1, 2], bounded: true };
+        glider.correct(&x, &[1.0; 3], &mut |p, v| d[p as usize] += v);
+        let mu = 0.25;
+        assert!((d[1] * mu - d[2] * (1.0 - mu)).norm() < 1e-15);
+    }
+}

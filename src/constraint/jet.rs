@@ -15,6 +15,8 @@ pub trait Real:
     fn constant(value: f64) -> Self;
     /// The value now.
     fn value(self) -> f64;
+    /// Whether it does not change in time.
+    fn is_constant(self) -> bool;
     /// A function of one variable from its value and two derivatives at `self.value()`.
     #[must_use]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self;
@@ -55,6 +57,9 @@ impl Real for f64 {
     fn value(self) -> f64 {
         self
     }
+    fn is_constant(self) -> bool {
+        true
+    }
     fn chain(self, f: f64, _df: f64, _ddf: f64) -> Self {
         f
     }
@@ -90,6 +95,9 @@ impl Real for Jet {
     }
     fn value(self) -> f64 {
         self.v
+    }
+    fn is_constant(self) -> bool {
+        self.d == 0.0 && self.dd == 0.0
     }
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
         Self::new(f, df * self.d, ddf * self.d * self.d + df * self.dd)

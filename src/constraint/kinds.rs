@@ -65,6 +65,14 @@ macro_rules! reads {
         $vis fn get(&self, field: Field) -> Option<f64> {
             match self { $(Self::$Name(c) => c.get(field),)* }
         }
+        /// See [`Relation::state`].
+        $vis fn state(&self) -> Option<Vec<f64>> {
+            match self { $(Self::$Name(c) => c.state(),)* }
+        }
+        /// See [`Relation::captured`].
+        $vis fn captured(&self) -> Vec<f64> {
+            match self { $(Self::$Name(c) => c.captured(),)* }
+        }
         /// See [`Relation::violation`].
         $vis fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
             match self { $(Self::$Name(c) => c.violation(x, w),)* }
@@ -82,6 +90,22 @@ macro_rules! writes {
         /// See [`Relation::set`].
         $vis fn set(&mut self, field: Field, value: f64) -> bool {
             match self { $(Self::$Name(c) => c.set(field, value),)* }
+        }
+        /// See [`Relation::set_state`].
+        $vis fn set_state(&mut self, state: &[f64]) {
+            match self { $(Self::$Name(c) => c.set_state(state),)* }
+        }
+        /// See [`Relation::set_captured`].
+        $vis fn set_captured(&mut self, captured: &[f64]) {
+            match self { $(Self::$Name(c) => c.set_captured(captured),)* }
+        }
+        /// See [`Relation::pick_up`].
+        $vis fn pick_up(&mut self, x: &[Point]) {
+            match self { $(Self::$Name(c) => c.pick_up(x),)* }
+        }
+        /// See [`Relation::advance`].
+        $vis fn advance(&mut self, dt: f64) -> bool {
+            match self { $(Self::$Name(c) => c.advance(dt),)* }
         }
         /// See [`Relation::begin_frame`].
         $vis fn begin_frame(&mut self, x: &[Point], dt: f64) {

@@ -3,7 +3,19 @@
 //! Every file defines the struct, its points, the residual (the paper's `f`), the correction
 //! (the paper's `A_a`, weighted and exact: `f(x + d) = 0`), the linearised rows, and the same
 //! equations over jets. Nothing here knows names, settings or files, looks at another
-//! constraint, or allocates.
+//! constraint, or allocates while relaxing.
+//!
+//! ```
+//! use linkwork::constraint::{Bounds, Constraint, Length, Point, Relation};
+//!
+//! let mut x = [Point::new(0.0, 0.0), Point::new(5.0, 0.0)];
+//! let w = [0.0, 1.0]; // the first point is frozen
+//! let rod = Constraint::from(Length { points: [0, 1], bounds: Bounds::exactly(3.0) });
+//! assert_eq!(rod.residual(&x), 2.0);
+//!
+//! rod.correct(&x.clone(), &w, &mut |point, d| x[point as usize] += d);
+//! assert_eq!(x[1], Point::new(3.0, 0.0));
+//! ```
 
 pub mod geometry;
 
@@ -108,6 +120,32 @@ pub trait Relation {
     /// Called when a frame begins, with the positions the last one ended with: a motor
     /// turns on by `dt` here.
     fn begin_frame(&mut self, _x: &[Point], _dt: f64) {}
+
+    /// The numbers that running changes beyond the points: how far a motor has turned, the
+    /// turns a wheel has made. None where there are no such.
+    fn state(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Brings back a state that `state` gave.
+    fn set_state(&mut self, _state: &[f64]) {}
+
+    /// The numbers taken from the pose at creation that its statement does not say: the shape
+    /// of a rigid body, the constant of a mesh. Empty where there are none.
+    fn captured(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Brings back the numbers that `captured` gave.
+    fn set_captured(&mut self, _captured: &[f64]) {}
+
+    /// Called when it is switched on again: it goes on from the pose as it is now.
+    fn pick_up(&mut self, _x: &[Point]) {}
+
+    /// Goes `dt` on in time; whether that changed anything.
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
+    }
 
     /// Called with a pose that was accepted as converged: angles are unwrapped from here on.
     fn accept(&mut self, _x: &[Point]) {}

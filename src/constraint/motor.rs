@@ -31,16 +31,6 @@ impl Motor {
         Self { points, radius, phase, speed, turned: Turns::default(), step, target }
     }
 
-    /// Turns on by `speed * dt`.
-    pub fn advance(&mut self, dt: f64) {
-        let step = self.speed * dt;
-        if step != self.step.0 {
-            self.step = (step, Turns::from_radians(step));
-        }
-        self.turned = self.turned.plus(self.step.1);
-        self.aim();
-    }
-
     /// The angle against the x axis without whole turns, radians.
     pub fn angle(&self) -> f64 {
         super::geometry::wrap(self.phase + self.turned.angle())
@@ -60,16 +50,6 @@ impl Motor {
     pub fn set_turned(&mut self, turned: Turns) {
         self.turned = turned;
         self.aim();
-    }
-
-    /// Goes on from where the driven point is now, by less than half a turn; a point at the
-    /// centre changes nothing.
-    pub fn pick_up(&mut self, x: &[Point]) {
-        let [x1, x2] = self.points.map(|p| x[p as usize]);
-        if x1 != x2 {
-            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
-            self.aim();
-        }
     }
 
     /// Where the driven point belongs, from the centre.
@@ -153,7 +133,95 @@ impl Relation for Motor {
         true
     }
 
-    fn begin_frame(&mut self, _x: &[Point], dt: f64) {
-        self.advance(dt);
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(self.turned.to_numbers().to_vec())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[whole, hi, lo] = state {
+            self.set_turned(Turns::from_numbers([whole, hi, lo]));
+        }
+    }
+
+    /// Goes on from where the driven point is now, by less than half a turn; a point at the
+    /// centre changes nothing.
+    fn pick_up(&mut self, x: &[Point]) {
+        let [x1, x2] = self.points.map(|p| x[p as usize]);
+        if x1 != x2 {
+            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
+            self.aim();
+        }
+    }
+
+    /// Turns on by `speed * dt`.
+    fn advance(&mut self, dt: f64) -> bool {
+        let step = self.speed * dt;
+        if step == 0.0 {
+            return false;
+        }
+        if step != self.step.0 {
+            self.step = (step, Turns::from_radians(step));
+        }
+        self.turned = self.turned.plus(self.step.1);
+        self.aim();
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::Jet;
+    use std::f64::consts::{FRAC_PI_2, TAU};
+
+    #[test]
+    fn a_positive_speed_turns_to_the_left() {
+        let mut motor = Motor::new([0, 1], 2.0, 0.0, TAU);
+        (0..15).for_each(|_| motor.advance(1.0 / 60.0));
+        assert!((motor.target() - Vector::new(0.0, 2.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_revolution_in_360_frames_ends_where_it_began() {
+        let mut motor = Motor::new([0, 1], 1.0, FRAC_PI_2, TAU);
+        let start = motor.target();
+        for _ in 0..1000 {
+            (0..360).for_each(|_| motor.begin_frame(&[], 1.0 / 360.0));
+            assert_eq!(motor.target(), start);
+        }
+        assert_eq!(motor.total(), FRAC_PI_2 + 1000.0 * TAU);
+    }
+
+    #[test]
+    fn a_change_of_speed_is_no_jump() {
+        let mut motor = Motor::new([0, 1], 1.0, 0.3, 5.0);
+        motor.advance(10.0);
+        let before = motor.target();
+        assert!(motor.set(Field::Speed, -1e9));
+        assert_eq!(motor.target(), before);
+    }
+
+    #[test]
+    fn switched_on_again_it_goes_on_from_the_point() {
+        let mut motor = Motor::new([0, 1], 1.0, 0.3, 5.0);
+        motor.advance(10.0);
+        let total = motor.total();
+        let x = [Point::new(1.0, 1.0), Point::new(1.0, -2.0)];
+        motor.pick_up(&x);
+        assert!((motor.target() - Vector::new(0.0, -1.0)).norm() < 1e-15);
+        assert!((motor.total() - total).abs() <= 0.5 * TAU);
+        motor.pick_up(&[x[0], x[0]]);
+        assert!((motor.target() - Vector::new(0.0, -1.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn equations_turn_at_the_speed() {
+        let motor = Motor::new([0, 1], 2.0, 0.0, 3.0);
+        let still = |p: PointIdx| Place::constant(Vector::new(2.0 * f64::from(p), 0.0));
+        let mut rates = Vec::new();
+        motor.equations(&still, &|_, v| Jet::constant(v), &mut |f: Jet| rates.push(f));
+        // The point would have to move up at r omega and inward at r omega^2.
+        assert_eq!([rates[0].d, rates[1].d], [0.0, -6.0]);
+        assert_eq!([rates[0].dd, rates[1].dd], [18.0, 0.0]);
     }
 }

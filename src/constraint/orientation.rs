@@ -166,6 +166,16 @@ impl Relation for Orientation {
         equation(difference + T::constant(f - difference.value()));
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(vec![self.side])
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[side] = state {
+            self.side = side;
+        }
+    }
+
     fn accept(&mut self, x: &[Point]) {
         if let Some((v12, v34)) = self.segments(x) {
             let (offset, _) = self.offset(v12.angle_to(v34));
@@ -198,4 +208,63 @@ fn turn(
     let chord = v.rotate(phi) - v;
     move_by(a, chord * (-wa / (wa + wb)));
     move_by(b, chord * (wb / (wa + wb)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The residual for segments at `theta` degrees, with bounds in degrees.
+    fn excess(period: Period, lo: f64, hi: f64, side: f64, theta: f64) -> f64 {
+        let bounds = Bounds { lo: lo.to_radians(), hi: hi.to_radians() };
+        let tip = Vector::polar(2.0, theta.to_radians()).to_point();
+        let x = [Point::ORIGIN, Point::new(1.0, 0.0), tip];
+        let c = Orientation { points: [0, 1, 0, 2], bounds, period, side };
+        c.residual(&x).to_degrees()
+    }
+
+    #[test]
+    fn angles_are_compared_the_short_way_round() {
+        const INF: f64 = f64::INFINITY;
+        use Period::{Half, Whole};
+        for (period, lo, hi, theta, expected) in [
+            (Whole, 90.0, 90.0, 80.0, -10.0),
+            (Whole, 181.0, 181.0, 179.0, -2.0),
+            (Whole, 170.0, 170.0, -170.0, 20.0),
+            (Whole, 730.0, 730.0, 0.0, -10.0),
+            (Half, 0.0, 0.0, 170.0, -10.0),
+            (Half, 0.0, 0.0, 100.0, -80.0),
+            (Half, 90.0, 90.0, -80.0, 10.0),
+            (Whole, 10.0, 50.0, 30.0, 0.0),
+            (Whole, 10.0, 50.0, 60.0, 10.0),
+            (Whole, 170.0, 190.0, -165.0, 5.0),
+            (Whole, 10.0, INF, 175.0, 0.0),
+            (Whole, 10.0, INF, -20.0, -30.0),
+            (Whole, -INF, 10.0, 40.0, 30.0),
+            (Whole, -INF, INF, 40.0, 0.0),
+        ] {
+            let f = excess(period, lo, hi, 0.0, theta);
+            assert!((f - expected).abs() < 1e-9, "{theta} in {lo}..{hi}: {f}");
+        }
+    }
+
+    #[test]
+    fn half_way_round_the_last_side_decides() {
+        for side in [-1.0, 1.0] {
+            for theta in [179.99, 180.0, 180.01] {
+                let f = excess(Period::Whole, 0.0, 0.0, side, theta);
+                assert!((f - side * theta).abs() < 0.03, "{f}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_segment_without_length_asks_for_nothing() {
+        let bounds = Bounds::exactly(1.0);
+        let c = Orientation { points: [0, 1, 2, 3], bounds, period: Period::Whole, side: 0.0 };
+        let p = Point::new(1e6, 1.0);
+        let x = [p, p + Vector::new(1e-10, 0.0), Point::ORIGIN, Point::new(1.0, 0.0)];
+        c.jacobian(&x, &mut |row| assert!(!row.is_active));
+        c.correct(&x, &[1.0; 4], &mut |_, _| panic!("moved"));
+    }
 }

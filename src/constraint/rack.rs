@@ -137,9 +137,66 @@ impl Relation for Rack {
         field == Field::Radius
     }
 
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(self.lifted.to_numbers().to_vec())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[turns, angle] = state {
+            self.lifted = Winding::from_numbers([turns, angle]);
+        }
+    }
+
+    fn captured(&self) -> Vec<f64> {
+        vec![self.radius, self.k]
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        if let &[radius, k] = captured {
+            self.radius = radius;
+            self.k = k;
+        }
+    }
+
+    fn pick_up(&mut self, x: &[Point]) {
+        *self = Self::new(self.points, x);
+    }
+
     fn accept(&mut self, x: &[Point]) {
         if let Some(arms) = self.arms(x) {
             self.lifted.follow(arms.line.angle_to(arms.spoke));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wheel of radius 2 that has rolled `s` along the x axis, on its upper side.
+    fn rolled(s: f64) -> [Point; 4] {
+        let o = Point::new(s, 2.0);
+        [o, o + Vector::polar(2.0, 0.3 - s / 2.0), Point::ORIGIN, Point::new(10.0, 0.0)]
+    }
+
+    #[test]
+    fn a_wheel_rolls_without_slip() {
+        // The same with the line stated either way round: the wheel is on its right then.
+        for points in [[0, 1, 2, 3], [0, 1, 3, 2]] {
+            let mut rack = Rack::new(points, &rolled(0.0));
+            for i in (0..5000).chain((0..5000).rev()) {
+                let x = rolled(0.7 * f64::from(i));
+                assert!(rack.residual(&x).abs() < 1e-11, "{i}: {}", rack.residual(&x));
+                rack.accept(&x);
+            }
+        }
+    }
+
+    #[test]
+    fn a_change_of_radius_is_no_jump() {
+        let mut rack = Rack::new([0, 1, 2, 3], &rolled(0.0));
+        (0..50).for_each(|i| rack.accept(&rolled(f64::from(i))));
+        assert!(rack.set(Field::Radius, -7.0));
+        assert!(rack.residual(&rolled(49.0)).abs() < 1e-12);
     }
 }

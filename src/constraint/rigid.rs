@@ -131,6 +131,25 @@ impl Relation for Rigid {
         &mut self.points
     }
 
+    /// Which points are A and B, their distance, and the zeta of each point.
+    fn captured(&self) -> Vec<f64> {
+        let ends = self.ends.map(|i| i as f64);
+        let shape = self.shape.iter().flat_map(|zeta| [zeta.x, zeta.y]);
+        ends.into_iter().chain([self.length]).chain(shape).collect()
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        let n = self.points.len();
+        if let [i, j, length, shape @ ..] = captured
+            && shape.len() == 2 * n
+            && [i, j].iter().all(|&&end| end >= 0.0 && (end as usize) < n)
+        {
+            self.ends = [*i as usize, *j as usize];
+            self.length = *length;
+            self.shape = shape.chunks_exact(2).map(|z| Vector::new(z[0], z[1])).collect();
+        }
+    }
+
     fn n_rows(&self) -> usize {
         (2 * self.points.len()).saturating_sub(3)
     }
@@ -201,5 +220,73 @@ impl Relation for Rigid {
             equation(g.x);
             equation(g.y);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: [Point; 4] =
+        [Point::new(0.0, 0.0), Point::new(3.0, 0.1), Point::new(1.0, 2.0), Point::new(2.0, -1.0)];
+
+    fn corrected(body: &Rigid, mut x: [Point; 4], w: [f64; 4]) -> [Point; 4] {
+        let before = x;
+        body.correct(&before, &w, &mut |p, v| x[p as usize] += v);
+        x
+    }
+
+    #[test]
+    fn frozen_points_lead_the_body() {
+        let body = Rigid::new(&[0, 1, 2, 3], &X);
+        let moved = X.map(|p| Point::new(7.0, -2.0) + p.to_vector().rotate(2.0));
+        // One, two, all but one frozen in the new place; the others left behind.
+        for n_frozen in 1..4 {
+            let mut x = X;
+            let mut w = [1.0, 0.1, 10.0, 3.0];
+            x[..n_frozen].copy_from_slice(&moved[..n_frozen]);
+            w[..n_frozen].fill(0.0);
+            let x = corrected(&body, x, w);
+            assert!(body.residual(&x) < 1e-14, "{n_frozen} frozen");
+            assert_eq!(x[..n_frozen], moved[..n_frozen]);
+        }
+    }
+
+    #[test]
+    fn a_mirrored_body_turns_back() {
+        let body = Rigid::new(&[0, 1, 2, 3], &X);
+        let x = corrected(&body, X.map(|p| Point::new(p.x, -p.y)), [1.0; 4]);
+        assert!(body.residual(&x) < 1e-14);
+        assert!((x[1] - x[0]).cross(x[2] - x[0]) > 0.0);
+    }
+
+    #[test]
+    fn no_other_place_of_the_body_is_nearer() {
+        let body = Rigid::new(&[0, 1, 2, 3], &X);
+        let start =
+            [(0.5, 0.0), (3.0, 1.0), (1.0, 2.5), (1.0, -1.0)].map(|(x, y)| Point::new(x, y));
+        let w = [0.1, 1.0, 2.0, 30.0];
+        let cost = |x: [Point; 4]| -> f64 {
+            (0..4).map(|i| (x[i] - start[i]).norm_squared() / w[i]).sum()
+        };
+        let best = corrected(&body, start, w);
+        for (shift, turn) in [(0.01, 0.0), (-0.01, 0.0), (0.0, 0.01), (0.0, -0.01)] {
+            let other = best.map(|p| {
+                p + (p.to_vector().rotate(turn) - p.to_vector()) + Vector::new(shift, shift)
+            });
+            assert!(cost(other) > cost(best));
+        }
+    }
+
+    #[test]
+    fn points_in_line_and_points_in_one_place_are_bodies_too() {
+        let line: [Point; 4] =
+            std::array::from_fn(|i| Point::new(i as f64, 1e-13 * (i % 2) as f64));
+        let body = Rigid::new(&[0, 1, 2, 3], &line);
+        assert!(body.residual(&corrected(&body, X, [1.0; 4])) < 1e-14);
+        let spot = Rigid::new(&[0, 1, 2, 3], &[Point::new(1.0, 1.0); 4]);
+        assert!(spot.residual(&corrected(&spot, X, [1.0; 4])) < 1e-14);
+        assert_eq!(Rigid::new(&[0, 0, 2, 0], &X).points(), [0, 2]);
+        assert_eq!(Rigid::new(&[0, 0], &X).n_rows(), 0);
     }
 }

@@ -23,11 +23,21 @@ impl Winding {
         self.angle + wrap(direction - self.angle)
     }
 
+    /// Whole turns and direction.
+    pub const fn to_numbers(self) -> [f64; 2] {
+        [self.turns as f64, self.angle]
+    }
+
+    /// The winding that [`to_numbers`](Self::to_numbers) gave.
+    pub const fn from_numbers([turns, angle]: [f64; 2]) -> Self {
+        Self { turns: turns as i64, angle }
+    }
+
     /// Takes over a direction, counting a turn where it passed pi.
     pub fn follow(&mut self, direction: f64) {
         let angle = self.near(direction);
-        let turn = (angle / std::f64::consts::TAU).round();
-        self.turns = self.turns.saturating_add(turn as i64);
         self.angle = wrap(angle);
+        let turn = ((angle - self.angle) / std::f64::consts::TAU).round();
+        self.turns = self.turns.saturating_add(turn as i64);
     }
 }

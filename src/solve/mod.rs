@@ -1,4 +1,45 @@
-//! From constraints to positions: the paper's method and what goes beyond it.
+//! From constraints to positions: the paper's section 2 and what goes beyond it.
+//!
+//! A scene is solved island by island, an island being what constraints tie together through
+//! points that are not frozen. Each method is one file; [`Method::Auto`], the default, is
+//! exact to rounding where there is a solution and fits best where there is none. Nothing
+//! here knows statements, clocks on the wall or files.
 
 pub mod linear;
 pub mod mobility;
+
+// What the methods work on.
+mod ends;
+mod history;
+mod island;
+mod memory;
+mod method;
+mod plan;
+mod rates;
+mod rows;
+mod spectrum;
+mod topology;
+
+// The methods.
+mod anderson;
+mod auto;
+mod block;
+mod conjugate;
+mod descent;
+mod follow;
+mod nesterov;
+mod newton;
+mod relaxation;
+mod struggle;
+mod successive;
+
+// Their face.
+mod pass;
+mod settings;
+mod solver;
+mod status;
+
+pub use memory::Memory;
+pub use settings::{CogForm, Method, Settings};
+pub use solver::Solver;
+pub use status::{Budget, Counters, Report, Status};

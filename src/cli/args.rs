@@ -1,0 +1,68 @@
+//! What can be written behind `linkwork`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Planar mechanisms under geometric constraints: sketch, run and draw them.
+///
+/// Without a command a session begins: a prompt on a terminal, or statements read from
+/// standard input.
+#[derive(Debug, Parser)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// How a session talks and where it writes.
+    #[command(flatten)]
+    pub session: Outside,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run scripts, one after the other, each in a world of its own.
+    Run(Batch),
+}
+
+/// Scripts to run.
+#[derive(Debug, Args)]
+pub struct Batch {
+    /// Scripts; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub outside: Outside,
+}
+
+/// How a session talks and where it writes.
+#[derive(Debug, Clone, Args)]
+pub struct Outside {
+    /// The folder that pictures, recordings and saved sessions are written to.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub out: PathBuf,
+    /// Give a parameter a value; wins over the script's own `let`.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
+    pub set: Vec<(String, f64)>,
+    /// Say nothing on standard error but errors.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Let scripts write anywhere, not only below the output folder.
+    #[arg(long)]
+    pub allow_any_path: bool,
+}
+
+/// The arguments of this process; on a mistake, or for `--help`, the process ends here.
+pub fn parse() -> Arguments {
+    Arguments::parse()
+}
+
+/// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
+fn parse_setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
+    let number =
+        crate::session::evaluate_constant(value.trim()).map_err(|e| e.message.to_string())?;
+    Ok((name.trim().to_owned(), number))
+}

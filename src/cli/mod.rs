@@ -1,0 +1,19 @@
+//! The command line: arguments, exit statuses, files, signals.
+
+mod args;
+mod files;
+pub(crate) mod interrupt;
+mod outside;
+mod run;
+pub(crate) mod talk;
+
+use std::process::ExitCode;
+
+/// Runs the program with the arguments of the process; gives its exit status.
+pub fn run() -> ExitCode {
+    let args = args::parse();
+    match args.command {
+        Some(args::Command::Run(batch)) => run::batch(&batch),
+        None => run::session(&args.session),
+    }
+}

@@ -1,0 +1,145 @@
+//! One problem: a message, the places it is about, and what to do.
+
+use super::Span;
+
+/// Something to tell the user, with the places it is about.
+///
+/// ```
+/// use linkwork::diag::{Diagnostic, Sources, Span};
+///
+/// let mut sources = Sources::new();
+/// let id = sources.add("a.link", "lenght A B");
+/// let problem = Diagnostic::error("unknown command `lenght`")
+///     .at(Span::new(id, 0..6), "not a command")
+///     .help("did you mean `length`?");
+/// assert_eq!(&*problem.message, "unknown command `lenght`");
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What sort of failure it is to a batch.
+    pub kind: Kind,
+    /// What is wrong, in one line.
+    pub message: Box<str>,
+    /// The places it is about.
+    pub labels: Vec<Label>,
+    /// What to type next.
+    pub helps: Vec<String>,
+    /// What else is worth knowing.
+    pub notes: Vec<String>,
+    /// The statements it was reached through, the innermost first.
+    pub via: Vec<Span>,
+}
+
+/// How bad a problem is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Severity {
+    /// The statement had no effect.
+    Error,
+    /// The statement took effect, with a reservation.
+    Warning,
+    /// Worth knowing.
+    Note,
+}
+
+/// What sort of failure it is: a batch's exit status depends on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// The text asks for something that cannot be done.
+    Mistake,
+    /// A file cannot be read or written.
+    Unreadable,
+    /// An `assert` failed or a promise was broken.
+    Promise,
+    /// The user stopped the command.
+    Interrupted,
+}
+
+/// A place and what is to be said about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// Written beside it; may be empty.
+    pub text: String,
+    /// Is it where the problem is, or does it only explain?
+    pub primary: bool,
+}
+
+impl Diagnostic {
+    /// An error of kind [`Kind::Mistake`].
+    pub fn error(message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, message)
+    }
+
+    /// A warning.
+    pub fn warning(message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, message)
+    }
+
+    /// A note.
+    pub fn note_only(message: impl Into<String>) -> Self {
+        Self::new(Severity::Note, message)
+    }
+
+    fn new(severity: Severity, message: impl Into<String>) -> Self {
+        Self {
+            severity,
+            kind: Kind::Mistake,
+            message: message.into().into_boxed_str(),
+            labels: Vec::new(),
+            helps: Vec::new(),
+            notes: Vec::new(),
+            via: Vec::new(),
+        }
+    }
+
+    /// Sets the kind.
+    #[must_use]
+    pub fn kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// Points at the place of the problem; `text` may be empty.
+    #[must_use]
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.push(Label { span, text: text.into(), primary: true });
+        self
+    }
+
+    /// Points at a place that explains the problem.
+    #[must_use]
+    pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.push(Label { span, text: text.into(), primary: false });
+        self
+    }
+
+    /// Says what to type next.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.helps.push(text.into());
+        self
+    }
+
+    /// Adds what else is worth knowing.
+    #[must_use]
+    pub fn note(mut self, text: impl Into<String>) -> Self {
+        self.notes.push(text.into());
+        self
+    }
+
+    /// Says that the place was reached from `span`: a `for`, a `use`, an `include`.
+    /// Call it from the innermost outwards.
+    #[must_use]
+    pub fn reached_from(mut self, span: Span) -> Self {
+        self.via.push(span);
+        self
+    }
+
+    /// The first primary place, if it has one.
+    pub fn place(&self) -> Option<Span> {
+        self.labels.iter().find(|label| label.primary).map(|label| label.span)
+    }
+}

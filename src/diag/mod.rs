@@ -1,0 +1,16 @@
+//! Problems as data: what is wrong, where in which text, and what to type next.
+//!
+//! This room lies below all others. It knows texts and places in them, and nothing of
+//! mechanisms or of the language.
+
+mod diagnostic;
+mod nearest;
+mod number;
+mod render;
+mod source;
+
+pub use diagnostic::{Diagnostic, Kind, Label, Severity};
+pub use nearest::nearest;
+pub use number::format_number;
+pub use render::{Paint, render};
+pub use source::{Place, Source, SourceId, Sources, Span};

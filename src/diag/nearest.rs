@@ -1,0 +1,89 @@
+//! The nearest of many names: what a misspelt word was probably meant to be.
+
+/// The candidate nearest to `word`, if one is near enough to be worth suggesting.
+///
+/// Nearness is the optimal string alignment distance (insert, delete, replace, swap of
+/// neighbours) with letters of either case taken as equal. A candidate may differ in one
+/// place for every three characters of the longer word, and at least in one. Of equally
+/// near ones the first is taken, one that differs in case alone before all.
+///
+/// ```
+/// use linkwork::diag::nearest;
+///
+/// assert_eq!(nearest("lenght", ["list", "length"]), Some("length"));
+/// assert_eq!(nearest("banana", ["list", "length"]), None);
+/// ```
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = fold(word);
+    if word.len() > LONGEST {
+        return None;
+    }
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        let folded = fold(candidate);
+        let limit = (word.len().max(folded.len()) / 3).max(1);
+        if word.len().abs_diff(folded.len()) > limit || folded.len() > LONGEST {
+            continue;
+        }
+        let distance = distance(&word, &folded);
+        // A one-letter word is one replacement from every other: that is no likeness.
+        let alike = distance <= limit && distance < word.len().max(folded.len());
+        if alike && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Longer words are not compared: the time grows with the square of the length.
+const LONGEST: usize = 64;
+
+fn fold(word: &str) -> Vec<char> {
+    // One more than the longest is enough to know that it is too long.
+    word.chars().flat_map(char::to_lowercase).take(LONGEST + 1).collect()
+}
+
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut before = vec![0; b.len() + 1];
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i; b.len() + 1];
+        for j in 1..=b.len() {
+            let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            row[j] = replaced.min(last[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                row[j] = row[j].min(before[j - 2] + 1);
+            }
+        }
+        before = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggests_only_what_is_near() {
+        let words = ["length", "list", "let", "step", "A", "coupler"];
+        let check = |word: &str, wanted: Option<&str>| {
+            assert_eq!(nearest(word, words), wanted, "for {word:?}");
+        };
+        check("lenght", Some("length"));
+        check("LENGTH", Some("length"));
+        check("lst", Some("list"));
+        check("setp", Some("step"));
+        check("a", Some("A"));
+        check("B", None);
+        check("cuopler", Some("coupler"));
+        check("", None);
+        check("rhubarb", None);
+        check(&"x".repeat(100_000), None);
+    }
+
+    #[test]
+    fn equal_but_for_case_comes_first() {
+        assert_eq!(nearest("ab", ["aB2", "ac", "AB"]), Some("AB"));
+    }
+}

@@ -1,0 +1,48 @@
+//! How every number is written: the shortest text that reads back to the same bits.
+
+/// Writes `value` in the fewest digits that read back to the same bits.
+///
+/// Plain notation for magnitudes from 1e-5 up to 1e16, an exponent outside of it; no
+/// trailing `.0`, and minus zero keeps its sign.
+///
+/// ```
+/// use linkwork::diag::format_number;
+///
+/// assert_eq!(format_number(3.0), "3");
+/// assert_eq!(format_number(0.1 + 0.2), "0.30000000000000004");
+/// assert_eq!(format_number(1e-7), "1e-7");
+/// assert_eq!(format_number(-0.0), "-0");
+/// ```
+pub fn format_number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_back_to_the_same_bits() {
+        let check = |value: f64, wanted: &str| {
+            let text = format_number(value);
+            assert_eq!(text, wanted);
+            assert_eq!(text.parse::<f64>().expect("a number").to_bits(), value.to_bits());
+        };
+        check(0.0, "0");
+        check(-0.0, "-0");
+        check(1.0, "1");
+        check(-2.5, "-2.5");
+        check(1e-5, "0.00001");
+        check(9.999e-6, "9.999e-6");
+        check(9_999_999_999_999_998.0, "9999999999999998");
+        check(1e16, "1e16");
+        check(f64::MAX, "1.7976931348623157e308");
+        check(5e-324, "5e-324");
+        check(1.0 / 3.0, "0.3333333333333333");
+    }
+}

@@ -1,0 +1,120 @@
+//! Every command of the language with what `help` says of it.
+
+mod mechanism;
+mod session;
+mod topics;
+
+/// A command, or a subject that `help` knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// The word a statement begins with, or the subject.
+    pub keyword: &'static str,
+    /// Under which heading it stands.
+    pub section: Section,
+    /// How it is written; `[...]` may be left out, `...` is more of the same.
+    pub usage: &'static str,
+    /// What it does, in one line.
+    pub summary: &'static str,
+    /// What else there is to know; may be empty.
+    pub help: &'static str,
+    /// Statements that show it; each line parses.
+    pub example: &'static str,
+}
+
+/// The headings, in the order of the reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Section {
+    /// Points and parameters.
+    Points,
+    /// The constraints.
+    Constraints,
+    /// Changing what is there.
+    Changing,
+    /// Letting it move.
+    Running,
+    /// Asking questions.
+    Looking,
+    /// Pictures and data.
+    Pictures,
+    /// Building big things from small ones.
+    Building,
+    /// Subjects that are no commands.
+    Topics,
+}
+
+impl Section {
+    /// Every heading, in order.
+    pub const ALL: [Self; 8] = [
+        Self::Points,
+        Self::Constraints,
+        Self::Changing,
+        Self::Running,
+        Self::Looking,
+        Self::Pictures,
+        Self::Building,
+        Self::Topics,
+    ];
+
+    /// The heading.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Points => "points and parameters",
+            Self::Constraints => "constraints",
+            Self::Changing => "changing a live mechanism",
+            Self::Running => "running",
+            Self::Looking => "looking",
+            Self::Pictures => "pictures and data",
+            Self::Building => "building big things",
+            Self::Topics => "subjects",
+        }
+    }
+}
+
+/// Every command, in the order of the reference.
+pub fn commands() -> impl Iterator<Item = &'static Entry> {
+    mechanism::MECHANISM.iter().chain(session::SESSION)
+}
+
+/// Every subject that `help` knows besides the commands.
+pub fn topics() -> impl Iterator<Item = &'static Entry> {
+    topics::TOPICS.iter()
+}
+
+/// The command or subject called `word`.
+pub fn entry(word: &str) -> Option<&'static Entry> {
+    commands().chain(topics()).find(|entry| entry.keyword == word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::SourceId;
+    use crate::lang::parse;
+
+    #[test]
+    fn every_example_parses() {
+        for entry in commands().chain(topics()) {
+            for statement in parse(SourceId(0), entry.example) {
+                let problem = statement.err().map(|problem| problem.message);
+                assert_eq!(problem, None, "in the example of `{}`", entry.keyword);
+            }
+        }
+    }
+
+    #[test]
+    fn usages_begin_with_their_keyword() {
+        for entry in commands() {
+            let word = entry.usage.split(' ').next();
+            assert_eq!(word, Some(entry.keyword));
+        }
+    }
+
+    #[test]
+    fn keywords_are_told_once() {
+        let mut keywords: Vec<_> = commands().chain(topics()).map(|entry| entry.keyword).collect();
+        keywords.sort_unstable();
+        let n_all = keywords.len();
+        keywords.dedup();
+        assert_eq!(keywords.len(), n_all);
+    }
+}

@@ -1,0 +1,67 @@
+//! The subjects of `help` that are no commands.
+
+use super::{Entry, Section};
+
+pub(super) const TOPICS: &[Entry] = &[
+    Entry {
+        keyword: "names",
+        section: Section::Topics,
+        usage: "p, p[3], left.B",
+        summary: "how things are called",
+        help: "A letter or `_`, then letters, digits, `_` and `'`; then any number of `[index]` and\n\
+             `.member`. Points, constraints and parameters share one namespace. A word is a keyword\n\
+             only where one is expected; `pi`, `tau` and `time` are reserved.",
+        example: "point r[2].foot = (0, 0)",
+    },
+    Entry {
+        keyword: "numbers",
+        section: Section::Topics,
+        usage: "3, 0.5, .5, 1e-9, 90deg",
+        summary: "how numbers are written",
+        help: "A suffix scales: `deg`, `rad`, `rev` (2 pi), `rpm` (2 pi / 60), `s`, `ms`.",
+        example: "print 90deg, 60rpm, 5ms",
+    },
+    Entry {
+        keyword: "expressions",
+        section: Section::Topics,
+        usage: "-2^2 + (x, y).x * sin(time)",
+        summary: "how values are computed",
+        help: "Numbers and vectors. `^` binds tightest and to the right, then unary minus, then `*` and\n\
+             `/`, then `+` and `-`. `(x, y)` is a vector; `v.x` and `v.y` are its components.\n\
+             The constants are `pi` and `tau`; `time` is the clock.",
+        example: "print -2^2, (A + B).x",
+    },
+    Entry {
+        keyword: "functions",
+        section: Section::Topics,
+        usage: "sin(a), distance(P, Q), ...",
+        summary: "what an expression can call",
+        help: "Numbers: `sin cos tan asin acos atan atan2 sqrt abs sign min max hypot floor ceil round\n\
+             exp ln mod`. Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
+             Measures: `distance(P, Q)`, `distance(P, A, B)` from P to the line AB, `angle(P, Q)`,\n\
+             `angle(A, B, C, D)`, `velocity(P)`, `acceleration(P)`.",
+        example: "print distance(A, C), angle(A, B, C, D)",
+    },
+    Entry {
+        keyword: "settings",
+        section: Section::Topics,
+        usage: "set SETTING VALUE",
+        summary: "what `set` can change",
+        help: "dt          time of one frame, 1/60\n\
+             method      auto, relaxation, successive, descent, newton, conjugate, nesterov, anderson\n\
+             rho         relaxation coefficient, 0.5; also for some constraints\n\
+             weight      how strongly a point resists being moved; for some points\n\
+             iterations  most iterations between two frames, 30\n\
+             tolerance   stop below this residual, relative to the scene's size, 1e-12",
+        example: "set tolerance 1e-9",
+    },
+    Entry {
+        keyword: "relations",
+        section: Section::Topics,
+        usage: "= e, <= e, >= e, in a..b",
+        summary: "what can be demanded of a value",
+        help: "`<` and `>` compare in an `assert`; in a constraint they mean the same as `<=` and `>=`.",
+        example: "length A B in 2..5\n\
+             assert C.x > 0",
+    },
+];

@@ -1,0 +1,253 @@
+//! Expressions: from operands and operators in a row to a tree by precedence.
+
+use pest::iterators::Pair as Parsed;
+
+use crate::diag::{Diagnostic, Span, nearest};
+use crate::lang::ast::{Axis, BinaryOp, Expr, Function, Node, Number, Unit};
+
+use super::cursor::Cursor;
+use super::grammar::Rule;
+
+/// The deepest tree: whatever walks over one calls itself this often at most, and a chain
+/// of operators has at most as many.
+pub(super) const MAX_DEPTH: usize = 300;
+
+/// An expression and how many nodes lie on its longest path down.
+pub(super) struct Tree {
+    pub expr: Expr,
+    pub depth: usize,
+}
+
+type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// What waits for its right operand.
+#[derive(Clone, Copy)]
+enum Waiting {
+    Minus(Span),
+    Binary(BinaryOp),
+}
+
+impl Waiting {
+    /// The higher, the tighter.
+    fn precedence(self) -> u8 {
+        match self {
+            Self::Binary(BinaryOp::Add | BinaryOp::Subtract) => 1,
+            Self::Binary(BinaryOp::Multiply | BinaryOp::Divide) => 2,
+            Self::Minus(_) => 3,
+            Self::Binary(BinaryOp::Power) => 4,
+        }
+    }
+}
+
+/// Builds the tree of an `expr` with two stacks (Dijkstra's shunting yard): a chain of any
+/// length takes no stack of ours.
+pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
+    let whole = cursor.span(&pair);
+    let mut parts = pair.into_inner();
+    let mut operands = Vec::with_capacity(2);
+    let mut waiting: Vec<Waiting> = Vec::new();
+    while let Some(part) = parts.next() {
+        match part.as_rule() {
+            Rule::minus => waiting.push(Waiting::Minus(cursor.span(&part))),
+            Rule::operator => {
+                let op = binary_op(part.as_str());
+                let new = Waiting::Binary(op);
+                // Of equals the left one goes first, but `^` is read from the right.
+                let bar = new.precedence() + u8::from(op == BinaryOp::Power);
+                while let Some(top) = waiting.pop_if(|top| top.precedence() >= bar) {
+                    apply(cursor, top, &mut operands, whole)?;
+                }
+                waiting.push(new);
+            }
+            _ => operands.push(operand(cursor, part)?),
+        }
+    }
+    while let Some(top) = waiting.pop() {
+        apply(cursor, top, &mut operands, whole)?;
+    }
+    Ok(operands.pop().expect("the grammar has an operand in each expression"))
+}
+
+fn binary_op(text: &str) -> BinaryOp {
+    match text {
+        "+" => BinaryOp::Add,
+        "-" => BinaryOp::Subtract,
+        "*" => BinaryOp::Multiply,
+        "/" => BinaryOp::Divide,
+        _ => BinaryOp::Power,
+    }
+}
+
+fn apply(cursor: &Cursor, what: Waiting, operands: &mut Vec<Tree>, whole: Span) -> Result<()> {
+    let right = operands.pop().expect("the grammar has an operand behind each operator");
+    let tree = match what {
+        Waiting::Minus(minus) => {
+            let span = minus.to(right.expr.span);
+            deeper(right.depth, Node::Negate(Box::new(right.expr)), span)
+        }
+        Waiting::Binary(op) => {
+            let left = operands.pop().expect("the grammar has an operand before each operator");
+            let span = left.expr.span.to(right.expr.span);
+            let depth = left.depth.max(right.depth);
+            deeper(depth, Node::Binary(op, Box::new([left.expr, right.expr])), span)
+        }
+    };
+    if tree.depth > MAX_DEPTH {
+        return Err(cursor.reader.too_long(whole));
+    }
+    operands.push(tree);
+    Ok(())
+}
+
+/// A node above others, the deepest of them `depth` deep.
+fn deeper(depth: usize, node: Node, span: Span) -> Tree {
+    Tree { expr: Expr { node, span }, depth: depth + 1 }
+}
+
+fn operand<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
+    let span = cursor.span(&pair);
+    let tree = match pair.as_rule() {
+        Rule::number => deeper(0, Node::Number(number(cursor, pair.as_str(), span)?), span),
+        Rule::reference => reference(cursor, pair)?,
+        _ => parens(cursor, pair)?,
+    };
+    if tree.depth > MAX_DEPTH {
+        return Err(cursor.reader.too_long(span));
+    }
+    Ok(tree)
+}
+
+fn number(cursor: &Cursor, text: &str, span: Span) -> Result<Number> {
+    let (digits, suffix) = text.split_at(digits_end(text));
+    let unit = if suffix.is_empty() {
+        Some(Unit::None)
+    } else {
+        Unit::ALL.into_iter().find(|unit| unit.suffix() == suffix)
+    };
+    let at_suffix = Span { start: span.end - suffix.len() as u32, ..span };
+    let Some(unit) = unit else {
+        return Err(unknown_suffix(digits, suffix, at_suffix));
+    };
+    let number = digits.parse().map(|written| Number { written, unit });
+    match number {
+        Ok(number) if number.value().is_finite() => Ok(number),
+        _ => Err(cursor.reader.too_large(span)),
+    }
+}
+
+/// Where the suffix of a number begins.
+fn digits_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits =
+        |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let mut end = digits(0);
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let from = end + 1 + sign;
+        if bytes.get(from).is_some_and(u8::is_ascii_digit) {
+            end = digits(from);
+        }
+    }
+    end
+}
+
+fn unknown_suffix(digits: &str, suffix: &str, span: Span) -> Diagnostic {
+    let problem = Diagnostic::error(format!("unknown unit `{suffix}`"))
+        .at(span, "not the suffix of a number");
+    if suffix.eq_ignore_ascii_case("e") {
+        return problem.help(format!("an exponent has digits: `{digits}e-3`"));
+    }
+    if suffix.starts_with('_') {
+        return problem.help("the digits of a number stand together: `1000000`, or `1e6`");
+    }
+    match nearest(suffix, Unit::ALL.map(Unit::suffix)) {
+        // A letter that is no unit is more likely a factor: `2r`.
+        Some(unit) if suffix.len() > 1 => problem.help(format!("did you mean `{digits}{unit}`?")),
+        _ => problem
+            .help(format!("to multiply, write `{digits}*{suffix}`"))
+            .help("the units are `deg`, `rad`, `rev`, `rpm`, `s` and `ms`"),
+    }
+}
+
+/// A name, or the call of a function and components of what it gives.
+fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
+    let whole = cursor.span(&pair);
+    let mut inner = cursor.within(pair);
+    let name_pair = inner.take(Rule::name).expect("the grammar has a name here");
+    let (name, depth) = cursor.name_of(name_pair)?;
+    let Some(arguments) = inner.take(Rule::arguments) else {
+        let reserved = match &*name.head.text {
+            "pi" => Node::Pi,
+            "tau" => Node::Tau,
+            "time" => Node::Time,
+            _ => return Ok(deeper(depth, Node::Name(name), whole)),
+        };
+        if let Some(part) = name.parts.first() {
+            return Err(cursor.reader.no_parts(&name.head, part.span));
+        }
+        return Ok(deeper(0, reserved, whole));
+    };
+    let Some(word) = name.as_simple() else {
+        return Err(cursor.reader.not_a_function(name.span));
+    };
+    let Some(function) = Function::named(&word.text) else {
+        return Err(cursor.reader.unknown_function(word));
+    };
+    let call_span = word.span.to(cursor.span(&arguments));
+    let (arguments, depth) = trees(cursor, arguments)?;
+    if !function.takes(arguments.len()) {
+        return Err(cursor.reader.wrong_count(function, arguments.len(), call_span));
+    }
+    let call = deeper(depth, Node::Call(function, arguments), call_span);
+    components(cursor, call, inner)
+}
+
+/// The expressions in `pair` and the depth of the deepest.
+fn trees<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<(Vec<Expr>, usize)> {
+    let mut inner = cursor.within(pair);
+    let mut exprs = Vec::new();
+    let mut depth = 0;
+    while inner.peek() == Some(Rule::expr) {
+        let tree = inner.tree()?;
+        depth = depth.max(tree.depth);
+        exprs.push(tree.expr);
+    }
+    Ok((exprs, depth))
+}
+
+fn parens<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
+    let opening = cursor.span(&pair);
+    let mut inner = cursor.within(pair);
+    let x = inner.tree()?;
+    let y = if inner.peek() == Some(Rule::expr) { Some(inner.tree()?) } else { None };
+    // Looking for what follows has passed the closing parenthesis.
+    inner.peek();
+    let span = Span { end: inner.end() as u32, ..opening };
+    let tree = match y {
+        Some(y) => deeper(x.depth.max(y.depth), Node::Vector(Box::new([x.expr, y.expr])), span),
+        None => Tree { expr: Expr { span, ..x.expr }, depth: x.depth },
+    };
+    components(cursor, tree, inner)
+}
+
+/// Wraps `tree` in the components that follow it.
+fn components<'a>(cursor: &Cursor<'a>, tree: Tree, mut rest: Cursor<'a>) -> Result<Tree> {
+    let mut tree = tree;
+    while let Some(member) = rest.take(Rule::member) {
+        let at = cursor.span(&member);
+        let axis = match member.as_str() {
+            ".x" => Axis::X,
+            ".y" => Axis::Y,
+            other => return Err(cursor.reader.no_component(other, at)),
+        };
+        let span = tree.expr.span.to(at);
+        tree = deeper(tree.depth, Node::Component(Box::new(tree.expr), axis), span);
+        if tree.depth > MAX_DEPTH {
+            return Err(cursor.reader.too_long(span));
+        }
+    }
+    Ok(tree)
+}

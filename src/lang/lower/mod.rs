@@ -1,0 +1,195 @@
+//! Text to trees: the only folder that names pest.
+//!
+//! [`parse`] cuts the text into statements (see `layout`), looks at the first word of each,
+//! lets pest read it with the rule of that verb, and turns pest's pairs into the tree. Each
+//! statement is read when it is asked for, so those before a mistake can run first.
+
+mod constraint;
+mod cursor;
+mod expr;
+mod mistake;
+mod opening;
+mod refusal;
+mod verb;
+
+use std::ops::Range;
+
+use pest::Parser;
+
+use crate::diag::{Diagnostic, SourceId, Span};
+
+use super::ast::{Body, Statement};
+use super::layout::{Flaw, Layout, Piece};
+use cursor::Cursor;
+use grammar::{LinkworkParser, Rule};
+
+/// What pest derives from the grammar; its items cannot carry documentation.
+mod grammar {
+    #![allow(missing_docs)]
+
+    /// The parser of `grammar/linkwork.pest`.
+    #[derive(pest_derive::Parser)]
+    #[grammar = "../grammar/linkwork.pest"]
+    pub struct LinkworkParser;
+}
+
+/// Reads the statements of `text`, which diagnostics know as `source`.
+///
+/// A statement that cannot be read gives one diagnostic, and the next one follows. After a
+/// bracket or string that is never closed nothing follows.
+///
+/// ```
+/// use linkwork::diag::SourceId;
+/// use linkwork::lang::parse;
+///
+/// let mut statements = parse(SourceId(0), "point A = (0, 0)\nlenght A B; step");
+/// assert!(statements.next().unwrap().is_ok());
+/// assert!(statements.next().unwrap().is_err());
+/// assert!(statements.next().unwrap().is_ok());
+/// assert!(statements.next().is_none());
+/// ```
+pub fn parse(source: SourceId, text: &str) -> Statements<'_> {
+    // A byte order mark is no part of the text.
+    let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    Statements { reader: Reader { source, text }, layout: Layout::new(text, start..text.len()) }
+}
+
+/// The statements of a text, read one by one; made by [`parse`].
+#[derive(Debug, Clone)]
+pub struct Statements<'a> {
+    reader: Reader<'a>,
+    layout: Layout<'a>,
+}
+
+impl Iterator for Statements<'_> {
+    type Item = Result<Statement, Diagnostic>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        Some(match self.layout.next_piece()? {
+            Ok(piece) => self.reader.statement(&piece),
+            Err(flaw) => Err(self.reader.flaw(flaw)),
+        })
+    }
+}
+
+/// Would more lines make a whole of this text? So a session knows to ask for another one.
+///
+/// True if a bracket is open, or the last line ends in a comma or a `\`, and what stands
+/// there so far has no mistake that more text could not mend.
+///
+/// ```
+/// use linkwork::lang::is_incomplete;
+///
+/// assert!(is_incomplete("for i in 1..3 {"));
+/// assert!(is_incomplete("point A = (0, 0),"));
+/// assert!(!is_incomplete("step 10"));
+/// assert!(!is_incomplete("print )("));
+/// ```
+pub fn is_incomplete(text: &str) -> bool {
+    let Statements { reader, layout } = parse(SourceId(0), text);
+    matches!(reader.state(layout), State::Open)
+}
+
+/// How far a text is from being one that can run.
+enum State {
+    Whole,
+    /// More text can make it whole.
+    Open,
+    /// No text behind it can.
+    Broken,
+}
+
+/// A text and the name under which diagnostics know it.
+#[derive(Debug, Clone, Copy)]
+struct Reader<'a> {
+    source: SourceId,
+    text: &'a str,
+}
+
+impl<'a> Reader<'a> {
+    fn span(&self, range: Range<usize>) -> Span {
+        Span::new(self.source, range)
+    }
+
+    fn statement(&self, piece: &Piece) -> Result<Statement, Diagnostic> {
+        let (prefix, at) = self.prefix(&piece.head)?;
+        let range = at..piece.head.end;
+        let (word, rule) = self.verb(&prefix, &range)?;
+        let mut cursor = self.read(rule, range)?;
+        let block = match (&piece.block, verb::has_block(rule)) {
+            (Some(block), true) => self.block(block)?,
+            (None, false) => Body::default(),
+            (Some(block), false) => return Err(self.needless_block(word, block.start - 1)),
+            (None, true) => return Err(self.missing_block(word, piece.head.end)),
+        };
+        let command = verb::lower(rule, &mut cursor, prefix.label, block)?;
+        Ok(Statement { command, span: self.span(piece.whole.clone()) })
+    }
+
+    fn block(&self, inside: &Range<usize>) -> Result<Body, Diagnostic> {
+        let layout = Layout::new(self.text, inside.clone());
+        let statements: Result<Vec<_>, _> = Statements { reader: *self, layout }.collect();
+        statements.map(Body::from)
+    }
+
+    /// Has pest read the bytes `range` of the text as a `rule`.
+    fn read(&self, rule: Rule, range: Range<usize>) -> Result<Cursor<'a>, Diagnostic> {
+        let input = &self.text[range.clone()];
+        match LinkworkParser::parse(rule, input) {
+            Ok(mut pairs) => {
+                let whole = pairs.next().expect("a rule that fits gives a pair");
+                Ok(Cursor::new(*self, range.start, whole.into_inner()))
+            }
+            Err(error) => Err(self.syntax_error(&error, rule, &range)),
+        }
+    }
+
+    /// What is in `layout` so far, seen by who may add to it.
+    fn state(&self, mut layout: Layout) -> State {
+        while let Some(piece) = layout.next_piece() {
+            match piece {
+                Ok(piece) => match self.statement(&piece) {
+                    Ok(_) if layout.expects_more() => return State::Open,
+                    Ok(_) => {}
+                    Err(problem) if layout.expects_more() => {
+                        return self.state_of(&problem, piece.head.end);
+                    }
+                    Err(_) => return State::Broken,
+                },
+                Err(Flaw::Unclosed { outermost, start, .. }) => {
+                    return self.state_of_unclosed(start, outermost);
+                }
+                Err(_) => return State::Broken,
+            }
+        }
+        State::Whole
+    }
+
+    /// A problem at the very end can be mended by more text.
+    fn state_of(&self, problem: &Diagnostic, end: usize) -> State {
+        let end = self.text[..end].trim_end().len();
+        let at_end = problem.place().is_some_and(|span| span.start as usize >= end);
+        if at_end { State::Open } else { State::Broken }
+    }
+
+    fn state_of_unclosed(&self, start: usize, outermost: usize) -> State {
+        let end = self.text.len();
+        if self.text.as_bytes()[outermost] == b'{' {
+            let head = start..self.text[..outermost].trim_end().len();
+            let piece = Piece { head, block: Some(end..end), whole: start..end };
+            if self.statement(&piece).is_err() {
+                return State::Broken;
+            }
+            return match self.state(Layout::new(self.text, outermost + 1..end)) {
+                State::Broken => State::Broken,
+                State::Whole | State::Open => State::Open,
+            };
+        }
+        let piece = Piece { head: start..end, block: None, whole: start..end };
+        match self.statement(&piece) {
+            // What seems whole is not: a bracket hides in a comment.
+            Ok(_) => State::Open,
+            Err(problem) => self.state_of(&problem, end),
+        }
+    }
+}

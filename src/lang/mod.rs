@@ -1,0 +1,15 @@
+//! Text to statements: the command language, without a world to act on.
+//!
+//! Nothing in here reads a file, knows a point or a constraint, or panics on any text.
+//! Names are not resolved: that `left.B` is a point, and `left.B.x` a number, is found out
+//! by who executes the statement.
+
+pub mod ast;
+pub mod catalogue;
+mod expr;
+mod function;
+mod layout;
+mod lower;
+mod print;
+
+pub use lower::{Statements, is_incomplete, parse};

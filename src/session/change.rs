@@ -1,0 +1,143 @@
+//! `change`: any trailing part of the statement that made a thing.
+
+use super::constrain::{Drivers, Measure, cog_ratio, not_negative};
+use super::{Diagnostic, Session};
+use crate::constraint::{Constraint, Field, Period, Relation as _};
+use crate::lang::ast::{ChangePart, Name, Relation};
+use crate::world::{ConstraintId, Edit, Entity, Record};
+
+impl Session {
+    pub(super) fn change_thing(
+        &mut self,
+        name: &Name,
+        parts: &[ChangePart],
+    ) -> Result<(), Diagnostic> {
+        match self.entity(name)? {
+            Entity::Constraint(id) => self.change_constraint(id, name, parts),
+            Entity::Parameter(id) => match parts {
+                [ChangePart::Relation(Relation::Equal(value))] => {
+                    let formula = self.live(value)?.into_formula(value.span);
+                    self.redefine(id, formula, name, value)
+                }
+                _ => Err(self.no_such_part(name, "a parameter takes `= value`")),
+            },
+            Entity::Point(id) => match parts {
+                [ChangePart::Relation(Relation::Equal(at))] => {
+                    let at = self.place(at)?;
+                    self.edit(Edit::Move(id, at));
+                    Ok(())
+                }
+                _ => Err(self.no_such_part(name, "a point takes `= (x, y)`")),
+            },
+        }
+    }
+
+    fn no_such_part(&self, name: &Name, takes: &str) -> Diagnostic {
+        let what = self.sources.slice(name.span);
+        Diagnostic::error(format!("`{what}` has no such part")).at(name.span, takes)
+    }
+
+    fn change_constraint(
+        &mut self,
+        id: ConstraintId,
+        name: &Name,
+        parts: &[ChangePart],
+    ) -> Result<(), Diagnostic> {
+        let mut record = self.world.constraint(id).expect("a named constraint lives").clone();
+        for part in parts {
+            self.change_part(&mut record, name, part)?;
+        }
+        self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        Ok(())
+    }
+
+    fn change_part(
+        &mut self,
+        record: &mut Record,
+        name: &Name,
+        part: &ChangePart,
+    ) -> Result<(), Diagnostic> {
+        let mut drivers = Drivers::new();
+        let changed: &[Field] = match (&mut record.constraint, part) {
+            (Constraint::Length(c), ChangePart::Relation(relation)) => {
+                c.bounds = self.bounds(relation, Measure::Length, &mut drivers)?;
+                &[Field::Lo, Field::Hi]
+            }
+            (Constraint::Equal(c), ChangePart::Relation(relation)) => {
+                c.bounds = self.bounds(relation, Measure::Signed, &mut drivers)?;
+                &[Field::Lo, Field::Hi]
+            }
+            (Constraint::Distance(c), ChangePart::Relation(relation)) => {
+                c.bounds = self.bounds(relation, Measure::Signed, &mut drivers)?;
+                &[Field::Lo, Field::Hi]
+            }
+            (Constraint::Orientation(c), ChangePart::Relation(relation))
+                if c.period == Period::Whole =>
+            {
+                c.bounds = self.bounds(relation, Measure::Angle, &mut drivers)?;
+                &[Field::Lo, Field::Hi]
+            }
+            (c @ Constraint::Motor(_), ChangePart::Radius(e)) => {
+                let value = self.drive(e, Field::Radius, &mut drivers)?;
+                not_negative(value, "a radius", e.span)?;
+                c.set(Field::Radius, value);
+                &[Field::Radius]
+            }
+            (c @ Constraint::Motor(_), ChangePart::Speed(e)) => {
+                c.set(Field::Speed, self.drive(e, Field::Speed, &mut drivers)?);
+                &[Field::Speed]
+            }
+            (c @ Constraint::Motor(_), ChangePart::Phase(e)) => {
+                c.set(Field::Phase, self.drive(e, Field::Phase, &mut drivers)?);
+                &[Field::Phase]
+            }
+            (Constraint::Hinge(c), ChangePart::At(e) | ChangePart::Ratio(e)) => {
+                c.ratio = self.drive(e, Field::Ratio, &mut drivers)?;
+                &[Field::Ratio]
+            }
+            (Constraint::Coordinate(c), ChangePart::At(e)) => {
+                c.target = self.target(e, &mut drivers)?;
+                &[Field::X, Field::Y]
+            }
+            (c @ Constraint::Cog(_), ChangePart::Ratio(e)) => {
+                let value = self.drive(e, Field::Ratio, &mut drivers)?;
+                c.set(Field::Ratio, cog_ratio(value, false, e.span)?);
+                &[Field::Ratio]
+            }
+            (c @ Constraint::Cog(_), ChangePart::Inside) => {
+                let ratio = c.get(Field::Ratio).unwrap_or(1.0);
+                c.set(Field::Ratio, -ratio.abs());
+                &[]
+            }
+            (Constraint::Glider(c), ChangePart::Unbounded) => {
+                c.bounded = false;
+                &[]
+            }
+            (c, _) => {
+                let takes = takes(c);
+                return Err(self.no_such_part(name, takes));
+            }
+        };
+        record.drivers.retain(|(field, _)| !changed.contains(field));
+        record.drivers.extend(drivers);
+        Ok(())
+    }
+}
+
+/// What can be changed of a constraint, for a message.
+fn takes(constraint: &Constraint) -> &'static str {
+    match constraint {
+        Constraint::Length(_) | Constraint::Equal(_) | Constraint::Distance(_) => {
+            "this takes `= value`, `<= value`, `>= value` or `in a..b`"
+        }
+        Constraint::Orientation(c) if c.period == Period::Whole => {
+            "an orientation takes `= angle`, `<= angle`, `>= angle` or `in a..b`"
+        }
+        Constraint::Motor(_) => "a motor takes `radius`, `speed` and `phase`",
+        Constraint::Hinge(_) => "a hinge takes `at ratio`",
+        Constraint::Coordinate(_) => "a coordinate takes `at (x, y)`",
+        Constraint::Cog(_) => "cogs take `ratio r` and `inside`",
+        Constraint::Glider(_) => "a glider takes `unbounded`",
+        _ => "this constraint has no part that can be changed",
+    }
+}

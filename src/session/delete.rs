@@ -1,0 +1,134 @@
+//! `delete`, `clear` and `reset`.
+
+use super::journal::Change;
+use super::{Diagnostic, Session};
+use crate::lang::ast::Name;
+use crate::world::{Edit, Entity, Formula, Mention};
+
+impl Session {
+    pub(super) fn delete(&mut self, names: &[Name], cascade: bool) -> Result<(), Diagnostic> {
+        for name in names {
+            let members = match self.instance(name)? {
+                Some(instance) => self.members(&instance),
+                // A definition shares no name with things of the world.
+                None => match name.as_simple() {
+                    Some(word)
+                        if self.definitions.contains_key(&word.text)
+                            && self.world.names().is_free(&word.text) =>
+                    {
+                        self.change(Change::Definition(word.text.clone(), None));
+                        continue;
+                    }
+                    _ => vec![self.entity(name)?],
+                },
+            };
+            let users = self.world.users(&members);
+            if !cascade && !users.is_empty() {
+                let text = self.sources.slice(name.span).to_owned();
+                let list: Vec<String> = users
+                    .iter()
+                    .take(8)
+                    .map(|user| format!("`{}`", self.world.name_of(user.entity())))
+                    .collect();
+                let more = users.len().saturating_sub(list.len());
+                let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+                return Err(Diagnostic::error(format!("`{text}` is in use"))
+                    .at(name.span, format!("used by {}{more}", list.join(", ")))
+                    .help(format!("`delete {text} cascade` removes these too")));
+            }
+            let all = if cascade { self.world.with_users(&members) } else { members };
+            self.remove(&all);
+        }
+        Ok(())
+    }
+
+    /// Everything whose name begins with `instance.`, constraints and parameters before points.
+    fn members(&self, instance: &str) -> Vec<Entity> {
+        let prefix = format!("{instance}.");
+        let world = &self.world;
+        let constraints = world
+            .constraints()
+            .filter(|(_, r)| r.name.starts_with(&prefix))
+            .map(|(id, _)| Entity::Constraint(id));
+        let parameters = world
+            .parameters()
+            .filter(|(_, p)| p.name.starts_with(&prefix))
+            .map(|(id, _)| Entity::Parameter(id));
+        let points = world
+            .points()
+            .ids()
+            .filter(|&id| world.points().name(id).starts_with(&prefix))
+            .map(Entity::Point);
+        constraints.chain(parameters).chain(points).collect()
+    }
+
+    /// Deletes entities that nothing else uses.
+    fn remove(&mut self, entities: &[Entity]) {
+        for &entity in entities {
+            match entity {
+                Entity::Constraint(id) => self.edit(Edit::Constraint(id, None)),
+                Entity::Parameter(id) => self.edit(Edit::Parameter(id, None)),
+                Entity::Point(_) => {}
+            }
+        }
+        for &entity in entities {
+            if let Entity::Point(id) = entity {
+                while let Some(k) = self.world.traces().iter().position(|t| t.point == id) {
+                    self.edit(Edit::Trace(k, None));
+                }
+                self.edit(Edit::Point(id, None));
+            }
+        }
+    }
+
+    /// Parameters whose expressions mention only what comes before them in the list: the
+    /// order in which they can be made again.
+    pub(super) fn parameters_in_order(&self) -> Vec<crate::world::ParameterId> {
+        let mut order = Vec::new();
+        let mut is_done = std::collections::BTreeSet::new();
+        let roots: Vec<_> = self.world.parameters().map(|(id, _)| id).collect();
+        for root in roots {
+            let mut stack = vec![(root, false)];
+            while let Some((id, is_expanded)) = stack.pop() {
+                if is_expanded {
+                    order.push(id);
+                } else if is_done.insert(id) {
+                    stack.push((id, true));
+                    let formula: &Formula =
+                        &self.world.parameter(id).expect("a listed parameter lives").formula;
+                    formula.mentions(&mut |mention| {
+                        if let Mention::Parameter(used) = mention {
+                            stack.push((used, false));
+                        }
+                    });
+                }
+            }
+        }
+        order
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.stop_everything();
+        for edit in self.world.clear_edits() {
+            self.edit(edit);
+        }
+    }
+
+    /// Forgets definitions, recordings and settings, and what the solver remembers.
+    fn stop_everything(&mut self) {
+        self.change(Change::Recorders(Vec::new()));
+        self.change(Change::Memory(Box::default()));
+        let definitions: Vec<_> = self.definitions.keys().cloned().collect();
+        for name in definitions {
+            self.change(Change::Definition(name, None));
+        }
+        self.change(Change::Preferences(Box::default()));
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.begin_motion();
+        let start = self.world.start();
+        self.edit(Edit::Motion(Box::new(start)));
+        self.change(Change::Memory(Box::default()));
+    }
+}

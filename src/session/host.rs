@@ -1,0 +1,70 @@
+//! What a session needs of the world outside: somewhere to print, files, a clock, a way to stop it.
+
+use std::io;
+use std::path::Path;
+
+use crate::diag::{Diagnostic, Sources};
+
+/// The outside of a session. The program gives it a terminal and files; a test gives it lists.
+pub trait Host {
+    /// Takes one line of the answer, without its line end.
+    fn print(&mut self, line: &str);
+
+    /// Takes talk: notes and warnings. Errors are returned, not told.
+    fn tell(&mut self, what: &Diagnostic, sources: &Sources);
+
+    /// Whether the user asked to stop the running command; asked between frames.
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// Where there is none, or it cannot be read.
+    fn read(&mut self, path: &Path) -> io::Result<String>;
+
+    /// Writes a file whole or not at all, below the output folder if the path is relative;
+    /// makes the folders it needs.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+
+    /// The path under which a written file is found again.
+    fn written(&self, path: &Path) -> std::path::PathBuf;
+
+    /// Whether the user allowed paths outside the output folder.
+    fn allows_any_path(&self) -> bool {
+        false
+    }
+
+    /// Seconds of wall time since some fixed moment; for promises and receipts only.
+    fn seconds(&self) -> f64;
+}
+
+/// An outside that says nothing, keeps nothing and has no files.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Nowhere;
+
+impl Host for Nowhere {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        Err(io::Error::from(io::ErrorKind::NotFound))
+    }
+
+    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn written(&self, path: &Path) -> std::path::PathBuf {
+        path.to_path_buf()
+    }
+
+    fn seconds(&self) -> f64 {
+        0.0
+    }
+}

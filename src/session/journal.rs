@@ -1,0 +1,104 @@
+//! What was done, so that it can be undone: every command is one transaction.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::Preferences;
+use super::limits::{UNDO_BYTES, UNDO_COMMANDS};
+use super::recorder::{Recorder, Reel};
+use crate::lang::ast::Definition;
+use crate::solve::Memory;
+use crate::world::Edit;
+
+/// One reversible change of a session. Making it gives the change that takes it back.
+#[derive(Debug)]
+pub enum Change {
+    /// An edit of the world.
+    World(Edit),
+    /// Sets all settings.
+    Preferences(Box<Preferences>),
+    /// Sets what a definition is, or that there is none.
+    Definition(Arc<str>, Option<Arc<Definition>>),
+    /// Sets what the solver remembers.
+    Memory(Box<Memory>),
+    /// Sets the recorders.
+    Recorders(Vec<Recorder>),
+    /// Sets what the recorders have taken.
+    Reels(Vec<Reel>),
+}
+
+impl Change {
+    fn n_bytes(&self) -> usize {
+        let inside = match self {
+            Self::World(Edit::Motion(motion)) => motion.n_bytes(),
+            Self::World(Edit::Constraint(_, Some(_))) => size_of::<crate::world::Record>(),
+            Self::Memory(memory) => memory.n_bytes(),
+            _ => 0,
+        };
+        size_of::<Self>() + inside
+    }
+}
+
+/// One command that changed something.
+#[derive(Debug)]
+pub struct Entry {
+    /// Its text, for telling what was undone.
+    pub label: String,
+    /// What takes it back, in the order it was made.
+    pub changes: Vec<Change>,
+}
+
+/// The commands done and undone, and the one under way.
+#[derive(Debug, Default)]
+pub struct Journal {
+    /// What takes back the command under way, in the order it was made.
+    pub current: Vec<Change>,
+    /// Whether `current` holds all that running changes already: once is enough.
+    pub has_motion: bool,
+    done: VecDeque<(Entry, usize)>,
+    undone: Vec<Entry>,
+    n_bytes: usize,
+}
+
+impl Journal {
+    /// Ends the command under way; what was undone before can no longer be redone.
+    pub fn commit(&mut self, label: &str) {
+        self.has_motion = false;
+        if self.current.is_empty() {
+            return;
+        }
+        self.undone.clear();
+        let changes = std::mem::take(&mut self.current);
+        self.keep(Entry { label: label.to_owned(), changes });
+    }
+
+    /// Keeps a command as the last one done.
+    pub fn keep(&mut self, entry: Entry) {
+        let n_bytes = entry.changes.iter().map(Change::n_bytes).sum();
+        self.n_bytes += n_bytes;
+        self.done.push_back((entry, n_bytes));
+        while self.done.len() > UNDO_COMMANDS || (self.n_bytes > UNDO_BYTES && self.done.len() > 1)
+        {
+            if let Some((_, n_bytes)) = self.done.pop_front() {
+                self.n_bytes -= n_bytes;
+            }
+        }
+    }
+
+    /// The last command done.
+    pub fn pop_done(&mut self) -> Option<Entry> {
+        let (entry, n_bytes) = self.done.pop_back()?;
+        self.n_bytes -= n_bytes;
+        Some(entry)
+    }
+
+    /// Keeps a command for `redo`.
+    pub fn push_undone(&mut self, entry: Entry) {
+        self.undone.push(entry);
+    }
+
+    /// The last command undone.
+    pub fn pop_undone(&mut self) -> Option<Entry> {
+        self.undone.pop()
+    }
+}

@@ -1,0 +1,198 @@
+//! Traces, ghosts, pictures and recordings.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::journal::Change;
+use super::recorder::{Format, Recorder};
+use super::{Diagnostic, Session};
+use crate::diag::Span;
+use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
+use crate::render::{Animation, Options, Scene, View, svg, svg_with_view};
+use crate::world::{Edit, Trace};
+
+impl Session {
+    fn every(&mut self, every: Option<&Expr>) -> Result<u64, Diagnostic> {
+        every.map_or(Ok(1), |n| self.count(n, 1.0, 1e9, "frames"))
+    }
+
+    pub(super) fn trace(&mut self, names: &[Name], every: Option<&Expr>) -> Result<(), Diagnostic> {
+        let every = self.every(every)?;
+        for name in names {
+            let point = self.point(name)?;
+            let traces = self.world.traces();
+            match traces.iter().position(|t| t.point == point) {
+                Some(k) if traces[k].every == every => {}
+                Some(k) => {
+                    // The path so far stays; only its pace changes.
+                    let mut trace = traces[k].clone();
+                    trace.every = every;
+                    self.edit(Edit::Trace(k, None));
+                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
+                }
+                None => {
+                    let trace = Trace { point, every, samples: Vec::new() };
+                    let k = traces.len();
+                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn untrace(&mut self, selection: &Selection) -> Result<(), Diagnostic> {
+        if *selection == Selection::All {
+            for k in (0..self.world.traces().len()).rev() {
+                self.edit(Edit::Trace(k, None));
+            }
+            return Ok(());
+        }
+        let Selection::Names(names) = selection else { return Ok(()) };
+        for name in names {
+            let point = self.point(name)?;
+            let Some(k) = self.world.traces().iter().position(|t| t.point == point) else {
+                let text = self.world.points().name(point);
+                return Err(Diagnostic::error(format!("`{text}` is not traced"))
+                    .at(name.span, "no trace to end"));
+            };
+            self.edit(Edit::Trace(k, None));
+        }
+        Ok(())
+    }
+
+    pub(super) fn expose(&mut self, expose: &Expose) -> Result<(), Diagnostic> {
+        let every = match expose {
+            Expose::Now => {
+                let ghost = self.world.expose();
+                self.edit(ghost);
+                return Ok(());
+            }
+            Expose::Every(n) => Some(self.count(n, 1.0, 1e9, "frames")?),
+            Expose::Off => None,
+        };
+        let new = super::Preferences { expose_every: every, ..self.preferences.clone() };
+        self.change(Change::Preferences(Box::new(new)));
+        Ok(())
+    }
+
+    /// Keeps what this frame leaves behind: traces, ghosts, recordings.
+    pub(super) fn keep_frame(&mut self, missed: bool) {
+        if !self.world.traces().is_empty() {
+            self.world.sample_traces(missed);
+        }
+        if let Some(every) = self.preferences.expose_every
+            && self.world.clock().frame.is_multiple_of(every)
+        {
+            let ghost = self.world.expose();
+            // Running is taken back as a whole, ghosts included.
+            self.world.apply(ghost);
+        }
+        for recorder in &mut self.recorders {
+            recorder.take(&self.world);
+        }
+    }
+
+    /// Where an output path leads; refused outside the output folder.
+    pub(super) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let given = Path::new(&*path.value);
+        if path.value.is_empty() || path.value.contains('\0') {
+            return Err(
+                Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
+            );
+        }
+        let is_inside =
+            given.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        if is_inside || self.host.allows_any_path() {
+            return Ok(given.to_path_buf());
+        }
+        Err(Diagnostic::error("files are written below the output folder only")
+            .at(path.span, "this path leads elsewhere")
+            .help("`--allow-any-path` on the command line permits it"))
+    }
+
+    pub(super) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.output_path(path)?;
+        if path.value.ends_with('/') {
+            return Err(Diagnostic::error("`svg` writes one file")
+                .at(path.span, "this names a folder")
+                .help(format!("`record \"{}\"` writes a folder of frames", path.value)));
+        }
+        let scene = Scene::new(&self.world);
+        let picture = svg(&scene, &Options::default());
+        self.outbox.push((file, picture.into_bytes(), path.span));
+        Ok(())
+    }
+
+    pub(super) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
+        let every = self.every(every)?;
+        let file = self.output_path(path)?;
+        let is_named = |ending: &str| path.value.to_ascii_lowercase().ends_with(ending);
+        let format = if path.value.ends_with('/') {
+            Format::Frames
+        } else if is_named(".svg") {
+            Format::Movie
+        } else if is_named(".csv") {
+            Format::Table
+        } else {
+            return Err(Diagnostic::error("what is this recording to become?")
+                .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
+                .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
+        };
+        if self.recorders.iter().any(|r| r.path == file) {
+            return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
+                .at(path.span, "")
+                .help("`record stop` ends and writes all recordings"));
+        }
+        if format == Format::Table && self.world.traces().is_empty() {
+            self.warn(
+                &Diagnostic::warning("no point is traced, so the table will hold times only")
+                    .at(path.span, "")
+                    .help("`trace C` adds the columns of a point"),
+            );
+        }
+        let mut recorders = self.recorders.clone();
+        recorders.push(Recorder::new(file, path.span, every, format));
+        self.change(Change::Recorders(recorders));
+        Ok(())
+    }
+
+    pub(super) fn record_stop(&mut self, span: Span) -> Result<(), Diagnostic> {
+        if self.recorders.is_empty() {
+            return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
+        }
+        self.stop_recording(span)
+    }
+
+    /// Ends all recordings and hands over their files.
+    pub(super) fn stop_recording(&mut self, _span: Span) -> Result<(), Diagnostic> {
+        for recorder in &self.recorders {
+            match recorder.format {
+                Format::Table => {
+                    let file =
+                        (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
+                    self.outbox.push(file);
+                }
+                Format::Frames => {
+                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
+                    for (k, (scene, _)) in recorder.scenes().enumerate() {
+                        let picture = svg_with_view(scene, &view, &Options::default());
+                        let path = recorder.path.join(format!("frame-{k:04}.svg"));
+                        self.outbox.push((path, picture.into_bytes(), recorder.span));
+                    }
+                }
+                Format::Movie => {
+                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
+                    let mut movie = Animation::new(view, &Options::default());
+                    for (scene, time) in recorder.scenes() {
+                        movie.push(scene, time);
+                    }
+                    let file = (recorder.path.clone(), movie.finish().into_bytes(), recorder.span);
+                    self.outbox.push(file);
+                }
+            }
+        }
+        if !self.recorders.is_empty() {
+            self.change(Change::Recorders(Vec::new()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,135 @@
+//! Recordings under way: frames for a folder or an animation, rows for a table.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use crate::constraint::Point;
+use crate::diag::{Span, format_number};
+use crate::render::Scene;
+use crate::world::World;
+
+/// One recording.
+#[derive(Debug, Clone)]
+pub struct Recorder {
+    /// Where it will be written.
+    pub path: PathBuf,
+    /// The statement's path, for errors.
+    pub span: Span,
+    /// One shot every so many frames.
+    pub every: u64,
+    /// What it will become.
+    pub format: Format,
+    shots: Vec<Shot>,
+}
+
+/// What a recording becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// A folder of numbered pictures.
+    Frames,
+    /// One animated picture.
+    Movie,
+    /// A table of the traced points.
+    Table,
+}
+
+/// What is kept of one frame.
+#[derive(Debug, Clone)]
+enum Shot {
+    Scene(Box<Scene>, f64),
+    Row(f64, Vec<(Box<str>, Point)>),
+}
+
+/// How much of a recording to keep, and what follows it: the end that an undo takes away.
+#[derive(Debug)]
+pub struct Reel {
+    keep: usize,
+    then: Vec<Shot>,
+}
+
+impl Recorder {
+    /// A recording that has taken nothing yet.
+    pub const fn new(path: PathBuf, span: Span, every: u64, format: Format) -> Self {
+        Self { path, span, every, format, shots: Vec::new() }
+    }
+
+    /// Its reel as it is.
+    pub const fn mark(&self) -> Reel {
+        Reel { keep: self.shots.len(), then: Vec::new() }
+    }
+
+    /// Winds to the end that `reel` describes; gives the end it had.
+    pub fn wind(&mut self, reel: Reel) -> Reel {
+        let keep = reel.keep.min(self.shots.len());
+        let then = self.shots.split_off(keep);
+        self.shots.extend(reel.then);
+        Reel { keep, then }
+    }
+
+    /// Takes the frame that was just solved, if it is due.
+    pub fn take(&mut self, world: &World) {
+        let clock = world.clock();
+        if !clock.frame.is_multiple_of(self.every) {
+            return;
+        }
+        self.shots.push(match self.format {
+            Format::Frames | Format::Movie => {
+                Shot::Scene(Box::new(Scene::new(world)), clock.time())
+            }
+            Format::Table => {
+                let points = world.points();
+                let row = world.traces().iter();
+                let row = row.map(|t| (points.name(t.point).into(), points.at(t.point)));
+                Shot::Row(clock.time(), row.collect())
+            }
+        });
+    }
+
+    /// How many frames it has taken.
+    pub const fn n_shots(&self) -> usize {
+        self.shots.len()
+    }
+
+    /// The scenes taken, each with its time.
+    pub fn scenes(&self) -> impl Iterator<Item = (&Scene, f64)> {
+        self.shots.iter().filter_map(|shot| match shot {
+            Shot::Scene(scene, time) => Some((&**scene, *time)),
+            Shot::Row(..) => None,
+        })
+    }
+
+    /// The table: a line of names, then a line a frame. A point that was not traced at a
+    /// frame leaves its cells empty.
+    pub fn table(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for shot in &self.shots {
+            if let Shot::Row(_, row) = shot {
+                for (name, _) in row {
+                    if !names.contains(&&**name) {
+                        names.push(name);
+                    }
+                }
+            }
+        }
+        let mut text = String::from("time");
+        for name in &names {
+            // Writing to a string cannot fail.
+            let _ = write!(text, ",{name}.x,{name}.y");
+        }
+        text.push('\n');
+        for shot in &self.shots {
+            let Shot::Row(time, row) = shot else { continue };
+            text.push_str(&format_number(*time));
+            for name in &names {
+                match row.iter().find(|(n, _)| &**n == *name) {
+                    Some((_, p)) => {
+                        let _ = write!(text, ",{},{}", format_number(p.x), format_number(p.y));
+                    }
+                    None => text.push_str(",,"),
+                }
+            }
+            text.push('\n');
+        }
+        text
+    }
+}

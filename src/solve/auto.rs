@@ -1,0 +1,152 @@
+//! The method `auto`: expect where the points will be, find them from there block by block,
+//! follow the motion in smaller steps where that is not safe, and where there is no solution
+//! settle for the best fit.
+
+use super::island::Island;
+use super::method::{Limits, Outcome, Pose, Workspace};
+use super::rows::Equations;
+use super::status::{Counters, Status};
+use super::{block, follow, newton, struggle};
+use crate::constraint::Point;
+
+/// A correction of the expected pose larger than this part of the motion means that the
+/// motion was not understood; measured on mechanisms at 1 to 60 degrees a frame.
+const SURPRISE: f64 = 0.3;
+/// A motion that is smaller than this part of the size is not worth a second look.
+const NO_MOTION: f64 = 1e-6;
+
+/// Squares of singular values below this count as freedom: in the middle of the range in
+/// which the count was right on all scenes measured, 1e-14 to 1e-6.
+const RANK_CUT: f64 = 1e-10;
+
+/// How an attempt at a pose from an expected one went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Attempt {
+    /// The largest distance to satisfaction, length units.
+    pub worst: f64,
+    /// The steps it took.
+    pub n_iterations: u32,
+    /// How far the farthest point ended from where it was expected.
+    pub correction: f64,
+    /// Whether a block changed sides of its singular pose.
+    pub has_flipped: bool,
+}
+
+impl Attempt {
+    /// Whether the pose, reached by `motion` from the last one, follows from it.
+    pub fn is_safe(&self, motion: f64, limits: &Limits) -> bool {
+        !self.has_flipped
+            && (self.correction <= SURPRISE * motion || motion <= NO_MOTION * limits.size)
+    }
+}
+
+/// Solves a frame: the values of the constraints and the frozen points are those at its end.
+pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    if island.status != Status::Converged || island.inputs.is_disturbed {
+        return struggle::settle(island, limits, work);
+    }
+    let n_free = island.n_free;
+    island.history.begin(&island.x[..n_free]);
+    let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
+    if let Some(attempt) = attempt(island, is_predicted, limits, work)
+        && attempt.is_safe(motion_since(island, island.history.origin()), limits)
+    {
+        return accept(island, attempt);
+    }
+    island.x[..n_free].copy_from_slice(island.history.origin());
+    if let Some(attempt) = follow::frame(island, limits, work) {
+        return accept(island, attempt);
+    }
+    island.x[..n_free].copy_from_slice(island.history.origin());
+    struggle::settle(island, limits, work)
+}
+
+/// The frame ends at the present pose.
+fn accept(island: &mut Island, attempt: Attempt) -> Outcome {
+    island.history.advance();
+    island.keep_sides();
+    island.accept_pose();
+    let Attempt { worst, n_iterations, .. } = attempt;
+    Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }
+}
+
+/// The longest way a free point went since a pose.
+pub(super) fn motion_since(island: &Island, before: &[Point]) -> f64 {
+    let moves = island.x.iter().zip(before).map(|(a, b)| *a - *b);
+    moves.fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()))
+}
+
+/// Looks for the solution near the present pose; none if there is none near. The pose is to
+/// be thrown away then.
+pub(super) fn attempt(
+    island: &mut Island,
+    is_predicted: bool,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Option<Attempt> {
+    let mut sum = Attempt { worst: 0.0, n_iterations: 0, correction: 0.0, has_flipped: false };
+    let Island { plan, constraints, x, .. } = island;
+    for block in &mut plan.blocks {
+        let which = &plan.constraints[block.first as usize..block.end as usize];
+        let found = block::find(block, which, constraints, x, is_predicted, limits, work)?;
+        sum.worst = sum.worst.max(found.worst);
+        sum.n_iterations = sum.n_iterations.max(found.n_steps);
+        sum.correction = sum.correction.max(found.correction);
+        sum.has_flipped |= found.side * block.side < 0.0;
+        block.next_side = found.side;
+    }
+    if !island.plan.is_complete() {
+        attempt_rest(island, is_predicted, limits, work, &mut sum)?;
+    }
+    Some(sum)
+}
+
+/// The same for the parts that are solved as a whole.
+fn attempt_rest(
+    island: &mut Island,
+    is_predicted: bool,
+    limits: &Limits,
+    work: &mut Counters,
+    sum: &mut Attempt,
+) -> Option<()> {
+    let mut rooms = std::mem::take(&mut island.part_rooms);
+    if rooms.is_empty() {
+        rooms.extend(island.plan.rest.iter().map(|part| {
+            let (constraints, points) = (part.constraints.clone(), part.points.clone());
+            let equations =
+                Equations::new(&island.constraints, constraints, points, &island.x, &island.w);
+            Workspace::new(equations)
+        }));
+    }
+    let mut is_found = true;
+    for room in &mut rooms {
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        let mut reference = Vec::new();
+        let mut n = 0;
+        if !is_predicted {
+            // Where the first step leads is what the motion looks like from here.
+            let one = Limits { n_iterations: 1, ..*limits };
+            n = newton::approach(room, &mut pose, &one, work).n_iterations;
+        }
+        room.equations.gather(pose.x, &mut reference);
+        let outcome = newton::approach(room, &mut pose, limits, work);
+        let points = room.equations.points().iter();
+        let correction = points.zip(&reference).fold(0.0_f64, |most, (&p, before)| {
+            let d = pose.x[p as usize] - *before;
+            most.max(d.x.abs()).max(d.y.abs())
+        });
+        sum.worst = sum.worst.max(outcome.worst);
+        sum.n_iterations = sum.n_iterations.max(outcome.n_iterations + n);
+        sum.correction = sum.correction.max(correction);
+        if !outcome.is_converged() {
+            is_found = false;
+            break;
+        }
+    }
+    if is_found && !island.has_degree {
+        let is_rigid = |room: &mut Workspace| room.assemble().nullity(RANK_CUT) == 0;
+        island.set_smooth(rooms.iter_mut().all(is_rigid));
+    }
+    island.part_rooms = rooms;
+    is_found.then_some(())
+}

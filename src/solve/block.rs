@@ -1,0 +1,160 @@
+//! One point found from constraints to known points.
+
+use super::method::Limits;
+use super::plan::Block;
+use super::status::Counters;
+use crate::constraint::{Constraint, Point, PointIdx, Relation, Row, Vector};
+
+/// A point that takes more steps than this is not near its solution.
+const MOST_STEPS: u32 = 8;
+/// Each step has to leave less than this part of the distance to satisfaction: convergence
+/// near a solution is much faster, and far from one the whole island is a better judge.
+const SLOWEST: f64 = 0.25;
+/// See `newton`: damping relative to the distance to satisfaction, and its floor.
+const DAMPING: f64 = 1e-2;
+const FLOOR: f64 = 1e-11;
+/// A step longer than this part of the size is no longer a small change.
+const LONGEST_STEP: f64 = 0.5;
+
+/// How a point was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Found {
+    /// The largest distance to satisfaction left, length units.
+    pub worst: f64,
+    /// How many steps it took.
+    pub n_steps: u32,
+    /// How far the point is from where it started, or from where the first step led if the
+    /// start was no prediction.
+    pub correction: f64,
+    /// On which side of the singular pose it is.
+    pub side: f64,
+}
+
+/// The rows of a block as they depend on its point, added up.
+#[derive(Default)]
+struct Sum {
+    /// `g g^T` summed, and `g f`.
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    fx: f64,
+    fy: f64,
+    worst: f64,
+    /// The first active gradient; then the cross product with the second.
+    first: Option<Vector>,
+    side: f64,
+}
+
+impl Sum {
+    #[inline]
+    fn add(&mut self, row: &Row, point: PointIdx) {
+        if !row.is_active {
+            return;
+        }
+        let term = row.terms().find(|&(p, _)| p == point);
+        let g = term.map_or(Vector::ZERO, |(_, g)| g);
+        let norm = g.norm_squared();
+        // A row that does not feel its point cannot be met by moving it.
+        if norm == 0.0 {
+            self.worst = self.worst.max(row.f.abs());
+            return;
+        }
+        let scale = 1.0 / norm.sqrt();
+        let (g, f) = (g * scale, row.f * scale);
+        self.xx += g.x * g.x;
+        self.xy += g.x * g.y;
+        self.yy += g.y * g.y;
+        self.fx += g.x * f;
+        self.fy += g.y * f;
+        self.worst = self.worst.max(f.abs());
+        match self.first {
+            None => self.first = Some(g),
+            Some(first) if self.side == 0.0 => self.side = first.cross(g),
+            Some(_) => {}
+        }
+    }
+
+    /// The damped Gauss-Newton step.
+    fn step(&self, mu: f64) -> Vector {
+        let (a, b) = (self.xx + mu, self.yy + mu);
+        let k = -1.0 / (a * b - self.xy * self.xy);
+        Vector::new(b * self.fx - self.xy * self.fy, a * self.fy - self.xy * self.fx) * k
+    }
+}
+
+/// Adds up the rows of a block at a pose.
+fn evaluate(p: PointIdx, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum {
+    let mut sum = Sum::default();
+    for &c in which {
+        all[c as usize].jacobian(x, &mut |row| sum.add(&row, p));
+    }
+    sum
+}
+
+/// The side of the singular pose a block is on, at a pose.
+pub(super) fn side(block: &Block, which: &[u32], all: &[Constraint], x: &[Point]) -> f64 {
+    if block.is_assignment { 0.0 } else { evaluate(block.point, which, all, x).side }
+}
+
+/// Puts the point of a block where its constraints `which` say; none if it is not near.
+pub(super) fn find(
+    block: &Block,
+    which: &[u32],
+    all: &[Constraint],
+    x: &mut [Point],
+    is_predicted: bool,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Option<Found> {
+    let p = block.point;
+    work.evaluations += which.len() as u64;
+    let mut reference = x[p as usize];
+    if block.is_assignment {
+        // One linear equation: where the step leads is where the point belongs.
+        let d = assign(p, &all[which[0] as usize], x)?;
+        x[p as usize] += d;
+        let correction = if is_predicted { d.x.abs().max(d.y.abs()) } else { 0.0 };
+        let is_finite = x[p as usize].is_finite();
+        return is_finite.then_some(Found { worst: 0.0, n_steps: 0, correction, side: 0.0 });
+    }
+    let mut sum = evaluate(p, which, all, x);
+    let mut n_steps = 0;
+    while sum.worst > limits.tolerance || sum.worst.is_nan() {
+        let d = sum.step(DAMPING * (sum.worst / limits.size).min(1.0) + FLOOR);
+        let longest = LONGEST_STEP * limits.size;
+        let is_short = d.x.abs() <= longest && d.y.abs() <= longest;
+        if !is_short || n_steps == MOST_STEPS {
+            return None;
+        }
+        x[p as usize] += d;
+        n_steps += 1;
+        if n_steps == 1 && !is_predicted {
+            reference = x[p as usize];
+        }
+        let before = sum.worst;
+        sum = evaluate(p, which, all, x);
+        work.evaluations += which.len() as u64;
+        if sum.worst > (SLOWEST * before).max(limits.tolerance) {
+            return None;
+        }
+    }
+    let d = x[p as usize] - reference;
+    let correction = d.x.abs().max(d.y.abs());
+    Some(Found { worst: sum.worst, n_steps, correction, side: sum.side })
+}
+
+/// The displacement of `p` that satisfies a linear vector equation.
+fn assign(p: PointIdx, constraint: &Constraint, x: &[Point]) -> Option<Vector> {
+    let mut rows = [(0.0, Vector::ZERO); 2];
+    let mut n = 0;
+    constraint.jacobian(x, &mut |row| {
+        let term = row.terms().find(|&(q, _)| q == p);
+        rows[n.min(1)] = (row.f, term.map_or(Vector::ZERO, |(_, g)| g));
+        n += 1;
+    });
+    let [(f, g), (h, k)] = rows;
+    // The coefficient of the point as a complex number, squared; 0 for a point that is held
+    // against itself.
+    let det = g.cross(k);
+    (det > 0.0).then(|| Vector::new(h * g.y - f * k.y, f * k.x - h * g.x) / det)
+}

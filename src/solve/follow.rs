@@ -1,0 +1,117 @@
+//! A frame in smaller steps: what drives the island is interpolated between the last frame
+//! and the present one, and each step is expected from those before it.
+
+use super::auto::{Attempt, attempt, motion_since};
+use super::ends::Ends;
+use super::island::Island;
+use super::method::Limits;
+use super::status::Counters;
+use crate::constraint::{Point, Vector};
+
+/// The smallest step, as a part of the frame. A gap between two branches that is passed in
+/// less than this is not seen.
+const SMALLEST: f64 = 1.0 / 32.0;
+/// After a step whose correction stayed below this part of its motion the next may be longer.
+const EASY: f64 = 0.05;
+/// More iterations than this in a step near its solution: there is none.
+const MOST_ITERATIONS: u32 = 12;
+/// How many poses an expectation is made from.
+const MOST_NODES: usize = 4;
+
+/// Poses at instants of the frame; 0 is its beginning, 1 its end.
+struct Track {
+    nodes: Vec<(f64, Vec<Point>)>,
+}
+
+impl Track {
+    /// The poses the island was in at the frames before.
+    fn new(island: &Island) -> Self {
+        let history = &island.history;
+        let past = (0..=history.n_past()).rev();
+        Self { nodes: past.map(|k| (-(k as f64), history.past(k).to_vec())).collect() }
+    }
+
+    /// Puts the points where they are expected at `t`; false if nothing is known.
+    fn predict(&self, t: f64, degree: &[u8], free: &mut [Point]) -> bool {
+        let n_nodes = self.nodes.len().min(MOST_NODES);
+        if n_nodes < 2 {
+            return false;
+        }
+        // By degree, so that points with the same one share the weights.
+        let weights: Vec<Vec<f64>> =
+            (0..n_nodes).map(|degree| lagrange(&self.nodes, degree, t)).collect();
+        let (_, here) = &self.nodes[self.nodes.len() - 1];
+        for (k, to) in free.iter_mut().enumerate() {
+            let weights = &weights[(degree[k] as usize).min(n_nodes - 1)];
+            let mut d = Vector::ZERO;
+            for (weight, (_, pose)) in weights.iter().zip(self.nodes.iter().rev()) {
+                d += (pose[k] - here[k]) * *weight;
+            }
+            *to = here[k] + d;
+        }
+        true
+    }
+
+    fn push(&mut self, t: f64, free: &[Point]) {
+        if self.nodes.len() == MOST_NODES {
+            self.nodes.remove(0);
+        }
+        self.nodes.push((t, free.to_vec()));
+    }
+}
+
+/// The weights of the last `degree + 1` nodes, the latest first, in the polynomial through
+/// them at `t`. The nodes are at different instants.
+fn lagrange(nodes: &[(f64, Vec<Point>)], degree: usize, t: f64) -> Vec<f64> {
+    let times: Vec<f64> = nodes.iter().rev().take(degree + 1).map(|(t, _)| *t).collect();
+    let weight = |k: usize| -> f64 {
+        let others = times.iter().enumerate().filter(|&(j, _)| j != k);
+        others.map(|(_, other)| (t - other) / (times[k] - other)).product()
+    };
+    (0..times.len()).map(weight).collect()
+}
+
+/// Solves a frame from the pose it begins with; none if the motion cannot be followed. The
+/// values of all constraints are those at the end of the frame afterwards.
+pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Option<Attempt> {
+    let n_free = island.n_free;
+    let ends = Ends::of_frame(island);
+    let limits = Limits { n_iterations: limits.n_iterations.min(MOST_ITERATIONS), ..*limits };
+    let mut track = Track::new(island);
+    let mut before = island.x[..n_free].to_vec();
+    let (mut t, mut h) = (0.0, 0.5);
+    let mut last = None;
+    let mut n_iterations = 0;
+    while t < 1.0 {
+        let to = if t + h >= 1.0 { 1.0 } else { t + h };
+        ends.interpolate(island, to);
+        let is_predicted = track.predict(to, &island.degree, &mut island.x[..n_free]);
+        let tried = attempt(island, is_predicted, &limits, work);
+        work.substeps += 1;
+        let is_smallest = to - t <= SMALLEST;
+        let motion = motion_since(island, &before);
+        let Some(step) = tried.filter(|step| is_smallest || step.is_safe(motion, &limits)) else {
+            island.x[..n_free].copy_from_slice(&before);
+            if is_smallest || limits.budget.is_spent() {
+                ends.interpolate(island, 1.0);
+                ends.restore_states(island);
+                return None;
+            }
+            h *= 0.5;
+            continue;
+        };
+        n_iterations += step.n_iterations;
+        t = to;
+        island.keep_sides();
+        if t < 1.0 {
+            island.accept_pose();
+        }
+        before.copy_from_slice(&island.x[..n_free]);
+        track.push(t, &before);
+        last = Some(step);
+        if step.correction <= EASY * motion {
+            h = (2.0 * h).min(1.0);
+        }
+    }
+    last.map(|step| Attempt { n_iterations, ..step })
+}

@@ -1,0 +1,416 @@
+//! Points that constraints tie together, with everything the solver keeps about them.
+
+use std::sync::{Arc, OnceLock};
+
+use super::history::History;
+use super::method::{Limits, Workspace};
+use super::plan::{Plan, n_firm_rows};
+use super::rows::Equations;
+use super::settings::Settings;
+use super::spectrum::Spectrum;
+use super::status::{Budget, Status};
+use crate::constraint::{Constraint, Field, Point, Relation};
+use crate::world::{ConstraintId, PointId, Record};
+
+/// A set of points that are not frozen, connected by constraints, and the frozen points that
+/// these constraints hold too. Points have local indices here: free ones first, each group by
+/// handle; constraints lie by kind, then points, then handle. So an island does not know in
+/// what order its constraints were made.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+pub(super) struct Island {
+    /// The handles of the points, by local index.
+    pub points: Vec<PointId>,
+    /// How many of them are free.
+    pub n_free: usize,
+    /// Where they are.
+    pub x: Vec<Point>,
+    /// Their inverse masses; 0 for frozen ones.
+    pub w: Vec<f64>,
+    /// The constraints, over local indices.
+    pub constraints: Vec<Constraint>,
+    /// Their handles.
+    pub ids: Vec<ConstraintId>,
+    /// The coefficients of those that have one of their own; empty if none has.
+    pub own_rho: Vec<Option<f64>>,
+    /// Those that carry something on from pose to pose: unwrapped angles and the like.
+    pub stateful: Vec<u32>,
+    /// What can be found point by point.
+    pub plan: Plan,
+    /// Up to which degree the motion of each free point is smooth enough to extrapolate.
+    pub degree: Vec<u8>,
+    /// Whether `degree` was worked out at a pose.
+    pub has_degree: bool,
+    /// Where the free points were.
+    pub history: History,
+    /// How the last solve ended.
+    pub status: Status,
+    /// The largest distance to satisfaction it left, relative to the size.
+    pub residual: f64,
+    /// The last pose that met everything, kept while none does.
+    pub feasible: Option<Box<[Point]>>,
+    /// Whether it was never solved.
+    pub is_new: bool,
+    /// Whether the user edited it since it was solved: it is solved as it is before time
+    /// goes on.
+    pub is_edited: bool,
+    /// Whether a way off a saddle was looked for since the last converged pose.
+    pub is_probed: bool,
+    /// What drives the island in this frame, as it was before.
+    pub inputs: Inputs,
+    /// The room for the island as a whole, while it is needed.
+    pub room: Option<Box<Workspace>>,
+    /// The room for each part the plan leaves to be solved as a whole; once needed.
+    pub part_rooms: Vec<Workspace>,
+    /// What is remembered of it, once asked for since the last visit.
+    pub remembered: OnceLock<Arc<[f64]>>,
+    /// What limits the relaxation coefficient; once relaxation ran.
+    pub spectrum: Option<Box<Spectrum>>,
+}
+
+/// What changed since the last visit, with the values before.
+#[derive(Default)]
+pub(super) struct Inputs {
+    /// Constraints whose values changed.
+    pub constraints: Vec<(u32, Constraint)>,
+    /// Frozen points that were put elsewhere.
+    pub points: Vec<(u32, Point)>,
+    /// Whether a free point was put elsewhere.
+    pub is_disturbed: bool,
+}
+
+impl Inputs {
+    /// Whether nothing changed.
+    pub fn is_empty(&self) -> bool {
+        self.constraints.is_empty() && self.points.is_empty() && !self.is_disturbed
+    }
+
+    /// What changed twice began where the first change found it.
+    pub fn tidy(&mut self) {
+        self.constraints.sort_by_key(|(c, _)| *c);
+        self.constraints.dedup_by_key(|(c, _)| *c);
+        self.points.sort_by_key(|(p, _)| *p);
+        self.points.dedup_by_key(|(p, _)| *p);
+    }
+
+    fn clear(&mut self) {
+        self.constraints.clear();
+        self.points.clear();
+        self.is_disturbed = false;
+    }
+}
+
+/// What an island is made of, what drives it and how it lies, each as one number: equal
+/// numbers mean that nothing was edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Fingerprint {
+    pub structure: u64,
+    pub inputs: u64,
+    pub pose: u64,
+}
+
+/// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
+struct Hasher(u64);
+
+impl Default for Hasher {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01b3);
+        // Words differ most in their upper bits, which the product alone never moves down.
+        self.0 ^= self.0 >> 29;
+    }
+}
+
+/// Every value a constraint may have.
+const FIELDS: [Field; 8] = [
+    Field::Lo,
+    Field::Hi,
+    Field::X,
+    Field::Y,
+    Field::Radius,
+    Field::Speed,
+    Field::Phase,
+    Field::Ratio,
+];
+
+/// A constraint on its way into an island.
+pub(super) struct Member<'a> {
+    /// Its handle.
+    pub id: ConstraintId,
+    /// The constraint, over handles of points.
+    pub constraint: &'a Constraint,
+    /// Its own coefficient.
+    pub rho: Option<f64>,
+}
+
+impl Island {
+    /// The island of these constraints; `at` and `w` are the columns of all points.
+    pub fn new(
+        members: &mut [Member],
+        at: impl Fn(PointId) -> Point,
+        w: impl Fn(PointId) -> f64,
+    ) -> Self {
+        members.sort_by(|a, b| {
+            let (one, other) = (a.constraint, b.constraint);
+            let kinds = one.kind().cmp(&other.kind());
+            kinds.then_with(|| one.points().cmp(other.points())).then_with(|| a.id.cmp(&b.id))
+        });
+        let mut handles: Vec<u32> =
+            members.iter().flat_map(|m| m.constraint.points().iter().copied()).collect();
+        handles.sort_unstable();
+        handles.dedup();
+        let (free, frozen): (Vec<u32>, Vec<u32>) =
+            handles.into_iter().partition(|&p| w(PointId(p)) > 0.0);
+        let local = |p: u32| match free.binary_search(&p) {
+            Ok(k) => k as u32,
+            Err(_) => (free.len() + frozen.binary_search(&p).expect("each point is listed")) as u32,
+        };
+        let mut constraints = Vec::with_capacity(members.len());
+        for member in members.iter() {
+            let mut constraint = member.constraint.clone();
+            constraint.map_points(local);
+            constraints.push(constraint);
+        }
+        let own_rho = if members.iter().any(|m| m.rho.is_some()) {
+            members.iter().map(|m| m.rho).collect()
+        } else {
+            Vec::new()
+        };
+        let n_free = free.len();
+        let points: Vec<PointId> = free.iter().chain(&frozen).map(|&p| PointId(p)).collect();
+        let plan = Plan::new(&constraints, n_free, points.len());
+        let stateful = constraints.iter().enumerate();
+        let stateful = stateful.filter(|(_, c)| !matches!(c, Constraint::Motor(_)));
+        let stateful = stateful.filter(|(_, c)| c.state().is_some()).map(|(c, _)| c as u32);
+        let mut island = Self {
+            n_free,
+            stateful: stateful.collect(),
+            x: points.iter().map(|&p| at(p)).collect(),
+            w: points.iter().map(|&p| w(p)).collect(),
+            constraints,
+            ids: members.iter().map(|m| m.id).collect(),
+            own_rho,
+            degree: vec![1; n_free],
+            has_degree: plan.is_complete(),
+            plan,
+            points,
+            history: History::default(),
+            status: Status::Stalled,
+            residual: f64::INFINITY,
+            feasible: None,
+            is_new: true,
+            is_edited: false,
+            is_probed: false,
+            inputs: Inputs::default(),
+            room: None,
+            part_rooms: Vec::new(),
+            remembered: OnceLock::new(),
+            spectrum: None,
+        };
+        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
+            island.degree[block.point as usize] = 3;
+        }
+        island.update_sides();
+        island
+    }
+
+    /// The local index of a point of this island.
+    pub fn local_point(&self, id: PointId) -> Option<usize> {
+        let (free, frozen) = self.points.split_at(self.n_free);
+        free.binary_search(&id).ok().or_else(|| Some(self.n_free + frozen.binary_search(&id).ok()?))
+    }
+
+    /// Whether a record differs from the constraint `c` that stands here for it at most in its
+    /// values: same points, equality or not as before, same coefficient.
+    pub fn has_same(&self, c: usize, record: &Record) -> bool {
+        let (here, there) = (&self.constraints[c], &record.constraint);
+        let points = here.points().iter().map(|&p| self.points[p as usize].0);
+        here.kind() == there.kind()
+            && points.eq(there.points().iter().copied())
+            && n_firm_rows(here) == n_firm_rows(there)
+            && self.own_rho.get(c).copied().flatten() == record.rho
+    }
+
+    /// Puts a constraint's values in place of those it has; it has the same points as before.
+    pub fn set_values(&mut self, c: usize, constraint: &Constraint) {
+        let mut new = constraint.clone();
+        for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
+            *to = *from;
+        }
+        self.remembered.take();
+        let old = std::mem::replace(&mut self.constraints[c], new);
+        self.inputs.constraints.push((c as u32, old));
+    }
+
+    /// Puts a point elsewhere, from outside.
+    pub fn set_point(&mut self, p: usize, at: Point) {
+        self.remembered.take();
+        let old = std::mem::replace(&mut self.x[p], at);
+        if p >= self.n_free {
+            self.inputs.points.push((p as u32, old));
+        } else {
+            self.inputs.is_disturbed = true;
+        }
+    }
+
+    /// Notes whether the parts that are solved as a whole have no freedom left, so that their
+    /// motion is as smooth as what drives them.
+    pub fn set_smooth(&mut self, is_smooth: bool) {
+        self.has_degree = true;
+        let free_to_choose = self.plan.rest.iter().flat_map(|part| &part.points);
+        for &p in free_to_choose {
+            self.degree[p as usize] = if is_smooth { 3 } else { 1 };
+        }
+    }
+
+    /// Whether the motion of what is solved as a whole counts as smooth.
+    pub fn is_smooth(&self) -> bool {
+        let first = self.plan.rest.first().and_then(|part| part.points.first());
+        first.is_some_and(|&p| self.degree[p as usize] > 1)
+    }
+
+    /// What later results depend on besides what is remembered.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut structure = Hasher::default();
+        structure.add(self.n_free as u64);
+        for (c, constraint) in self.constraints.iter().enumerate() {
+            structure.add(constraint.kind() as u64);
+            structure.add(n_firm_rows(constraint) as u64);
+            constraint.points().iter().for_each(|&p| structure.add(u64::from(p)));
+            let rho = self.own_rho.get(c).copied().flatten();
+            structure.add(rho.map_or(0, f64::to_bits));
+        }
+        let mut inputs = Hasher::default();
+        self.w.iter().for_each(|w| inputs.add(w.to_bits()));
+        for constraint in &self.constraints {
+            let values = FIELDS.iter().filter_map(|&field| constraint.get(field));
+            let values = values.chain(constraint.state().unwrap_or_default());
+            values.for_each(|value| inputs.add(value.to_bits()));
+        }
+        let mut pose = Hasher::default();
+        for (p, at) in self.x.iter().enumerate() {
+            let hasher = if p < self.n_free { &mut pose } else { &mut inputs };
+            hasher.add(at.x.to_bits());
+            hasher.add(at.y.to_bits());
+        }
+        Fingerprint { structure: structure.0, inputs: inputs.0, pose: pose.0 }
+    }
+
+    /// The user changed something since the last visit: a value, or the place of a free point.
+    /// Before time goes on the island has to be solved as it is now.
+    pub fn note_edit(&mut self, is_disturbed: bool) {
+        if is_disturbed {
+            // A point put elsewhere is a wish for another pose.
+            self.feasible = None;
+        } else if self.status == Status::Converged {
+            self.feasible = Some(self.x[..self.n_free].into());
+        }
+        self.status = Status::Stalled;
+        self.is_edited = true;
+        self.history.forget();
+        self.inputs.clear();
+        self.remembered.take();
+    }
+
+    /// Exchanges the values that drive the island with those before.
+    pub fn swap_inputs(&mut self) {
+        self.inputs.tidy();
+        for (c, other) in &mut self.inputs.constraints {
+            std::mem::swap(&mut self.constraints[*c as usize], other);
+        }
+        for (p, other) in &mut self.inputs.points {
+            std::mem::swap(&mut self.x[*p as usize], other);
+        }
+    }
+
+    /// The frame is over: its inputs are those of the present pose.
+    pub fn settle_inputs(&mut self) {
+        self.inputs.clear();
+    }
+
+    /// How large the island is: its extent, or the lengths it is to have. Never 0.
+    pub fn size(&self) -> f64 {
+        let (mut lo, mut hi) = (self.x[0], self.x[0]);
+        for p in &self.x[1..] {
+            lo = Point::new(lo.x.min(p.x), lo.y.min(p.y));
+            hi = Point::new(hi.x.max(p.x), hi.y.max(p.y));
+        }
+        let extent = (hi.x - lo.x).max(hi.y - lo.y);
+        let wanted = self.constraints.iter().map(wanted_length).fold(0.0, f64::max);
+        let size = extent.max(wanted);
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+    }
+
+    /// How far a method is to go on this island.
+    pub fn limits<'a>(&self, settings: &Settings, budget: &'a Budget<'a>) -> Limits<'a> {
+        let size = self.size();
+        let farthest = self.x.iter().fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()));
+        // A distance between numbers of this magnitude is not known any better.
+        let rounding = 8.0 * f64::EPSILON * farthest;
+        let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;
+        let tolerance = tolerance.max(rounding);
+        Limits { size, tolerance, n_iterations: settings.iterations, budget }
+    }
+
+    /// All constraints, to be met by moving all free points.
+    pub fn equations(&self) -> Equations {
+        let constraints = (0..self.constraints.len() as u32).collect();
+        let points = (0..self.n_free as u32).collect();
+        Equations::new(&self.constraints, constraints, points, &self.x, &self.w)
+    }
+
+    /// The room for methods that solve the island as a whole.
+    pub fn take_room(&mut self) -> Box<Workspace> {
+        self.room.take().unwrap_or_else(|| Box::new(Workspace::new(self.equations())))
+    }
+
+    /// The blocks are on the sides they were found on.
+    pub fn keep_sides(&mut self) {
+        for block in &mut self.plan.blocks {
+            block.side = block.next_side;
+        }
+    }
+
+    /// Tells the constraints that this pose counts: angles are unwrapped from here on.
+    pub fn accept_pose(&mut self) {
+        for &c in &self.stateful {
+            self.constraints[c as usize].accept(&self.x);
+        }
+        self.begin_velocities();
+    }
+
+    /// The next displacements, which stand for velocities, begin at this pose.
+    pub fn begin_velocities(&mut self) {
+        for &c in &self.stateful {
+            if let Constraint::CogVelocity(wheels) = &mut self.constraints[c as usize] {
+                wheels.begin_frame(&self.x, 0.0);
+            }
+        }
+    }
+
+    /// Works out on which side of its singular pose each block is.
+    pub fn update_sides(&mut self) {
+        for k in 0..self.plan.blocks.len() {
+            let block = &self.plan.blocks[k];
+            let which = &self.plan.constraints[block.first as usize..block.end as usize];
+            let side = super::block::side(block, which, &self.constraints, &self.x);
+            self.plan.blocks[k].side = side;
+        }
+    }
+}
+
+/// The length a constraint asks for, where it asks for one.
+pub(super) fn wanted_length(constraint: &Constraint) -> f64 {
+    match constraint {
+        Constraint::Length(c) => {
+            let longest = if c.bounds.hi.is_finite() { c.bounds.hi } else { c.bounds.lo };
+            longest.abs()
+        }
+        Constraint::Motor(c) => c.get(Field::Radius).unwrap_or(0.0).abs(),
+        _ => 0.0,
+    }
+}

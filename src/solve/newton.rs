@@ -1,0 +1,186 @@
+//! The method `newton`: Levenberg-Marquardt on normalised rows, with the stiffness that a
+//! stretched length has across its direction.
+
+use super::method::{Limits, Outcome, Pose, Workspace};
+use super::status::{Counters, Status};
+
+/// The damping, relative to the distance to satisfaction, that a solve begins with; measured
+/// best among powers of ten on mechanisms. Larger is slower, smaller overshoots more often.
+const FIRST_DAMPING: f64 = 1e-2;
+/// Damping never falls below this share of the distance to satisfaction.
+const LEAST_DAMPING: f64 = 1e-6;
+/// What is added to the matrix even at the solution. Rank-deficient systems need it to have
+/// a factor; it is far below the smallest square of a singular value that matters.
+const FLOOR: f64 = 1e-11;
+/// A step longer than this part of the size is no longer a small change.
+const LONGEST_STEP: f64 = 0.5;
+/// Steps that gain less of what they promise are taken back.
+const LEAST_GAIN: f64 = 1e-4;
+/// With this much damping steps vanish in rounding: there is no way down.
+const MOST_DAMPING: f64 = 1e8;
+/// A step that lowers the energy by less than this part makes us ask for a best fit.
+const SLOW: f64 = 1e-2;
+/// The energy that the undamped model could still gain, relative to what there is, at a best
+/// fit. The gradient's norm would not tell: it is small on any ill-conditioned slope too.
+const FLAT: f64 = 1e-8;
+/// Steps taken at a best fit for the last digits; convergence is quadratic there.
+const POLISHES: u32 = 2;
+
+/// Improves a pose until it is solved, a best fit, or the limits are reached.
+pub(super) fn solve(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let mut nu = FIRST_DAMPING;
+    let mut n = 0;
+    loop {
+        let left = Limits { n_iterations: limits.n_iterations - n, ..*limits };
+        let end = descend(room, pose, &left, &mut nu, &mut n, work);
+        let status = match end {
+            End::Met => Status::Converged,
+            _ if is_best_fit(room, pose, work) => Status::BestFit,
+            End::Slow => continue,
+            End::Stuck | End::Spent => Status::Stalled,
+        };
+        return room.outcome(status, n);
+    }
+}
+
+/// Improves a pose as long as that goes fast: no question is asked about why it does not.
+pub(super) fn approach(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let (mut nu, mut n) = (FIRST_DAMPING, 0);
+    let end = descend(room, pose, limits, &mut nu, &mut n, work);
+    let status = if end == End::Met { Status::Converged } else { Status::Stalled };
+    room.outcome(status, n)
+}
+
+/// Why a descent ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// Everything holds.
+    Met,
+    /// The last step gained next to nothing.
+    Slow,
+    /// No step gains anything.
+    Stuck,
+    /// The limits are reached.
+    Spent,
+}
+
+/// Takes damped steps until there is a reason to stop; adds up their number in `n`.
+fn descend(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    nu: &mut f64,
+    n: &mut u32,
+    work: &mut Counters,
+) -> End {
+    room.evaluate(pose, work);
+    let most = *n + limits.n_iterations;
+    loop {
+        if room.is_met(limits) {
+            return End::Met;
+        }
+        if *n >= most || !room.rows.energy.is_finite() || limits.budget.is_spent() {
+            return End::Spent;
+        }
+        let before = room.rows.energy;
+        room.assemble();
+        room.update_slope();
+        room.remember(pose);
+        let rms = (2.0 * before / room.rows.n_active().max(1) as f64).sqrt();
+        let unit = (rms / limits.size).min(1.0);
+        loop {
+            let Some(promised) = aim(room, *nu * unit + FLOOR, work) else {
+                return End::Stuck;
+            };
+            *n += 1;
+            let is_near = room.equations.reach(&room.step) <= LONGEST_STEP * limits.size;
+            let gained = if is_near { before - room.try_step(pose, 1.0, work) } else { 0.0 };
+            let gain = gained / promised;
+            if gain > LEAST_GAIN {
+                if gain > 0.75 {
+                    *nu = (*nu / 4.0).max(LEAST_DAMPING);
+                } else if gain < 0.25 {
+                    *nu = (*nu * 4.0).max(1e-3);
+                }
+                room.accept();
+                break;
+            }
+            room.reject(pose);
+            *nu = (*nu * 4.0).max(1e-3);
+            if *nu > MOST_DAMPING {
+                return End::Stuck;
+            }
+            if *n >= most {
+                return End::Spent;
+            }
+        }
+        if before - room.rows.energy < SLOW * before && !room.is_met(limits) {
+            return End::Slow;
+        }
+    }
+}
+
+/// Works out the step for a damping; gives the energy it promises to gain, none if the rows
+/// ask for nothing.
+fn aim(room: &mut Workspace, mu: f64, work: &mut Counters) -> Option<f64> {
+    work.factorisations += 1;
+    let Workspace { step, slope, .. } = room;
+    step.iter_mut().zip(&*slope).for_each(|(s, g)| *s = -g);
+    let mut step = std::mem::take(&mut room.step);
+    let matrix = room.matrix();
+    matrix.factor(mu);
+    matrix.solve(&mut step);
+    room.step = step;
+    // From (H + mu) y = -g: -g y - y H y / 2 = (-g y + mu y y) / 2.
+    let along: f64 = room.step.iter().zip(&room.slope).map(|(s, g)| -s * g).sum();
+    let square: f64 = room.step.iter().map(|s| s * s).sum();
+    let promised = 0.5 * (along + mu * square);
+    (promised > 0.0).then_some(promised)
+}
+
+/// Whether no small move would lower the energy any further. If so, the last digits of the
+/// pose are got too: what they gain is too little to show in the energy, but the slope shows it.
+fn is_best_fit(room: &mut Workspace, pose: &mut Pose, work: &mut Counters) -> bool {
+    let energy = room.rows.energy;
+    if !energy.is_finite() {
+        return false;
+    }
+    room.assemble();
+    room.update_slope();
+    for _ in 0..=POLISHES {
+        let Some(gain) = aim(room, FLOOR, work) else { return true };
+        if gain > FLAT * energy {
+            return false;
+        }
+        let before = steepness(room);
+        room.remember(pose);
+        if room.try_step(pose, 1.0, work) > energy * (1.0 + FLAT) {
+            room.reject(pose);
+            return true;
+        }
+        room.accept();
+        room.assemble();
+        room.update_slope();
+        if steepness(room) >= before {
+            room.reject(pose);
+            room.accept();
+            return true;
+        }
+    }
+    true
+}
+
+/// The squared norm of the slope.
+fn steepness(room: &Workspace) -> f64 {
+    room.slope.iter().map(|g| g * g).sum()
+}

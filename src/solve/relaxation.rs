@@ -1,0 +1,140 @@
+//! The method `relaxation`: the paper's. Every constraint is corrected exactly, from the same
+//! pose and all at once; the corrections, times rho, are added up.
+
+use super::island::Island;
+use super::method::{Limits, Outcome};
+use super::rows::is_wheel;
+use super::spectrum::Spectrum;
+use super::status::{Counters, Status};
+use crate::constraint::{Constraint, Point, Relation, Vector};
+
+/// Simultaneous corrections contract if rho < 2 / lambda; this keeps a tenth away from that.
+const MOST_RHO: f64 = 1.8;
+/// A pose that a sweep moves by less, relative to the size, is where the sweeps end.
+const STILL: f64 = 1e-15;
+
+/// The coefficients of a run: the user's, lowered where they would diverge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Coefficient {
+    /// What every constraint without one of its own gets.
+    pub rho: f64,
+    /// What those of constraints that have one are multiplied with.
+    pub factor: f64,
+}
+
+impl Coefficient {
+    /// The coefficient, and whether it had to be lowered.
+    pub fn new(island: &mut Island, rho: f64, work: &mut Counters) -> (Self, Option<f64>) {
+        let mut room = island.take_room();
+        room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
+        let mut spectrum = island
+            .spectrum
+            .take()
+            .unwrap_or_else(|| Box::new(Spectrum::new(&island.points[..island.n_free])));
+        let by_row: Vec<f64> = if island.own_rho.is_empty() {
+            Vec::new()
+        } else {
+            let rows = island.constraints.iter().zip(&island.own_rho);
+            rows.flat_map(|(c, own)| std::iter::repeat_n(own.unwrap_or(rho), c.n_rows())).collect()
+        };
+        let largest = spectrum
+            .largest(&room.equations, &room.rows, |r| by_row.get(r).copied().unwrap_or(rho));
+        island.spectrum = Some(spectrum);
+        island.room = Some(room);
+        let factor = if largest > MOST_RHO { MOST_RHO / largest } else { 1.0 };
+        let lowered = (factor < 1.0).then_some(rho * factor);
+        (Self { rho: rho * factor, factor }, lowered)
+    }
+
+    /// The coefficient `rho`, or what contracts where the largest eigenvalue is `largest`.
+    pub fn at_most(rho: f64, largest: f64) -> Self {
+        let factor = if rho * largest > MOST_RHO { MOST_RHO / (rho * largest) } else { 1.0 };
+        Self { rho: rho * factor, factor }
+    }
+
+    /// The coefficient of constraint `c`.
+    pub fn of(self, own: &[Option<f64>], c: usize) -> f64 {
+        own.get(c).copied().flatten().map_or(self.rho, |own| own * self.factor)
+    }
+}
+
+/// Adds up the corrections of all constraints; gives the largest distance to satisfaction of
+/// those that can move anything.
+pub(super) fn correct_all(
+    constraints: &[Constraint],
+    rho: impl Fn(usize) -> f64,
+    x: &[Point],
+    w: &[f64],
+    d: &mut [Vector],
+) -> f64 {
+    d.fill(Vector::ZERO);
+    let mut worst = 0.0_f64;
+    for (c, constraint) in constraints.iter().enumerate() {
+        let rho = rho(c);
+        let mut squared = 0.0;
+        constraint.correct(x, w, &mut |p, v| {
+            // Frozen points have no place in `d`, nor a share.
+            if let Some(d) = d.get_mut(p as usize) {
+                squared += v.norm_squared() / w[p as usize];
+                *d += v * rho;
+            }
+        });
+        worst = worst.max(squared);
+    }
+    worst.sqrt()
+}
+
+/// Improves the pose of an island; gives how it ended.
+pub(super) fn solve(
+    island: &mut Island,
+    coefficient: Coefficient,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let mut d = vec![Vector::ZERO; island.n_free];
+    let n_wheels = island.constraints.iter().filter(|c| is_wheel(c)).count() as u64;
+    for n in 0..limits.n_iterations {
+        let Island { constraints, own_rho, x, w, .. } = island;
+        let worst = correct_all(constraints, |c| coefficient.of(own_rho, c), x, w, &mut d);
+        work.evaluations += constraints.len() as u64;
+        work.wheel_evaluations += n_wheels;
+        if worst <= limits.tolerance || limits.budget.is_spent() {
+            return ending(island, limits, n, f64::INFINITY, work);
+        }
+        let longest = d.iter().fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()));
+        // A correction that overflowed would poison its neighbours.
+        if !d.iter().all(|d| d.is_finite()) {
+            return ending(island, limits, n, f64::INFINITY, work);
+        }
+        island.x.iter_mut().zip(&d).for_each(|(x, d)| *x += *d);
+        if longest <= STILL * limits.size {
+            return ending(island, limits, n + 1, longest, work);
+        }
+    }
+    ending(island, limits, limits.n_iterations, f64::INFINITY, work)
+}
+
+/// How a run of sweeps ended, whose last one moved the points by `longest` at most.
+pub(super) fn ending(
+    island: &Island,
+    limits: &Limits,
+    n_iterations: u32,
+    longest: f64,
+    work: &mut Counters,
+) -> Outcome {
+    let (mut worst, mut energy) = (0.0_f64, 0.0);
+    for constraint in &island.constraints {
+        let violation = constraint.violation(&island.x, &island.w);
+        worst = worst.max(violation);
+        energy += 0.5 * violation * violation;
+    }
+    work.evaluations += island.constraints.len() as u64;
+    let status = if worst <= limits.tolerance {
+        Status::Converged
+    } else if longest <= STILL * limits.size {
+        Status::BestFit
+    } else {
+        Status::Stalled
+    };
+    Outcome { status, worst, energy, n_iterations }
+}

@@ -1,0 +1,558 @@
+//! The solver as the session knows it: a world goes in as it is driven and comes out solved.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::island::Island;
+use super::memory::{self, Memory};
+use super::method::{Limits, Outcome, Pose};
+use super::relaxation::Coefficient;
+use super::settings::{Method, Settings};
+use super::status::{Budget, Counters, Report, Status};
+use super::topology::{Home, Topology};
+use super::{
+    anderson, auto, conjugate, descent, nesterov, newton, rates, relaxation, struggle, successive,
+};
+use crate::constraint::{Constraint, Relation, Vector};
+use crate::diag::Diagnostic;
+use crate::world::{ConstraintId, PointId, Rates, World};
+
+/// Rounds until rates and what is measured on them agree. Each gains the digits by which the
+/// measured value is the weaker cause.
+const MEASURED_ROUNDS: u32 = 8;
+/// Rounds of `settle` before it counts as getting nowhere.
+const MOST_ROUNDS: u32 = 2_000;
+
+/// Everything the solver keeps from one call to the next.
+#[derive(Default)]
+pub struct Solver {
+    topology: Topology,
+    /// Islands to be visited in the next frame, each once.
+    awake: Vec<u32>,
+    is_awake: Vec<bool>,
+    /// Islands that are not at a solution.
+    unsolved: BTreeSet<u32>,
+    /// Constraints that hold only frozen points and are not satisfied, and how far not.
+    unsatisfiable: BTreeMap<ConstraintId, f64>,
+    /// The settings of the last call: others may wake every island.
+    settings: Option<Settings>,
+    /// What islands yet to be made are to remember.
+    pending: Memory,
+    /// Whether all islands are to be made anew.
+    is_stale: bool,
+}
+
+/// What a call does with each island.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Task {
+    /// The clock went one frame on.
+    Frame,
+    /// Bare iterations at the present time.
+    Relax,
+    /// Until solved or at rest, at the present time.
+    Settle,
+}
+
+/// What changed the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// Time went on, and what it drives.
+    Clock,
+    /// The user.
+    Hand,
+}
+
+impl Solver {
+    /// A solver that has seen nothing yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Solves a frame: the world's values are those at its end, its points where they were at
+    /// its beginning.
+    pub fn frame(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
+        self.run(world, settings, budget, Task::Frame)
+    }
+
+    /// Does `n` bare iterations of the chosen method; `auto` means relaxation here.
+    pub fn relax(&mut self, world: &mut World, settings: &Settings, n: u64) -> Report {
+        let method = match settings.method {
+            Method::Auto => Method::Relaxation,
+            method => method,
+        };
+        let mut left = n;
+        let mut report = Report::default();
+        while left > 0 {
+            let iterations = u32::try_from(left).unwrap_or(u32::MAX);
+            left -= u64::from(iterations);
+            let settings = Settings { method, iterations, ..*settings };
+            let counters = report.counters;
+            report = self.run(world, &settings, &Budget::default(), Task::Relax);
+            report.counters.add(&counters);
+        }
+        report
+    }
+
+    /// Solves until everything holds, or no iteration changes anything any more.
+    pub fn settle(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
+        self.run(world, settings, budget, Task::Settle)
+    }
+
+    /// Takes in what the user edited. To be called before the clock goes on and before a point
+    /// is dragged along with it, so that a frame knows what it began with.
+    pub fn attend(&mut self, world: &mut World, settings: &Settings) {
+        self.take_in(world, settings, Cause::Hand, &mut Counters::default());
+    }
+
+    /// All that later results depend on besides the world and the settings.
+    pub fn memory(&self) -> Memory {
+        let mut memory = self.pending.clone();
+        for (_, island) in self.topology.iter() {
+            memory.insert(island);
+        }
+        memory
+    }
+
+    /// Brings back what was remembered, for a world that is as it was then.
+    pub fn set_memory(&mut self, memory: Memory) {
+        self.pending = memory;
+        self.is_stale = true;
+    }
+
+    /// Whether what was remembered waits for [`Solver::attend`].
+    pub(super) fn is_behind(&self) -> bool {
+        self.is_stale
+    }
+
+    /// The size of the largest island, length units; 1 if there is none.
+    pub fn size(&self) -> f64 {
+        let sizes = self.topology.iter().map(|(_, island)| island.size());
+        sizes.reduce(f64::max).unwrap_or(1.0)
+    }
+
+    /// Velocities and accelerations of all points at the present pose, exact where it is a
+    /// solution; motors turn, live values change, frozen points stand still.
+    ///
+    /// # Errors
+    /// A live value that has none now.
+    pub fn rates(&mut self, world: &mut World, settings: &Settings) -> Result<Rates, Diagnostic> {
+        self.attend(world, settings);
+        let n = world.points().column().len();
+        let still = || vec![Vector::ZERO; n];
+        let mut rates = Rates { velocity: still(), acceleration: still() };
+        // What is measured on moving points changes as they move, which moves them.
+        let n_rounds = if world.is_measured() { MEASURED_ROUNDS } else { 1 };
+        for _ in 0..n_rounds {
+            let mut fields = world.field_rates(&rates)?;
+            fields.sort_by_key(|(id, ..)| *id);
+            let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
+            for k in all {
+                if let Some(island) = self.topology.get_mut(k) {
+                    rates::solve(island, &fields, &mut rates);
+                }
+            }
+        }
+        Ok(rates)
+    }
+
+    /// How the island of a point ended; none for one that is frozen or on its own.
+    pub fn status_of_point(&self, id: PointId) -> Option<Status> {
+        Some(self.topology.get(self.topology.island_of_point(id)?)?.status)
+    }
+
+    /// How what holds a constraint ended; none for one that is switched off.
+    pub fn status_of_constraint(&self, id: ConstraintId) -> Option<Status> {
+        match self.topology.home(id) {
+            Home::None => None,
+            Home::Island(k) => Some(self.topology.get(k)?.status),
+            Home::Checked if self.unsatisfiable.contains_key(&id) => Some(Status::Unsatisfiable),
+            Home::Checked => Some(Status::Converged),
+        }
+    }
+
+    /// How far a constraint is from being satisfied, length units.
+    pub fn violation(&self, world: &World, id: ConstraintId) -> f64 {
+        world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
+    }
+
+    /// The islands there are, and how many of them the next frame will visit.
+    pub fn n_islands(&self) -> (usize, usize) {
+        (self.topology.iter().count(), self.awake.len())
+    }
+
+    fn run(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        task: Task,
+    ) -> Report {
+        let mut report = Report::default();
+        let cause = if task == Task::Frame { Cause::Clock } else { Cause::Hand };
+        let made = self.take_in(world, settings, cause, &mut report.counters);
+        if task == Task::Frame {
+            for &k in &made {
+                if let Some(island) = self.topology.get_mut(k) {
+                    turn_back(island, world.clock().dt);
+                }
+            }
+        }
+        let visit = std::mem::take(&mut self.awake);
+        for &k in &visit {
+            self.is_awake[k as usize] = false;
+        }
+        for (nth, &k) in visit.iter().enumerate() {
+            if budget.is_spent() {
+                report.is_interrupted = true;
+                for &k in &visit[nth..] {
+                    self.wake(k);
+                }
+                break;
+            }
+            self.visit(k, world, settings, budget, task, &mut report);
+        }
+        for &violation in self.unsatisfiable.values() {
+            report.include(Status::Unsatisfiable, 0, violation);
+        }
+        for &k in &self.unsolved {
+            if let Some(island) = self.topology.get(k) {
+                report.include(island.status, 0, island.residual);
+            }
+        }
+        report
+    }
+
+    /// Brings the islands up to date with what changed in the world; gives the new ones.
+    fn take_in(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        cause: Cause,
+        work: &mut Counters,
+    ) -> Vec<u32> {
+        if let Some(before) = self.settings.replace(*settings)
+            && (before.method, before.tolerance) != (settings.method, settings.tolerance)
+        {
+            self.doubt_all();
+        }
+        let mut touched = world.take_touched();
+        if std::mem::take(&mut self.is_stale) {
+            // What is remembered is what counts: forget the rest.
+            self.topology = Topology::default();
+            touched.all = true;
+        }
+        if touched.is_empty() {
+            return Vec::new();
+        }
+        // A constraint that was changed but holds as many equations on the same points as
+        // before leaves its island as it is.
+        let (values, others): (Vec<_>, Vec<_>) =
+            touched.constraints.iter().partition(|&&id| self.is_same_but_for_values(world, id));
+        touched.values.extend(values);
+        touched.constraints = others;
+        let mut made = Vec::new();
+        if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
+            made = self.topology.update(&touched, world, &mut self.pending);
+            work.islands_rebuilt += made.len() as u64;
+            for &k in &made {
+                self.remind(k);
+            }
+            self.pending = Memory::default();
+            if touched.all {
+                self.awake.clear();
+                self.is_awake.fill(false);
+            }
+            for &k in &made {
+                self.wake(k);
+            }
+            let topology = &self.topology;
+            self.awake.retain(|&k| topology.get(k).is_some());
+            self.unsolved.retain(|&k| topology.get(k).is_some());
+            self.unsatisfiable.clear();
+            let checked: Vec<ConstraintId> = topology.checked().collect();
+            for id in checked {
+                self.check(world, id, settings);
+            }
+        }
+        for &id in &touched.values {
+            match self.topology.home(id) {
+                Home::None => {}
+                Home::Checked => self.check(world, id, settings),
+                Home::Island(k) => self.take_in_values(world, k, id),
+            }
+        }
+        for &p in &touched.moved {
+            self.take_in_move(world, p, settings);
+        }
+        if cause == Cause::Hand {
+            for k in self.awake.clone() {
+                if let Some(island) = self.topology.get_mut(k)
+                    && !island.inputs.is_empty()
+                {
+                    island.note_edit(island.inputs.is_disturbed);
+                }
+            }
+        }
+        made
+    }
+
+    /// Gives a new island the memory that waits for it.
+    fn remind(&mut self, k: u32) {
+        let Some(island) = self.topology.get_mut(k) else { return };
+        if let Some(remembered) = self.pending.take(island) {
+            memory::restore(island, &remembered);
+            if island.status != Status::Converged {
+                self.unsolved.insert(k);
+            }
+        }
+    }
+
+    /// What counted as solved may not any more.
+    fn doubt_all(&mut self) {
+        let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
+        for k in all {
+            if let Some(island) = self.topology.get_mut(k) {
+                island.status = Status::Stalled;
+            }
+            self.wake(k);
+        }
+    }
+
+    fn is_same_but_for_values(&self, world: &World, id: ConstraintId) -> bool {
+        let Some(record) = world.constraint(id).filter(|record| record.is_on) else {
+            return false;
+        };
+        let Home::Island(k) = self.topology.home(id) else { return false };
+        let c = self.topology.local_constraint(id);
+        self.topology.get(k).is_some_and(|island| island.has_same(c, record))
+    }
+
+    fn take_in_values(&mut self, world: &World, k: u32, id: ConstraintId) {
+        let c = self.topology.local_constraint(id);
+        if let (Some(island), Some(record)) = (self.topology.get_mut(k), world.constraint(id)) {
+            island.set_values(c, &record.constraint);
+            self.wake(k);
+        }
+    }
+
+    fn take_in_move(&mut self, world: &World, p: PointId, settings: &Settings) {
+        if p.idx() >= world.points().column().len() || !world.points().is_alive(p) {
+            return;
+        }
+        let at = world.points().at(p);
+        for id in self.topology.users(p).to_vec() {
+            match self.topology.home(id) {
+                Home::None => {}
+                Home::Checked => self.check(world, id, settings),
+                Home::Island(k) => {
+                    let Some(island) = self.topology.get_mut(k) else { continue };
+                    if let Some(p) = island.local_point(p)
+                        && island.x[p] != at
+                    {
+                        island.set_point(p, at);
+                        self.wake(k);
+                    }
+                }
+            }
+        }
+    }
+
+    fn wake(&mut self, k: u32) {
+        let at = k as usize;
+        if at >= self.is_awake.len() {
+            self.is_awake.resize(at + 1, false);
+        }
+        if !std::mem::replace(&mut self.is_awake[at], true) {
+            self.awake.push(k);
+        }
+    }
+
+    /// Notes whether a constraint between frozen points holds.
+    fn check(&mut self, world: &World, id: ConstraintId, settings: &Settings) {
+        self.unsatisfiable.remove(&id);
+        if let Some(record) = world.constraint(id) {
+            let (violation, size) = check(world, &record.constraint);
+            if violation > settings.tolerance * size {
+                self.unsatisfiable.insert(id, violation / size);
+            }
+        }
+    }
+
+    fn visit(
+        &mut self,
+        k: u32,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        task: Task,
+        report: &mut Report,
+    ) {
+        let Some(island) = self.topology.get_mut(k) else { return };
+        report.counters.islands_visited += 1;
+        island.remembered.take();
+        let is_driven = !island.inputs.is_empty();
+        let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
+        if task == Task::Frame && !is_driven && is_at_rest {
+            // Nothing moved it for a whole frame: what comes next does not go on from before.
+            island.history.forget();
+            report.include(Status::Converged, 0, 0.0);
+            return;
+        }
+        let limits = island.limits(settings, budget);
+        if (island.is_new || island.is_edited)
+            && task == Task::Frame
+            && settings.method == Method::Auto
+        {
+            begin(island, &limits, &mut report.counters);
+        }
+        let (outcome, lowered) = solve(island, settings, &limits, task, &mut report.counters);
+        island.is_new = false;
+        island.is_edited = false;
+        island.status = outcome.status;
+        island.residual = outcome.worst / limits.size;
+        island.settle_inputs();
+        write_back(island, world);
+        let status = island.status;
+        if outcome.status == Status::Converged {
+            self.unsolved.remove(&k);
+            report.include(status, outcome.n_iterations.into(), outcome.worst / limits.size);
+        } else {
+            self.unsolved.insert(k);
+            report.iterations = report.iterations.max(outcome.n_iterations.into());
+        }
+        report.lowered_rho = match (report.lowered_rho, lowered) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        if is_driven || status == Status::Stalled {
+            self.wake(k);
+        }
+    }
+}
+
+/// Works out what drove an island at the beginning of a frame that it was made in.
+fn turn_back(island: &mut Island, dt: f64) {
+    island.settle_inputs();
+    for (c, constraint) in island.constraints.iter().enumerate() {
+        let mut before = constraint.clone();
+        if before.advance(-dt) {
+            island.inputs.constraints.push((c as u32, before));
+        }
+    }
+}
+
+/// Solves an island that is new as it was when its first frame began, so that the motion of
+/// that frame has a beginning.
+fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
+    if !island.inputs.is_empty() {
+        island.swap_inputs();
+        island.status = struggle::settle(island, limits, work).status;
+        island.swap_inputs();
+    }
+}
+
+/// Solves an island by the chosen method; gives the coefficient of relaxation too, if it had
+/// to be lowered.
+fn solve(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    task: Task,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    if settings.method == Method::Auto {
+        let outcome = match task {
+            Task::Frame => auto::frame(island, limits, work),
+            Task::Relax | Task::Settle => struggle::settle(island, limits, work),
+        };
+        return (outcome, None);
+    }
+    island.history.forget();
+    island.feasible = None;
+    let mut lowered = None;
+    let mut outcome = iterate(island, settings, limits, &mut lowered, work);
+    if task == Task::Settle {
+        let mut n = outcome.n_iterations;
+        for _ in 0..MOST_ROUNDS {
+            if outcome.status != Status::Stalled || limits.budget.is_spent() {
+                break;
+            }
+            outcome = iterate(island, settings, limits, &mut lowered, work);
+            n = n.saturating_add(outcome.n_iterations);
+        }
+        outcome.n_iterations = n;
+    }
+    if outcome.is_converged() {
+        island.accept_pose();
+        island.update_sides();
+    } else if task == Task::Frame {
+        island.begin_velocities();
+    }
+    (outcome, lowered)
+}
+
+/// One round of a method.
+fn iterate(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    lowered: &mut Option<f64>,
+    work: &mut Counters,
+) -> Outcome {
+    let rho = settings.rho;
+    match settings.method {
+        Method::Relaxation | Method::Anderson => {
+            let (coefficient, low) = Coefficient::new(island, rho, work);
+            *lowered = low;
+            if settings.method == Method::Relaxation {
+                relaxation::solve(island, coefficient, limits, work)
+            } else {
+                anderson::solve(island, coefficient, limits, work)
+            }
+        }
+        Method::Successive => successive::solve(island, rho, limits, work),
+        Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
+            let mut room = island.take_room();
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            let points = &island.points[..island.n_free];
+            let outcome = match settings.method {
+                Method::Descent => descent::solve(&mut room, &mut pose, limits, work),
+                Method::Conjugate => conjugate::solve(&mut room, &mut pose, limits, work),
+                Method::Nesterov => nesterov::solve(&mut room, points, &mut pose, limits, work),
+                _ => newton::solve(&mut room, &mut pose, limits, work),
+            };
+            island.room = Some(room);
+            outcome
+        }
+    }
+}
+
+/// Puts what was found back into the world.
+fn write_back(island: &Island, world: &mut World) {
+    for (id, at) in island.points[..island.n_free].iter().zip(&island.x) {
+        world.set_position(*id, *at);
+    }
+    for &c in &island.stateful {
+        let c = c as usize;
+        if let Some(state) = island.constraints[c].state() {
+            world.constraint_state_mut(island.ids[c]).set_state(&state);
+        }
+    }
+}
+
+/// How far a constraint is from satisfaction, and how large what it holds is, length units.
+fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
+    let points = constraint.points().to_vec();
+    let x: Vec<_> = points.iter().map(|&p| world.points().at(PointId(p))).collect();
+    let w: Vec<f64> = points.iter().map(|&p| world.points().inverse_mass(PointId(p))).collect();
+    let mut local = constraint.clone();
+    local.map_points(|p| points.iter().position(|&q| q == p).expect("it holds it") as u32);
+    let extent = |of: fn(&crate::constraint::Point) -> f64| {
+        let values = x.iter().map(of);
+        let (lo, hi) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        hi - lo
+    };
+    let size = extent(|p| p.x).max(extent(|p| p.y));
+    let size = size.max(super::island::wanted_length(constraint));
+    (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
+}

@@ -1,0 +1,102 @@
+//! How solving ended, and what it took.
+
+/// How solving ended. The order is from good to bad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub enum Status {
+    /// Every constraint holds to the tolerance.
+    #[default]
+    Converged,
+    /// The constraints contradict each other, and no small move lowers the sum of squares.
+    BestFit,
+    /// Neither; more iterations may help.
+    Stalled,
+    /// A constraint that holds only frozen points is not satisfied: nothing can help.
+    Unsatisfiable,
+}
+
+impl Status {
+    /// What it means, in the user's words.
+    pub const fn phrase(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::BestFit => "best fit: the constraints contradict each other here",
+            Self::Stalled => "stalled: not solved, and not known to be unsolvable",
+            Self::Unsatisfiable => "unsatisfiable: a constraint holds frozen points only",
+        }
+    }
+}
+
+/// What one call of the solver came to.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Report {
+    /// The worst ending of all islands.
+    pub status: Status,
+    /// The iterations of the island that took most.
+    pub iterations: u64,
+    /// The largest distance to satisfaction of all constraints, relative to the size of what
+    /// hangs together with it.
+    pub residual: f64,
+    /// The relaxation coefficient used, where the user's would have diverged.
+    pub lowered_rho: Option<f64>,
+    /// How many islands are not at a solution.
+    pub n_unsolved_islands: u32,
+    /// Whether the caller's budget ran out before the work was done.
+    pub is_interrupted: bool,
+    /// The work done.
+    pub counters: Counters,
+}
+
+impl Report {
+    /// Takes in the ending of one more part of the scene.
+    pub(super) fn include(&mut self, status: Status, iterations: u64, residual: f64) {
+        self.status = self.status.max(status);
+        self.iterations = self.iterations.max(iterations);
+        self.residual = self.residual.max(residual);
+        self.n_unsolved_islands += u32::from(status != Status::Converged);
+    }
+}
+
+/// The work of one call, in units that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counters {
+    /// Islands looked at.
+    pub islands_visited: u64,
+    /// Islands taken apart and put together anew.
+    pub islands_rebuilt: u64,
+    /// Constraints evaluated, with or without their rows.
+    pub evaluations: u64,
+    /// Cog wheel pairs and racks among them.
+    pub wheel_evaluations: u64,
+    /// Factorisations of a matrix.
+    pub factorisations: u64,
+    /// Substeps into which frames were divided.
+    pub substeps: u64,
+}
+
+impl Counters {
+    /// Adds the work of another call.
+    pub fn add(&mut self, other: &Self) {
+        self.islands_visited += other.islands_visited;
+        self.islands_rebuilt += other.islands_rebuilt;
+        self.evaluations += other.evaluations;
+        self.wheel_evaluations += other.wheel_evaluations;
+        self.factorisations += other.factorisations;
+        self.substeps += other.substeps;
+    }
+}
+
+/// What limits the work of one call.
+#[derive(Clone, Copy, Default)]
+pub struct Budget<'a> {
+    /// Solved to this tolerance is enough, in place of the one that is set.
+    pub tolerance: Option<f64>,
+    /// Asked between iterations; true ends the work where it stands.
+    pub stop: Option<&'a dyn Fn() -> bool>,
+}
+
+impl Budget<'_> {
+    /// Whether the caller wants an end.
+    pub(super) fn is_spent(&self) -> bool {
+        self.stop.is_some_and(|stop| stop())
+    }
+}

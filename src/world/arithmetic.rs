@@ -1,0 +1,163 @@
+//! Arithmetic on values: operators and functions, with errors that point at their place.
+
+use super::{Function, Operator, Value};
+use crate::constraint::{Place, Real};
+use crate::diag::{Diagnostic, Span, format_number};
+
+/// The value itself if it is finite.
+///
+/// # Errors
+/// Where it is not.
+pub fn finite<T: Real>(value: Value<T>, span: Span) -> Result<Value<T>, Diagnostic> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Diagnostic::error("this has no finite value").at(span, "overflows"))
+    }
+}
+
+/// The result of an operator between values whose shapes fit.
+///
+/// # Errors
+/// A division by zero, a power without a real value, an overflow; `span` is the place of the
+/// operation, `right` that of its second operand.
+pub fn operate<T: Real>(
+    operator: Operator,
+    a: Value<T>,
+    b: Value<T>,
+    span: Span,
+    right: Span,
+) -> Result<Value<T>, Diagnostic> {
+    use Value::{Number, Vector};
+    let value = match (operator, a, b) {
+        (Operator::Add, Number(a), Number(b)) => Number(a + b),
+        (Operator::Subtract, Number(a), Number(b)) => Number(a - b),
+        (Operator::Multiply, Number(a), Number(b)) => Number(a * b),
+        (Operator::Add, Vector(a), Vector(b)) => Vector(a + b),
+        (Operator::Subtract, Vector(a), Vector(b)) => Vector(a - b),
+        (Operator::Multiply, Number(k), Vector(v)) | (Operator::Multiply, Vector(v), Number(k)) => {
+            Vector(v.scale(k))
+        }
+        (Operator::Divide, _, Number(b)) if b.value() == 0.0 => {
+            return Err(Diagnostic::error("division by zero").at(right, "this is 0"));
+        }
+        (Operator::Divide, Number(a), Number(b)) => Number(a / b),
+        (Operator::Divide, Vector(v), Number(b)) => Vector(Place { x: v.x / b, y: v.y / b }),
+        (Operator::Power, Number(a), Number(b)) => Number(power(a, b).ok_or_else(|| {
+            let what = if a.value() == 0.0 {
+                "0 to a negative power"
+            } else {
+                "a negative number to a broken power"
+            };
+            Diagnostic::error("this power has no value").at(span, what)
+        })?),
+        _ => unreachable!("shapes are checked when a formula is bound"),
+    };
+    finite(value, span)
+}
+
+/// The value of a function, rates of points excepted.
+///
+/// # Errors
+/// Outside the function's domain.
+pub fn call<T: Real>(
+    function: Function,
+    arguments: &[Value<T>],
+    span: Span,
+) -> Result<Value<T>, Diagnostic> {
+    use Value::{Number, Vector};
+    let number = |k: usize| arguments[k].number();
+    let vector = |k: usize| arguments[k].vector();
+    let value = match function {
+        Function::Norm => Number(length(vector(0))),
+        Function::Dot => Number(vector(0).dot(vector(1))),
+        Function::Cross => Number(cross(vector(0), vector(1))),
+        Function::Rotate => {
+            let phi = number(1);
+            Vector(vector(0).times(Place { x: phi.cos(), y: phi.sin() }))
+        }
+        Function::Polar => {
+            let phi = number(1);
+            Vector(Place { x: phi.cos(), y: phi.sin() }.scale(number(0)))
+        }
+        Function::Midpoint => Vector((vector(0) + vector(1)).scale(T::constant(0.5))),
+        Function::Distance => Number(length(vector(1) - vector(0))),
+        Function::DistanceToLine => {
+            let (p, a, b) = (vector(0), vector(1), vector(2));
+            let l = length(b - a);
+            if l.value() == 0.0 {
+                return Err(Diagnostic::error("the two points of the line coincide")
+                    .at(span, "no line to measure from"));
+            }
+            Number(cross(b - a, p - a) / l)
+        }
+        Function::Angle => {
+            let v = vector(1) - vector(0);
+            angle(v.x, v.y, span)?
+        }
+        Function::AngleBetween => {
+            let (u, v) = (vector(1) - vector(0), vector(3) - vector(2));
+            angle(u.dot(v), cross(u, v), span)?
+        }
+        Function::Velocity | Function::Acceleration => {
+            unreachable!("rates are not functions of values")
+        }
+        _ => {
+            let mut few = [T::constant(0.0); 4];
+            let value = if let Some(few) = few.get_mut(..arguments.len()) {
+                few.iter_mut().zip(arguments).for_each(|(n, argument)| *n = argument.number());
+                function.of_numbers(few)
+            } else {
+                function.of_numbers(&arguments.iter().map(|a| a.number()).collect::<Vec<T>>())
+            };
+            Number(value.ok_or_else(|| {
+                let given = number(usize::from(function == Function::Mod)).value();
+                let at = format_number(given);
+                Diagnostic::error(format!("`{}` has no value at {at}", function.name()))
+                    .at(span, "outside its domain")
+            })?)
+        }
+    };
+    finite(value, span)
+}
+
+fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
+    if x.value() == 0.0 && y.value() == 0.0 {
+        return Err(
+            Diagnostic::error("two points coincide, so there is no direction").at(span, "no angle")
+        );
+    }
+    Ok(Value::Number(y.atan2(x)))
+}
+
+fn cross<T: Real>(a: Place<T>, b: Place<T>) -> T {
+    a.x * b.y - a.y * b.x
+}
+
+/// The length of a vector; the value never overflows before its result does.
+fn length<T: Real>(v: Place<T>) -> T {
+    let squares = v.norm();
+    let exact = crate::constraint::Vector::new(v.x.value(), v.y.value()).norm();
+    if squares.value() == exact { squares } else { squares.chain(exact, 1.0, 0.0) }
+}
+
+/// a^b; none where it has no real value.
+fn power<T: Real>(a: T, b: T) -> Option<T> {
+    let (x, p) = (a.value(), b.value());
+    if (x == 0.0 && p < 0.0) || (x < 0.0 && p != p.trunc()) {
+        return None;
+    }
+    let v = libm::pow(x, p);
+    // As a function of the base with a constant power, then of the power with a constant base.
+    let by_base = a.chain(v, slope(p, x, p - 1.0), slope(p * (p - 1.0), x, p - 2.0));
+    if b.is_constant() || x <= 0.0 {
+        return Some(by_base);
+    }
+    let e = b * a.chain(libm::log(x), 1.0 / x, -1.0 / (x * x));
+    Some(e.chain(v, v, v))
+}
+
+/// k x^p, 0 where k is.
+fn slope(k: f64, x: f64, p: f64) -> f64 {
+    if k == 0.0 { 0.0 } else { k * libm::pow(x, p) }
+}

@@ -1,0 +1,207 @@
+//! Edits of a world as data, each with the edit that takes it back.
+
+use super::trace::Tail;
+use super::{
+    Clock, ConstraintId, Entity, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord,
+    Record, Trace, World,
+};
+use crate::constraint::Point;
+
+/// One edit. What is boxed is moved, never copied, so taking an edit back costs no more than
+/// making it.
+#[derive(Debug, Clone)]
+pub enum Edit {
+    /// Makes a point, or deletes it.
+    Point(PointId, Option<Box<PointRecord>>),
+    /// Puts a point somewhere.
+    Move(PointId, Point),
+    /// Freezes a point, or thaws it.
+    Freeze(PointId, bool),
+    /// Sets how strongly a point resists being moved.
+    Weight(PointId, f64),
+    /// Makes a constraint, changes it, or deletes it.
+    Constraint(ConstraintId, Option<Box<Record>>),
+    /// Switches a constraint on, or off.
+    Switch(ConstraintId, bool),
+    /// Makes a parameter, changes it, or deletes it.
+    Parameter(ParameterId, Option<Box<Parameter>>),
+    /// Sets the clock.
+    Clock(Clock),
+    /// Puts a trace at a place in the list of traces, or takes it out.
+    Trace(usize, Option<Box<Trace>>),
+    /// Adds a ghost, or takes the last one away.
+    Ghost(Option<Box<Ghost>>),
+    /// Sets where `reset` puts a point.
+    Start(PointId, Point),
+    /// Sets the states that `reset` brings back.
+    StartStates(Vec<(ConstraintId, Vec<f64>)>),
+    /// Sets all that running changes.
+    Motion(Box<Motion>),
+}
+
+impl World {
+    /// Makes an edit; gives the edit that takes it back.
+    ///
+    /// Names must be free and handles alive: whoever makes the edit has asked.
+    pub fn apply(&mut self, edit: Edit) -> Edit {
+        match edit {
+            Edit::Point(id, record) => Edit::Point(id, self.swap_point(id, record)),
+            Edit::Move(id, at) => {
+                debug_assert!(at.is_finite(), "a position is finite");
+                self.touched.moved.push(id);
+                self.live.is_stale = true;
+                Edit::Move(id, std::mem::replace(&mut self.points.at[id.idx()], at))
+            }
+            Edit::Freeze(id, frozen) => {
+                self.touched.points.push(id);
+                Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
+            }
+            Edit::Weight(id, weight) => {
+                self.touched.points.push(id);
+                Edit::Weight(id, std::mem::replace(&mut self.points.weight[id.idx()], weight))
+            }
+            Edit::Constraint(id, record) => Edit::Constraint(id, self.swap_constraint(id, record)),
+            Edit::Switch(id, on) => {
+                self.touched.constraints.push(id);
+                self.live.is_dirty = true;
+                let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
+                Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
+            }
+            Edit::Parameter(id, parameter) => {
+                Edit::Parameter(id, self.swap_parameter(id, parameter))
+            }
+            Edit::Clock(clock) => {
+                self.live.is_stale = true;
+                Edit::Clock(std::mem::replace(&mut self.clock, clock))
+            }
+            Edit::Trace(idx, Some(trace)) => {
+                self.traces.insert(idx, *trace);
+                Edit::Trace(idx, None)
+            }
+            Edit::Trace(idx, None) => Edit::Trace(idx, Some(Box::new(self.traces.remove(idx)))),
+            Edit::Ghost(Some(ghost)) => {
+                self.ghosts.push(*ghost);
+                Edit::Ghost(None)
+            }
+            Edit::Ghost(None) => Edit::Ghost(self.ghosts.pop().map(Box::new)),
+            Edit::Start(id, at) => {
+                Edit::Start(id, std::mem::replace(&mut self.points.start[id.idx()], at))
+            }
+            Edit::StartStates(states) => {
+                Edit::StartStates(std::mem::replace(&mut self.start_states, states))
+            }
+            Edit::Motion(motion) => Edit::Motion(Box::new(self.swap_motion(*motion))),
+        }
+    }
+
+    fn swap_point(
+        &mut self,
+        id: PointId,
+        record: Option<Box<PointRecord>>,
+    ) -> Option<Box<PointRecord>> {
+        self.touched.points.push(id);
+        let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
+            let old = self.points.remove(id);
+            self.names.remove(&old.name);
+            Box::new(old)
+        });
+        if let Some(record) = record {
+            debug_assert!(record.at.is_finite(), "a position is finite");
+            self.names.insert(record.name.clone(), Entity::Point(id));
+            self.points.insert(id, *record);
+        }
+        old
+    }
+
+    fn swap_constraint(
+        &mut self,
+        id: ConstraintId,
+        record: Option<Box<Record>>,
+    ) -> Option<Box<Record>> {
+        self.touched.constraints.push(id);
+        if let Some(record) = &record {
+            self.n_constraints += 1;
+            self.names_swap(
+                self.constraints.get(id.idx()).map(|r| r.name.clone()),
+                &record.name,
+                id,
+            );
+            self.link_constraint(id, record);
+        }
+        let is_deleted = record.is_none();
+        let old = self.constraints.swap(id.idx(), record.map(|record| *record));
+        if old.is_none() {
+            self.note_start_state(id);
+        }
+        if let Some(old) = &old {
+            self.n_constraints -= 1;
+            self.unlink_constraint(id, old);
+            if is_deleted {
+                self.names.remove(&old.name);
+            }
+        }
+        old.map(Box::new)
+    }
+
+    /// Keeps the name of a constraint that is changed in place, gives a new one its name.
+    fn names_swap(
+        &mut self,
+        old: Option<std::rc::Rc<str>>,
+        new: &std::rc::Rc<str>,
+        id: ConstraintId,
+    ) {
+        if old.as_ref() == Some(new) {
+            return;
+        }
+        if let Some(old) = old {
+            self.names.remove(&old);
+        }
+        self.names.insert(new.clone(), Entity::Constraint(id));
+    }
+
+    fn swap_parameter(
+        &mut self,
+        id: ParameterId,
+        parameter: Option<Box<Parameter>>,
+    ) -> Option<Box<Parameter>> {
+        let was = self.parameters.get(id.idx()).map(|p| (p.name.clone(), p.depends.is_live()));
+        let is_live = parameter.as_ref().is_some_and(|p| p.depends.is_live());
+        self.live.is_dirty |= is_live || was.as_ref().is_some_and(|(_, live)| *live);
+        match (&was, &parameter) {
+            (None, Some(new)) => self.names.insert(new.name.clone(), Entity::Parameter(id)),
+            (Some((name, _)), None) => self.names.remove(name),
+            _ => {}
+        }
+        if let Some(new) = &parameter {
+            self.live.link_parameter(id, &new.formula);
+        }
+        let old = self.parameters.swap(id.idx(), parameter.map(|p| *p));
+        if let Some(old) = &old {
+            self.live.unlink_parameter(id, &old.formula);
+        }
+        old.map(Box::new)
+    }
+
+    /// Empties the world; gives the edits that bring everything back, last first.
+    pub fn clear_edits(&self) -> Vec<Edit> {
+        let mut edits: Vec<Edit> = Vec::new();
+        edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
+        edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
+        edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
+        let mut parameters: Vec<_> =
+            self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();
+        parameters.reverse();
+        edits.extend(parameters);
+        edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));
+        edits.push(Edit::StartStates(Vec::new()));
+        edits.push(Edit::Clock(Clock::default()));
+        edits
+    }
+}
+
+impl World {
+    /// The traces and ghosts as they are, for a motion to go back to.
+    pub(super) fn tails(&self) -> (Vec<Tail<super::Sample>>, Tail<Ghost>) {
+        (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
+    }
+}

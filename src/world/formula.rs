@@ -1,0 +1,291 @@
+//! Expressions bound to what they name: live formulas over points, parameters and time.
+
+use std::rc::Rc;
+
+use super::arithmetic::{call, finite, operate};
+use super::{Function, ParameterId, PointId, Shape};
+use crate::constraint::{Place, Real};
+use crate::diag::{Diagnostic, SourceId, Span};
+
+/// The place of what no text says.
+const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
+
+/// An expression whose names are resolved; cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Formula(Rc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    node: Node,
+    shape: Shape,
+    depends: Depends,
+    span: Span,
+}
+
+/// One node of the tree.
+#[derive(Debug)]
+pub enum Node {
+    /// A number.
+    Number(f64),
+    /// A vector from its two coordinates.
+    Vector(Formula, Formula),
+    /// The value of a parameter.
+    Parameter(ParameterId),
+    /// The position of a point.
+    Point(PointId),
+    /// The time of the clock.
+    Time,
+    /// The negative.
+    Negate(Formula),
+    /// An arithmetic operation.
+    Binary(Operator, Formula, Formula),
+    /// The horizontal coordinate.
+    X(Formula),
+    /// The vertical coordinate.
+    Y(Formula),
+    /// A function of its arguments.
+    Call(Function, Box<[Formula]>),
+}
+
+/// An arithmetic operation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+}
+
+impl Operator {
+    /// The sign in the language.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+            Self::Power => "^",
+        }
+    }
+}
+
+/// What can change the value of a formula.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[allow(clippy::struct_excessive_bools)] // Four independent facts, joined by "or".
+pub struct Depends {
+    /// It mentions time, itself or through a parameter.
+    pub on_time: bool,
+    /// It mentions the position of a point.
+    pub on_points: bool,
+    /// It mentions a velocity or an acceleration.
+    pub on_rates: bool,
+    /// It mentions a parameter.
+    pub on_parameters: bool,
+}
+
+impl Depends {
+    /// Whether anything but the user's own edit of a parameter can change it.
+    pub const fn is_live(self) -> bool {
+        self.on_time || self.on_points || self.on_rates
+    }
+
+    /// Whether nothing can change it.
+    pub const fn is_constant(self) -> bool {
+        !self.is_live() && !self.on_parameters
+    }
+
+    /// What can change one or the other.
+    #[must_use]
+    pub const fn or(self, o: Self) -> Self {
+        Self {
+            on_time: self.on_time || o.on_time,
+            on_points: self.on_points || o.on_points,
+            on_rates: self.on_rates || o.on_rates,
+            on_parameters: self.on_parameters || o.on_parameters,
+        }
+    }
+}
+
+/// A value of an expression over any kind of number.
+#[derive(Debug, Clone, Copy)]
+pub enum Value<T = f64> {
+    /// A number.
+    Number(T),
+    /// A vector.
+    Vector(Place<T>),
+}
+
+impl<T: Real> Value<T> {
+    /// What it is.
+    pub const fn shape(&self) -> Shape {
+        match self {
+            Self::Number(_) => Shape::Number,
+            Self::Vector(_) => Shape::Vector,
+        }
+    }
+
+    /// Whether it holds neither an infinity nor not-a-number.
+    pub fn is_finite(self) -> bool {
+        match self {
+            Self::Number(n) => n.value().is_finite(),
+            Self::Vector(v) => v.x.value().is_finite() && v.y.value().is_finite(),
+        }
+    }
+
+    /// The number; formulas are checked for shape when they are bound.
+    pub fn number(self) -> T {
+        match self {
+            Self::Number(n) => n,
+            Self::Vector(_) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+
+    /// The vector; formulas are checked for shape when they are bound.
+    pub fn vector(self) -> Place<T> {
+        match self {
+            Self::Vector(v) => v,
+            Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+}
+
+/// Where a formula finds what it mentions.
+pub trait Environment<T: Real> {
+    /// The value of a parameter.
+    ///
+    /// # Errors
+    /// Where the parameter's own formula has no value.
+    fn parameter(&self, id: ParameterId) -> Result<Value<T>, Diagnostic>;
+    /// The position of a point.
+    fn position(&self, id: PointId) -> Place<T>;
+    /// The time.
+    fn time(&self) -> T;
+    /// Velocity and acceleration of a point; none where they cannot be had.
+    fn rates(&self, id: PointId) -> Option<(Place<T>, Place<T>)>;
+}
+
+impl Formula {
+    /// A constant number without a place in a text.
+    pub fn constant(value: f64) -> Self {
+        Self::new(Node::Number(value), Shape::Number, Depends::default(), NOWHERE)
+    }
+
+    /// A node with its shape, what it depends on and its place in the text.
+    pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
+        Self(Rc::new(Inner { node, shape, depends, span }))
+    }
+
+    /// The tree.
+    pub fn node(&self) -> &Node {
+        &self.0.node
+    }
+
+    /// What it gives.
+    pub fn shape(&self) -> Shape {
+        self.0.shape
+    }
+
+    /// What can change it, without regard to what its parameters depend on.
+    pub fn depends(&self) -> Depends {
+        self.0.depends
+    }
+
+    /// Its place in the text.
+    pub fn span(&self) -> Span {
+        self.0.span
+    }
+
+    /// Whether two handles show the same formula.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// Calls `visit` for each point and parameter it mentions.
+    pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
+        match self.node() {
+            Node::Number(_) | Node::Time => {}
+            Node::Parameter(id) => visit(Mention::Parameter(*id)),
+            Node::Point(id) => visit(Mention::Point(*id)),
+            Node::Negate(a) | Node::X(a) | Node::Y(a) => a.mentions(visit),
+            Node::Vector(a, b) | Node::Binary(_, a, b) => {
+                a.mentions(visit);
+                b.mentions(visit);
+            }
+            Node::Call(_, arguments) => arguments.iter().for_each(|a| a.mentions(visit)),
+        }
+    }
+
+    /// The value in an environment.
+    ///
+    /// # Errors
+    /// Points at the part that has no finite value: a division by zero, a root of a negative
+    /// number, an overflow.
+    pub fn evaluate<T: Real>(&self, env: &impl Environment<T>) -> Result<Value<T>, Diagnostic> {
+        use Value::{Number, Vector};
+        let value = match self.node() {
+            Node::Number(n) => return Ok(Number(T::constant(*n))),
+            Node::Time => return Ok(Number(env.time())),
+            Node::Point(id) => return Ok(Vector(env.position(*id))),
+            Node::Parameter(id) => return env.parameter(*id),
+            Node::Vector(x, y) => {
+                Vector(Place { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
+            }
+            Node::Negate(a) => match a.evaluate(env)? {
+                Number(n) => Number(-n),
+                Vector(v) => Vector(Place { x: -v.x, y: -v.y }),
+            },
+            Node::X(a) => Number(a.evaluate(env)?.vector().x),
+            Node::Y(a) => Number(a.evaluate(env)?.vector().y),
+            Node::Binary(operator, a, b) => {
+                let (left, right) = (a.evaluate(env)?, b.evaluate(env)?);
+                return operate(*operator, left, right, self.span(), b.span());
+            }
+            Node::Call(function @ (Function::Velocity | Function::Acceleration), arguments) => {
+                return self.rate(*function, &arguments[0], env);
+            }
+            Node::Call(function, arguments) => {
+                // Few arguments but for `min` and `max`: no allocation then.
+                let mut few = [Number(T::constant(0.0)); 4];
+                return if let Some(few) = few.get_mut(..arguments.len()) {
+                    for (value, argument) in few.iter_mut().zip(arguments) {
+                        *value = argument.evaluate(env)?;
+                    }
+                    call(*function, few, self.span())
+                } else {
+                    let all =
+                        arguments.iter().map(|a| a.evaluate(env)).collect::<Result<Vec<_>, _>>()?;
+                    call(*function, &all, self.span())
+                };
+            }
+        };
+        finite(value, self.span())
+    }
+
+    fn rate<T: Real>(
+        &self,
+        function: Function,
+        argument: &Self,
+        env: &impl Environment<T>,
+    ) -> Result<Value<T>, Diagnostic> {
+        let Node::Point(id) = argument.node() else {
+            unreachable!("a rate is bound to the name of a point")
+        };
+        let Some((velocity, acceleration)) = env.rates(*id) else {
+            return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
+                .at(self.span(), "only where a value is looked at")
+                .help("use it in `print`, `assert`, or a parameter that these use"));
+        };
+        Ok(Value::Vector(if function == Function::Velocity { velocity } else { acceleration }))
+    }
+}
+
+/// What a formula mentions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mention {
+    /// A point.
+    Point(PointId),
+    /// A parameter.
+    Parameter(ParameterId),
+}

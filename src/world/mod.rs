@@ -1,0 +1,163 @@
+//! The state of a mechanism: points, constraints, parameters, clock, traces, and every edit of it.
+//!
+//! All edits go through [`World::apply`], which gives the edit that takes it back. Nothing
+//! here iterates towards a solution, parses, prints or holds a number that is not finite.
+
+mod arithmetic;
+mod clock;
+mod edit;
+mod formula;
+mod function;
+mod id;
+mod live;
+mod motion;
+mod names;
+mod points;
+mod records;
+mod touched;
+mod trace;
+mod users;
+
+pub use arithmetic::{call, operate};
+pub use clock::Clock;
+pub use edit::Edit;
+pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};
+pub use function::{Function, Shape};
+pub use id::{ConstraintId, Entity, ParameterId, PointId};
+pub use live::Rates;
+pub use motion::Motion;
+pub use names::Names;
+pub use points::{PointRecord, Points};
+pub use records::{Parameter, Record};
+pub use touched::Touched;
+pub use trace::{Ghost, Sample, Trace};
+pub use users::User;
+
+use crate::constraint::{Constraint, Point};
+use records::Table;
+
+/// Everything a script has made, and the time it is.
+#[derive(Debug, Clone, Default)]
+pub struct World {
+    points: Points,
+    constraints: Table<Record>,
+    n_constraints: usize,
+    parameters: Table<Parameter>,
+    names: Names,
+    clock: Clock,
+    /// The state of motors and wheels when the clock left 0, or at birth if made later.
+    start_states: Vec<(ConstraintId, Vec<f64>)>,
+    traces: Vec<Trace>,
+    ghosts: Vec<Ghost>,
+    live: live::Live,
+    touched: Touched,
+}
+
+impl World {
+    /// An empty world at time 0.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The points.
+    pub const fn points(&self) -> &Points {
+        &self.points
+    }
+
+    /// The constraints, in order of creation.
+    pub fn constraints(&self) -> impl DoubleEndedIterator<Item = (ConstraintId, &Record)> {
+        self.constraints.iter().map(|(k, record)| (ConstraintId::new(k), record))
+    }
+
+    /// How many constraints there are.
+    pub const fn n_constraints(&self) -> usize {
+        self.n_constraints
+    }
+
+    /// One constraint, if it exists.
+    pub fn constraint(&self, id: ConstraintId) -> Option<&Record> {
+        self.constraints.get(id.idx())
+    }
+
+    /// The parameters, in order of creation.
+    pub fn parameters(&self) -> impl Iterator<Item = (ParameterId, &Parameter)> {
+        self.parameters.iter().map(|(k, parameter)| (ParameterId::new(k), parameter))
+    }
+
+    /// One parameter, if it exists.
+    pub fn parameter(&self, id: ParameterId) -> Option<&Parameter> {
+        self.parameters.get(id.idx())
+    }
+
+    /// Who has which name.
+    pub const fn names(&self) -> &Names {
+        &self.names
+    }
+
+    /// The first free name `{stem}1`, `{stem}2`, ...
+    pub fn numbered_name(&mut self, stem: &str) -> String {
+        self.names.numbered(stem)
+    }
+
+    /// The name of an entity.
+    pub fn name_of(&self, entity: Entity) -> &str {
+        match entity {
+            Entity::Point(id) => self.points.name(id),
+            Entity::Constraint(id) => {
+                &self.constraint(id).expect("a handle of a living constraint").name
+            }
+            Entity::Parameter(id) => {
+                &self.parameter(id).expect("a handle of a living parameter").name
+            }
+        }
+    }
+
+    /// The clock.
+    pub const fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// The traces, in the order they were asked for.
+    pub fn traces(&self) -> &[Trace] {
+        &self.traces
+    }
+
+    /// The ghosts, the oldest first.
+    pub fn ghosts(&self) -> &[Ghost] {
+        &self.ghosts
+    }
+
+    /// A handle for a point to be made.
+    pub fn next_point(&self) -> PointId {
+        PointId::new(self.points.column().len())
+    }
+
+    /// A handle for a constraint to be made.
+    pub fn next_constraint(&self) -> ConstraintId {
+        ConstraintId::new(self.constraints.n_handles())
+    }
+
+    /// A handle for a parameter to be made.
+    pub fn next_parameter(&self) -> ParameterId {
+        ParameterId::new(self.parameters.n_handles())
+    }
+
+    /// What changed since this was last asked for.
+    pub fn take_touched(&mut self) -> Touched {
+        std::mem::take(&mut self.touched)
+    }
+
+    /// Puts a point where the solver found it. A position that is not finite is refused and
+    /// the one before kept.
+    pub fn set_position(&mut self, id: PointId, at: Point) {
+        if at.is_finite() {
+            self.points.at[id.idx()] = at;
+            self.live.is_stale = true;
+        }
+    }
+
+    /// The relation as the solver carries it on: unwrapped angles and the like. Not for edits.
+    pub fn constraint_state_mut(&mut self, id: ConstraintId) -> &mut Constraint {
+        &mut self.constraints.get_mut(id.idx()).expect("a handle of a living constraint").constraint
+    }
+}

@@ -1,0 +1,122 @@
+//! The points, as columns of numbers.
+
+use std::rc::Rc;
+
+use super::PointId;
+use crate::constraint::Point;
+
+/// Everything about the points; a handle is an index into each column.
+#[derive(Debug, Clone, Default)]
+pub struct Points {
+    /// Positions now.
+    pub(super) at: Vec<Point>,
+    /// Positions when the clock left 0, or at birth for a point made later.
+    pub(super) start: Vec<Point>,
+    pub(super) is_frozen: Vec<bool>,
+    /// How strongly a point resists being moved; 1 unless the user says otherwise.
+    pub(super) weight: Vec<f64>,
+    /// None for a point that was deleted.
+    pub(super) name: Vec<Option<Rc<str>>>,
+    pub(super) n_alive: usize,
+}
+
+/// All that makes one point.
+#[derive(Debug, Clone)]
+pub struct PointRecord {
+    /// Its name.
+    pub name: Rc<str>,
+    /// Where it is.
+    pub at: Point,
+    /// Where `reset` puts it.
+    pub start: Point,
+    /// Whether no constraint may move it.
+    pub is_frozen: bool,
+    /// How strongly it resists being moved.
+    pub weight: f64,
+}
+
+impl Points {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.n_alive
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.n_alive == 0
+    }
+
+    /// The positions of all handles given out so far; entries of deleted points mean nothing.
+    pub fn column(&self) -> &[Point] {
+        &self.at
+    }
+
+    /// Where a point is.
+    pub fn at(&self, id: PointId) -> Point {
+        self.at[id.idx()]
+    }
+
+    /// Where `reset` puts it.
+    pub fn start(&self, id: PointId) -> Point {
+        self.start[id.idx()]
+    }
+
+    /// Whether no constraint may move it.
+    pub fn is_frozen(&self, id: PointId) -> bool {
+        self.is_frozen[id.idx()]
+    }
+
+    /// Whether it exists.
+    pub fn is_alive(&self, id: PointId) -> bool {
+        self.name[id.idx()].is_some()
+    }
+
+    /// How strongly it resists being moved, against 1 for an ordinary point.
+    pub fn weight(&self, id: PointId) -> f64 {
+        self.weight[id.idx()]
+    }
+
+    /// The inverse mass `w` of the formulas: 0 for a frozen point.
+    pub fn inverse_mass(&self, id: PointId) -> f64 {
+        if self.is_frozen[id.idx()] { 0.0 } else { 1.0 / self.weight[id.idx()] }
+    }
+
+    /// Its name.
+    pub fn name(&self, id: PointId) -> &str {
+        self.name[id.idx()].as_deref().expect("a handle of a living point")
+    }
+
+    /// The living points, in order of creation.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = PointId> + '_ {
+        self.name.iter().enumerate().filter_map(|(k, name)| name.as_ref().map(|_| PointId::new(k)))
+    }
+
+    pub(super) fn insert(&mut self, id: PointId, record: PointRecord) {
+        let k = id.idx();
+        if k >= self.at.len() {
+            self.at.resize(k + 1, Point::ORIGIN);
+            self.start.resize(k + 1, Point::ORIGIN);
+            self.is_frozen.resize(k + 1, false);
+            self.weight.resize(k + 1, 1.0);
+            self.name.resize(k + 1, None);
+        }
+        self.at[k] = record.at;
+        self.start[k] = record.start;
+        self.is_frozen[k] = record.is_frozen;
+        self.weight[k] = record.weight;
+        self.name[k] = Some(record.name);
+        self.n_alive += 1;
+    }
+
+    pub(super) fn remove(&mut self, id: PointId) -> PointRecord {
+        let k = id.idx();
+        self.n_alive -= 1;
+        PointRecord {
+            name: self.name[k].take().expect("a handle of a living point"),
+            at: self.at[k],
+            start: self.start[k],
+            is_frozen: self.is_frozen[k],
+            weight: self.weight[k],
+        }
+    }
+}

@@ -1,0 +1,368 @@
+//! Trees of every sort of statement, as random as the parser could make them.
+
+use std::sync::Arc;
+
+use linkwork::diag::{SourceId, Span};
+use linkwork::lang::ast::*;
+use proptest::collection::vec;
+use proptest::option::of;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+/// Any statement, blocks within blocks included.
+pub fn statement() -> BoxedStrategy<Statement> {
+    let leaf = simple_command().prop_map(stated).boxed();
+    leaf.prop_recursive(3, 12, 4, |inner| {
+        let body = vec(inner, 0..4).prop_map(Body::from).boxed();
+        prop_oneof![
+            simple_command().prop_map(stated),
+            (ident(), range(), body.clone()).prop_map(|(variable, range, body)| {
+                stated(Command::For { variable, range, body })
+            }),
+            (ident(), vec(ident(), 0..4), body).prop_map(|(name, mut parameters, body)| {
+                let mut seen: Vec<Ident> = Vec::new();
+                parameters.retain(|parameter| {
+                    let is_new = !seen.contains(parameter);
+                    seen.push(parameter.clone());
+                    is_new
+                });
+                stated(Command::Define(Arc::new(Definition { name, parameters, body })))
+            }),
+        ]
+    })
+    .boxed()
+}
+
+fn stated(command: Command) -> Statement {
+    Statement { command, span: SPAN }
+}
+
+const SPAN: Span = Span { source: SourceId(0), start: 0, end: 0 };
+
+fn simple_command() -> BoxedStrategy<Command> {
+    prop_oneof![
+        15 => constraint_decl().prop_map(|decl| Command::Constrain(Box::new(decl))),
+        8 => making(),
+        12 => changing(),
+        6 => running(),
+        12 => looking(),
+        8 => pictures(),
+        6 => building(),
+    ]
+    .boxed()
+}
+
+fn making() -> BoxedStrategy<Command> {
+    let binding = (name(), expr()).prop_map(|(name, value)| Binding { name, value });
+    let point = (name(), expr(), any::<bool>()).prop_map(|(name, at, frozen)| PointDecl {
+        name,
+        at,
+        frozen,
+    });
+    let target = (name(), expr()).prop_map(|(point, to)| DragTarget { point, to });
+    prop_oneof![
+        vec(binding, 1..3).prop_map(Command::Let),
+        vec(point, 1..3).prop_map(Command::Point),
+        selection().prop_map(Command::Freeze),
+        selection().prop_map(Command::Thaw),
+        (name(), expr()).prop_map(|(point, to)| Command::Move { point, to }),
+        (vec(target, 1..3), of(expr())).prop_map(|(targets, over)| Command::Drag { targets, over }),
+    ]
+    .boxed()
+}
+
+fn constraint_decl() -> BoxedStrategy<ConstraintDecl> {
+    (of(name()), constraint())
+        .prop_map(|(label, constraint)| ConstraintDecl { label, constraint })
+        .boxed()
+}
+
+fn constraint() -> BoxedStrategy<Constraint> {
+    use Constraint as C;
+    let flag = any::<bool>;
+    prop_oneof![
+        (name(), expr()).prop_map(|(point, at)| C::Coordinate { point, at }),
+        pair().prop_map(C::Coincidence),
+        (pair(), pair()).prop_map(|(a, b)| C::Equivalence(a, b)),
+        (pair(), pair(), of(relation())).prop_map(|(a, b, relation)| C::Equal(a, b, relation)),
+        (pair(), of(relation())).prop_map(|(a, relation)| C::Length(a, relation)),
+        (pair(), pair(), of(relation()))
+            .prop_map(|(a, b, relation)| C::Orientation(a, b, relation)),
+        (pair(), of(expr()), of(expr()), of(expr()))
+            .prop_map(|(arm, radius, speed, phase)| C::Motor { arm, radius, speed, phase }),
+        (name(), pair(), flag()).prop_map(|(point, on, unbounded)| C::Glider {
+            point,
+            on,
+            unbounded
+        }),
+        (name(), pair(), expr()).prop_map(|(point, on, at)| C::Hinge { point, on, at }),
+        (pair(), pair(), expr(), flag()).prop_map(|(first, second, ratio, inside)| C::Cog {
+            first,
+            second,
+            ratio,
+            inside
+        }),
+        (name(), pair(), of(relation())).prop_map(|(point, line, relation)| C::Distance {
+            point,
+            line,
+            relation
+        }),
+        (pair(), pair()).prop_map(|(a, b)| C::Parallel(a, b)),
+        (pair(), pair()).prop_map(|(a, b)| C::Perpendicular(a, b)),
+        vec(name(), 2..5).prop_map(C::Rigid),
+        (pair(), pair()).prop_map(|(wheel, on)| C::Rack { wheel, on }),
+    ]
+    .boxed()
+}
+
+fn changing() -> BoxedStrategy<Command> {
+    prop_oneof![
+        (names(), any::<bool>()).prop_map(|(names, cascade)| Command::Delete { names, cascade }),
+        names().prop_map(Command::Off),
+        names().prop_map(Command::On),
+        (name(), change_parts()).prop_map(|(name, parts)| Command::Change { name, parts }),
+        of(ident()).prop_map(Command::Settings),
+        (ident(), expr(), vec(name(), 0..3)).prop_map(|(setting, value, targets)| Command::Set {
+            setting,
+            value,
+            targets
+        }),
+        of(expr()).prop_map(Command::Undo),
+        of(expr()).prop_map(Command::Redo),
+        Just(Command::Reset),
+        Just(Command::Clear),
+    ]
+    .boxed()
+}
+
+/// Each sort of part at most once, one at least.
+fn change_parts() -> BoxedStrategy<Vec<ChangePart>> {
+    let all = (relation(), vec(expr(), 5)).prop_map(|(relation, mut values)| {
+        let mut value = || values.pop().expect("five values");
+        std::vec![
+            ChangePart::Relation(relation),
+            ChangePart::Radius(value()),
+            ChangePart::Speed(value()),
+            ChangePart::Phase(value()),
+            ChangePart::At(value()),
+            ChangePart::Ratio(value()),
+            ChangePart::Inside,
+            ChangePart::Unbounded,
+        ]
+    });
+    all.prop_shuffle().prop_flat_map(|all| proptest::sample::subsequence(all, 1..=3)).boxed()
+}
+
+fn running() -> BoxedStrategy<Command> {
+    prop_oneof![
+        (of(expr()), promise()).prop_map(|(frames, promise)| Command::Step { frames, promise }),
+        (expr(), promise()).prop_map(|(time, promise)| Command::Run { time, promise }),
+        of(expr()).prop_map(Command::Relax),
+        promise().prop_map(Command::Solve),
+    ]
+    .boxed()
+}
+
+fn looking() -> BoxedStrategy<Command> {
+    let item = prop_oneof![expr().prop_map(PrintItem::Value), text().prop_map(PrintItem::Text)];
+    prop_oneof![
+        of(select(ListWhat::ALL.to_vec())).prop_map(Command::List),
+        name().prop_map(Command::Show),
+        vec(item, 1..4).prop_map(Command::Print),
+        Just(Command::Check),
+        name().prop_map(Command::Why),
+        name().prop_map(Command::Limits),
+        Just(Command::Effects),
+        promise().prop_map(Command::Accuracy),
+        (expr(), relation(), of(expr())).prop_map(|(left, relation, within)| Command::Assert {
+            left,
+            relation,
+            within
+        }),
+        of(ident()).prop_map(Command::Help),
+        Just(Command::Quit),
+    ]
+    .boxed()
+}
+
+fn pictures() -> BoxedStrategy<Command> {
+    prop_oneof![
+        (names(), of(expr())).prop_map(|(names, every)| Command::Trace { names, every }),
+        selection().prop_map(Command::Untrace),
+        Just(Command::Expose(Expose::Now)),
+        expr().prop_map(|frames| Command::Expose(Expose::Every(frames))),
+        Just(Command::Expose(Expose::Off)),
+        text().prop_map(Command::Svg),
+        (text(), of(expr())).prop_map(|(path, every)| Command::Record { path, every }),
+        Just(Command::RecordStop),
+    ]
+    .boxed()
+}
+
+fn building() -> BoxedStrategy<Command> {
+    prop_oneof![
+        (ident(), vec(expr(), 0..4), of(name())).prop_map(|(definition, arguments, instance)| {
+            Command::Use { definition, arguments, instance }
+        }),
+        text().prop_map(Command::Include),
+        text().prop_map(Command::Save),
+        text().prop_map(Command::Load),
+        (ident(), of(name()), vec(expr(), 0..5))
+            .prop_map(|(what, name, values)| Command::Restore { what, name, values }),
+    ]
+    .boxed()
+}
+
+fn promise() -> BoxedStrategy<Promise> {
+    (of(expr()), of(expr())).prop_map(|(within, in_time)| Promise { within, in_time }).boxed()
+}
+
+fn relation() -> BoxedStrategy<Relation> {
+    prop_oneof![
+        expr().prop_map(Relation::Equal),
+        expr().prop_map(Relation::Less),
+        expr().prop_map(Relation::LessEqual),
+        expr().prop_map(Relation::Greater),
+        expr().prop_map(Relation::GreaterEqual),
+        range().prop_map(Relation::In),
+    ]
+    .boxed()
+}
+
+fn range() -> BoxedStrategy<Range> {
+    (expr(), expr()).prop_map(|(from, to)| Range { from, to }).boxed()
+}
+
+fn selection() -> BoxedStrategy<Selection> {
+    let names = names().prop_filter_map("`all` alone is every one", |names| match &*names {
+        [name] if name.as_simple().is_some_and(|word| &*word.text == "all") => None,
+        _ => Some(Selection::Names(names)),
+    });
+    prop_oneof![1 => Just(Selection::All), 4 => names].boxed()
+}
+
+fn names() -> BoxedStrategy<Vec<Name>> {
+    vec(name(), 1..4).boxed()
+}
+
+fn pair() -> BoxedStrategy<Pair> {
+    (name(), name()).prop_map(|(from, to)| Pair { from, to }).boxed()
+}
+
+fn text() -> BoxedStrategy<Text> {
+    "[ -~é\n\t\\\\\"]{0,12}".prop_map(|value| Text { value: Arc::from(value), span: SPAN }).boxed()
+}
+
+/// Words, most of them also keywords somewhere.
+fn ident() -> BoxedStrategy<Ident> {
+    let words = [
+        "A",
+        "B",
+        "p'",
+        "_q1",
+        "é",
+        "r",
+        "s",
+        "ms",
+        "deg",
+        "e",
+        "e1",
+        "x",
+        "y",
+        "to",
+        "in",
+        "at",
+        "on",
+        "off",
+        "all",
+        "for",
+        "as",
+        "add",
+        "over",
+        "every",
+        "within",
+        "inside",
+        "frozen",
+        "cascade",
+        "unbounded",
+        "radius",
+        "speed",
+        "phase",
+        "ratio",
+        "step",
+        "length",
+        "point",
+        "let",
+        "stop",
+        "sin",
+        "distance",
+        "set",
+    ];
+    select(words.to_vec()).prop_map(|word| Ident { text: Arc::from(word), span: SPAN }).boxed()
+}
+
+fn name() -> BoxedStrategy<Name> {
+    name_over(leaf())
+}
+
+fn name_over(index: BoxedStrategy<Expr>) -> BoxedStrategy<Name> {
+    let part = prop_oneof![
+        ident().prop_map(|word| PartKind::Member(word.text)),
+        index.prop_map(PartKind::Index),
+    ]
+    .prop_map(|kind| NamePart { kind, span: SPAN });
+    let parts = prop_oneof![4 => Just(Vec::new()), 1 => vec(part, 1..3)];
+    (ident(), parts)
+        .prop_map(|(head, parts)| Name { head, parts: parts.into_boxed_slice(), span: SPAN })
+        .boxed()
+}
+
+fn leaf() -> BoxedStrategy<Expr> {
+    let size = prop_oneof![
+        (0_u32..100).prop_map(f64::from),
+        prop::num::f64::POSITIVE | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO,
+    ];
+    let unit = prop_oneof![Just(Unit::None), select(Unit::ALL.to_vec())];
+    let number = (size, unit).prop_filter_map("finite", |(written, unit)| {
+        let number = Number { written: written.abs(), unit };
+        number.value().is_finite().then_some(Node::Number(number))
+    });
+    let name = name_over(number.clone().prop_map(node).boxed());
+    prop_oneof![
+        4 => number,
+        4 => name.prop_map(Node::Name),
+        1 => select([Node::Pi, Node::Tau, Node::Time].to_vec()),
+    ]
+    .prop_map(node)
+    .boxed()
+}
+
+fn expr() -> BoxedStrategy<Expr> {
+    use BinaryOp::{Add, Divide, Multiply, Power, Subtract};
+    leaf()
+        .prop_recursive(4, 16, 4, |inner| {
+            let two = || (inner.clone(), inner.clone()).prop_map(|(a, b)| Box::new([a, b]));
+            let op = select([Add, Subtract, Multiply, Divide, Power].to_vec());
+            let axis = select([Axis::X, Axis::Y].to_vec());
+            let call = (select(Function::ALL.to_vec()), vec(inner.clone(), 4)).prop_map(
+                |(function, mut arguments)| {
+                    let n = (1..=4).rev().find(|&n| function.takes(n)).expect("four at most");
+                    arguments.truncate(n);
+                    Node::Call(function, arguments)
+                },
+            );
+            prop_oneof![
+                inner.clone().prop_map(|of| Node::Negate(Box::new(of))),
+                (op, two()).prop_map(|(op, operands)| Node::Binary(op, operands)),
+                two().prop_map(Node::Vector),
+                (inner.clone(), axis).prop_map(|(of, axis)| Node::Component(Box::new(of), axis)),
+                call,
+            ]
+            .prop_map(node)
+        })
+        .boxed()
+}
+
+fn node(node: Node) -> Expr {
+    Expr { node, span: SPAN }
+}

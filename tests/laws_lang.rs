@@ -1,0 +1,109 @@
+//! Laws of the language: what is printed reads back, and no text is too odd to be read.
+
+mod lang_trees;
+
+use linkwork::diag::{Diagnostic, Paint, Sources, Span, render};
+use linkwork::lang::ast::Statement;
+use linkwork::lang::{catalogue, is_incomplete, parse};
+use proptest::prelude::*;
+
+use lang_trees::statement;
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(600) })]
+
+    #[test]
+    fn what_is_printed_reads_back(statement in statement()) {
+        let text = statement.to_string();
+        prop_assert_eq!(read(&text), Ok(vec![statement]), "of {}", text);
+    }
+
+    #[test]
+    fn layout_means_nothing(statement in statement()) {
+        // Line ends, blanks and comments go where blanks are; strings are left alone.
+        let text = statement.to_string();
+        if text.contains(['"', '{']) {
+            return Ok(());
+        }
+        let text = format!("\u{feff}\r\n; {} # end", text.replace(' ', " \\\r\n\t"));
+        prop_assert_eq!(read(&text), Ok(vec![statement]), "of {}", text);
+    }
+
+    #[test]
+    fn any_characters_are_survived(text in ".{0,200}") {
+        survives(&text)?;
+    }
+
+    #[test]
+    fn any_bytes_are_survived(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        survives(&String::from_utf8_lossy(&bytes))?;
+    }
+
+    #[test]
+    fn words_of_the_language_in_any_order_are_survived(
+        words in prop::collection::vec(prop::sample::select(words()), 0..40)
+    ) {
+        survives(&words.join(" "))?;
+        survives(&words.concat())?;
+    }
+
+    #[test]
+    fn damaged_statements_are_survived(
+        statement in statement(),
+        cut in any::<prop::sample::Index>(),
+        len in 0_usize..4,
+        put in prop::sample::select(words()),
+    ) {
+        let mut text: Vec<char> = statement.to_string().chars().collect();
+        let at = cut.index(text.len());
+        let end = (at + len).min(text.len());
+        survives(&text[..at].iter().collect::<String>())?;
+        text.splice(at..end, put.chars());
+        survives(&text.iter().collect::<String>())?;
+    }
+}
+
+fn read(text: &str) -> Result<Vec<Statement>, Diagnostic> {
+    let mut sources = Sources::new();
+    let id = sources.add("law", text);
+    parse(id, text).collect()
+}
+
+/// Reads `text`, draws each mistake, and checks that every span lies on characters of it.
+fn survives(text: &str) -> Result<(), TestCaseError> {
+    let mut sources = Sources::new();
+    let id = sources.add("odd", text);
+    is_incomplete(text);
+    let check = |span: Span| {
+        let is_inside = text.get(span.range()).is_some();
+        prop_assert!(is_inside, "{span:?} in {text:?}");
+        Ok(())
+    };
+    for statement in parse(id, text) {
+        match statement {
+            Ok(statement) => {
+                check(statement.span)?;
+                let printed = statement.to_string();
+                prop_assert_eq!(read(&printed), Ok(vec![statement]), "of {}", printed);
+            }
+            Err(problem) => {
+                for label in &problem.labels {
+                    check(label.span)?;
+                }
+                prop_assert!(problem.place().is_some(), "{problem:?} has no place");
+                render(&problem, &sources, Paint::Coloured);
+                render(&problem.reached_from(Span::new(id, 0..1)), &sources, Paint::Plain);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Every keyword, and what else statements consist of.
+fn words() -> Vec<String> {
+    let marks = "( ) [ ] { } , ; = <= >= < > .. . : + - * / ^ # \\ \" \n \r\n \t é 'x A p[3] p[i-1].x \
+                 left.B (1,2) 3 .5 1e-9 2. 90deg 3x 1e999 \"text\" \"a\\qb\" sin( pi time to in at on \
+                 over all frozen unbounded inside cascade every within for as stop radius \u{a0} \u{feff}";
+    let marks = marks.split(' ').map(str::to_owned);
+    marks.chain(catalogue::commands().map(|entry| entry.keyword.to_owned())).collect()
+}
