@@ -113,8 +113,7 @@ impl Session {
         let mut solver = Solver::new();
         let report = solver.settle(&mut world, &self.preferences.solve, &Budget::default());
         let on = world.constraints().filter(|(_, record)| record.is_on);
-        let (ids, constraints) =
-            on.map(|(id, record)| (id, record.constraint.clone())).unzip();
+        let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
         let points = world.points();
         let w = (0..points.column().len())
             .map(|k| PointId::new(k))
@@ -188,12 +187,16 @@ impl Session {
         let found = subject.with(|scene| analyse(scene, slack));
         if found.unsatisfiable.contains(&place) {
             return vec![
-                format!("{name} holds frozen points only and is off by {}", format_rounded(violation)),
+                format!(
+                    "{name} holds frozen points only and is off by {}",
+                    format_rounded(violation)
+                ),
                 format!("thaw one of its points, change it, or drop {name}"),
             ];
         }
         if violation <= slack {
-            let mut lines = vec![format!("{name} is satisfied, residual {}", format_rounded(violation))];
+            let mut lines =
+                vec![format!("{name} is satisfied, residual {}", format_rounded(violation))];
             for r in found.redundant.iter().filter(|r| r.constraint == place) {
                 let others = subject.names(&r.depends_on).join(", ");
                 lines.push(format!("it is redundant: {others} imply it"));
@@ -216,12 +219,7 @@ impl Session {
         subject.constraints[place].violation(subject.world.points().column(), &subject.w)
     }
 
-    fn describe_conflict(
-        &self,
-        subject: &Subject,
-        conflict: &Conflict,
-        name: &str,
-    ) -> Vec<String> {
+    fn describe_conflict(&self, subject: &Subject, conflict: &Conflict, name: &str) -> Vec<String> {
         let others: Vec<String> =
             subject.names(&conflict.constraints).into_iter().filter(|n| n != name).collect();
         let mut lines = Vec::new();
