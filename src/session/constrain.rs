@@ -2,11 +2,12 @@
 
 use super::{Diagnostic, Session};
 use crate::constraint::{
-    Bounds, Cog, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence, Field, Glider,
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence, Field, Glider,
     Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
 use crate::diag::Span;
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
+use crate::solve::CogForm;
 use crate::world::{Edit, Formula, PointId, Record, Shape, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -110,7 +111,12 @@ impl Session {
                 let points = self.pairs(first, second)?;
                 let value = self.drive(ratio, Field::Ratio, &mut drivers)?;
                 let ratio = cog_ratio(value, *inside, ratio.span)?;
-                (Cog::new(points, ratio, self.world.points().column()).into(), "cog")
+                let x = self.world.points().column();
+                let wheels = match self.preferences.solve.cog {
+                    CogForm::Holonomic => Cog::new(points, ratio, x).into(),
+                    CogForm::Velocity => CogVelocity::new(points, ratio, x).into(),
+                };
+                (wheels, "cog")
             }
             Stated::Distance { point, line, relation } => {
                 let [a, b] = self.pair(line)?;

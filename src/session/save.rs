@@ -5,9 +5,10 @@ use std::fmt::Write;
 use super::describe::{ident, literal, named, text_of, vector};
 use super::settings::SETTINGS;
 use super::{Diagnostic, Session};
-use crate::constraint::Relation as _;
+use crate::constraint::{Constraint, Relation as _};
 use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
-use crate::world::{PointId, World};
+use crate::solve::CogForm;
+use crate::world::{PointId, Record, World};
 
 /// What `restore` brings back.
 pub(super) mod what {
@@ -107,7 +108,7 @@ impl Session {
 
     fn save_constraints(&self, script: &mut String) {
         for (_, record) in self.world.constraints() {
-            line(script, self.constraint_statement(record));
+            self.save_constraint(script, record);
             let name = Some(&*record.name);
             if let Some(rho) = record.rho {
                 let targets = vec![named(&record.name)];
@@ -140,6 +141,23 @@ impl Session {
                 restore(script, what::VALUES, Some(&record.name), numbers(&values));
             }
         }
+    }
+
+    /// The statement of a constraint; of cog wheels in the form that is not set now, with the
+    /// settings that give it.
+    fn save_constraint(&self, script: &mut String, record: &Record) {
+        let set = self.preferences.solve.cog;
+        let form = match record.constraint {
+            Constraint::Cog(_) => CogForm::Holonomic,
+            Constraint::CogVelocity(_) => CogForm::Velocity,
+            _ => set,
+        };
+        let statement = self.constraint_statement(record);
+        if form == set {
+            return line(script, statement);
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(script, "set cog {}\n{statement}\nset cog {}", form.word(), set.word());
     }
 
     fn save_looks(&self, script: &mut String) {

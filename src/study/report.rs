@@ -53,7 +53,7 @@ pub struct Row {
     pub rung: Rung,
     /// All settings it was run with.
     pub settings: Settings,
-    /// The median over the rounds of the mean time of a frame, seconds.
+    /// The median over the rounds of the median time of a frame, seconds.
     pub seconds_per_frame: f64,
     /// Half of what the middle half of the rounds spans, relative to the median.
     pub spread: f64,

@@ -13,6 +13,10 @@ use crate::world::World;
 const BLOWN: f64 = 1e3;
 /// A solve of a pose is repeated until this much time is measured: enough for the clock.
 const LEAST_SECONDS: f64 = 2e-4;
+/// No clock tells anything shorter, and a logarithm needs something.
+const LEAST_TIME: f64 = 1e-9;
+/// And no more often than this.
+const MOST_SOLVES: usize = 100;
 
 /// What is done again and again: a motion, or one solve of a pose.
 pub(super) struct Subject<'a> {
@@ -23,7 +27,7 @@ pub(super) struct Subject<'a> {
 
 /// What a run came to.
 pub(super) struct Outcome {
-    /// Seconds a frame.
+    /// Seconds a frame, the median.
     pub seconds: f64,
     /// The largest residual of a frame.
     pub residual: f64,
@@ -74,10 +78,11 @@ impl Subject<'_> {
             return if take(&mut outcome, &world, &report, 0) { Ok(outcome) } else { Err(Why::Blown) };
         }
         let mut replay = Replay::new(self.course, 1);
+        let mut times = Vec::with_capacity(self.n_frames as usize);
         for k in 0..self.n_frames {
             let before = (outside.now)();
             let report = replay.frame(&settings, &budget).map_err(no_value)?;
-            outcome.seconds += (outside.now)() - before;
+            times.push((outside.now)() - before);
             if is_over() {
                 return Err(outside.why_over());
             }
@@ -85,34 +90,36 @@ impl Subject<'_> {
                 return Err(Why::Blown);
             }
         }
-        outcome.seconds /= self.n_frames as f64;
+        outcome.seconds = median(&mut times);
         Ok(outcome)
     }
 
-    /// Runs a rung by the clock alone; gives seconds a frame. The first frame, in which a new
-    /// solver takes the scene in, does not count unless it is the only one.
+    /// Runs a rung by the clock alone; gives the median of the times of its frames, seconds. A
+    /// mean would tell of what else the machine was doing: that falls on few frames, but hard.
     pub fn time(&self, rung: Rung, outside: &Outside) -> Result<f64, Diagnostic> {
         let settings = rung.settings(&self.course.settings);
+        let overhead = overhead(outside);
+        let mut times;
         if self.is_still {
-            let (mut sum, mut n) = (0.0, 0);
-            while sum < LEAST_SECONDS && n < 100 {
-                sum += self.solve(&settings, rung.step, &Budget::default(), outside)?.2;
-                n += 1;
+            times = Vec::with_capacity(MOST_SOLVES);
+            let mut sum = 0.0;
+            while sum < LEAST_SECONDS && times.len() < MOST_SOLVES {
+                let seconds = self.solve(&settings, rung.step, &Budget::default(), outside)?.2;
+                times.push(seconds);
+                sum += seconds;
             }
-            return Ok(sum / f64::from(n));
+        } else {
+            times = Vec::with_capacity(self.n_frames as usize);
+            let mut replay = Replay::new(self.course, 1);
+            let mut before = (outside.now)();
+            for _ in 0..self.n_frames {
+                replay.frame(&settings, &Budget::default())?;
+                let now = (outside.now)();
+                times.push(now - before);
+                before = now;
+            }
         }
-        let mut replay = Replay::new(self.course, 1);
-        let budget = Budget::default();
-        let mut n = self.n_frames;
-        if n > 1 {
-            replay.frame(&settings, &budget)?;
-            n -= 1;
-        }
-        let before = (outside.now)();
-        for _ in 0..n {
-            replay.frame(&settings, &budget)?;
-        }
-        Ok(((outside.now)() - before) / n as f64)
+        Ok((median(&mut times) - overhead).max(LEAST_TIME))
     }
 
     /// Solves the pose by a method until it is solved, or stuck.
@@ -155,4 +162,22 @@ impl Subject<'_> {
         let seconds = (outside.now)() - before;
         Ok((world, report, seconds))
     }
+}
+
+/// What looking at the clock takes, seconds.
+fn overhead(outside: &Outside) -> f64 {
+    let mut before = (outside.now)();
+    let mut times = [0.0; 31];
+    for time in &mut times {
+        let now = (outside.now)();
+        *time = now - before;
+        before = now;
+    }
+    median(&mut times)
+}
+
+/// The median of some numbers, of which there is at least one.
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
