@@ -271,6 +271,24 @@ fn frames_without_time_are_told_and_gone_on_with() {
 }
 
 #[test]
+fn pictures_say_where_they_come_from() {
+    let picture = |text: &str| {
+        let (_, _, record) = said(&format!("{FOUR_BAR} {text} svg \"now.svg\""));
+        let picture = record.written.borrow()[0].1.clone();
+        let start = picture.find("tolerance: ").expect("it has a receipt");
+        let end = picture[start..].find('<').expect("it ends");
+        picture[start..start + end].lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (early, late) = (picture("step 3;"), picture("step 30;"));
+    assert_eq!(early[0], "tolerance: 1e-12");
+    assert!(early[1].starts_with("largest residual: "));
+    assert!(early[2].starts_with("scene: ") && early[2].len() == 7 + 16);
+    assert_eq!(early[2], late[2], "the hash is of the scene, not of its state");
+    assert_ne!(early[2], picture("change crank radius 1.1; step 3;")[2]);
+    assert_eq!(picture("step 3 within 1e-6;")[0], "tolerance: 0.000001");
+}
+
+#[test]
 fn series_are_undone_saved_and_plotted() {
     let (mut session, record) = session();
     run(&mut session, "sample \"a b\" = 1, 0.5, 0.25; sample \"c\" = 3; undo; sample \"c\" = 2")

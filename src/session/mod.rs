@@ -13,6 +13,7 @@ mod constrain;
 mod delete;
 mod describe;
 mod diagnose;
+mod fingerprint;
 mod host;
 mod journal;
 mod laps;

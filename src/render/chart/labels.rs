@@ -38,6 +38,11 @@ struct Area {
     bottom: f64,
 }
 
+/// How wide a text is, px, or a little less.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    LETTER * size * text.chars().count() as f64
+}
+
 /// What is taken up already.
 pub(super) struct Labels {
     page: Area,
@@ -82,8 +87,12 @@ impl Labels {
     /// as possible; not at all where there is no such place. One that must be seen may stand
     /// farther off.
     pub fn place(&mut self, at: Spot, wording: Wording, anchor: Anchor, must: bool, svg: &mut String) {
-        let (w, h) = (LETTER * wording.size * wording.text.chars().count() as f64, wording.size);
-        let distances: &[f64] = if must { &[7.0, 11.0, 18.0, 28.0, 42.0, 60.0] } else { &[6.0, 10.0] };
+        let (w, h) = (width(wording.text, wording.size), wording.size);
+        let distances: &[f64] = if must {
+            &[7.0, 11.0, 18.0, 28.0, 42.0, 60.0, 85.0, 115.0, 150.0]
+        } else {
+            &[6.0, 10.0]
+        };
         let mut best: Option<(f64, Area)> = None;
         for &distance in distances {
             for k in 0..16 {

@@ -73,12 +73,16 @@ pub struct Mark {
     pub is_notable: bool,
 }
 
-const WIDTH: f64 = 860.0;
+/// The width of the part left of the legend.
+const BODY: f64 = 722.0;
 const HEIGHT: f64 = 560.0;
 const LEFT: f64 = 88.0;
-const RIGHT: f64 = 138.0;
+/// What the legend needs besides its longest name, and at least.
+const LEGEND: f64 = 74.0;
+const LEAST_LEGEND: f64 = 138.0;
 const TOP: f64 = 66.0;
-const BOTTOM: f64 = 74.0;
+/// Where the lower axis lies.
+const FLOOR: f64 = HEIGHT - 74.0;
 /// Sizes of letters, px.
 const TITLE: f64 = 17.0;
 const TEXT: f64 = 13.0;
@@ -92,13 +96,14 @@ impl Chart {
     pub fn svg(&self) -> String {
         let plot = Plot::new(self);
         let mut svg = String::new();
+        let width = look::number(BODY + self.legend_width());
         // Writing to a string cannot fail.
         let _ = write!(
             svg,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-             width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {HEIGHT}\" \
+             width=\"{width}\" height=\"{HEIGHT}\" \
              font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\">\n\
-             <title>{}</title>\n<rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n",
+             <title>{}</title>\n<rect width=\"{width}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n",
             escaped(&self.title)
         );
         text(&mut svg, LEFT, 28.0, TITLE, "start", "#111", &self.title, true);
@@ -114,8 +119,13 @@ impl Chart {
         svg
     }
 
+    fn legend_width(&self) -> f64 {
+        let names = self.series.iter().map(|series| labels::width(&series.name, TEXT));
+        names.fold(0.0, f64::max).ceil().max(LEAST_LEGEND - LEGEND) + LEGEND
+    }
+
     fn draw_labels(&self, plot: &Plot, lines: &[Line], svg: &mut String) {
-        let mut labels = Labels::within(LEFT, TOP, plot.right(), plot.bottom());
+        let mut labels = Labels::within(LEFT, TOP, BODY, FLOOR);
         for line in lines {
             line.stretches.iter().for_each(|stretch| labels.avoid_line(stretch));
             line.marked().for_each(|(spot, _)| labels.avoid_mark(spot));
@@ -149,7 +159,7 @@ impl Chart {
     }
 
     fn draw_legend(&self, lines: &[Line], svg: &mut String) {
-        let x = WIDTH - RIGHT + 20.0;
+        let x = BODY + 20.0;
         let mut y = TOP + 8.0;
         for (line, series) in lines.iter().zip(&self.series) {
             let ends = [Spot { x, y }, Spot { x: x + 30.0, y }];
@@ -187,19 +197,11 @@ struct Line<'a> {
 impl Plot {
     fn new(chart: &Chart) -> Self {
         let marks = || chart.series.iter().flat_map(|series| &series.marks);
-        let mut x = Scale::new(&chart.x, marks().map(|m| m.x), LEFT, WIDTH - RIGHT);
-        let mut y = Scale::new(&chart.y, marks().map(|m| m.y), HEIGHT - BOTTOM, TOP);
+        let mut x = Scale::new(&chart.x, marks().map(|m| m.x), LEFT, BODY);
+        let mut y = Scale::new(&chart.y, marks().map(|m| m.y), FLOOR, TOP);
         x.keep_clear(0.02);
         y.keep_clear(0.02);
         Self { x, y }
-    }
-
-    fn right(&self) -> f64 {
-        WIDTH - RIGHT
-    }
-
-    fn bottom(&self) -> f64 {
-        HEIGHT - BOTTOM
     }
 
     fn spot(&self, x: f64, y: f64) -> Option<Spot> {
@@ -223,7 +225,7 @@ impl Plot {
     }
 
     fn draw_grid(&self, chart: &Chart, svg: &mut String) {
-        let (right, bottom) = (look::number(self.right()), look::number(self.bottom()));
+        let (right, bottom) = (look::number(BODY), look::number(FLOOR));
         let mut fine = String::new();
         let mut coarse = String::new();
         for tick in self.x.ticks() {
@@ -245,7 +247,7 @@ impl Plot {
         );
         for tick in self.x.ticks() {
             if let Some(label) = &tick.label {
-                raw_text(svg, tick.at, self.bottom() + 18.0, TEXT, "middle", "#222", label);
+                raw_text(svg, tick.at, FLOOR + 18.0, TEXT, "middle", "#222", label);
             }
         }
         for tick in self.y.ticks() {
@@ -253,9 +255,9 @@ impl Plot {
                 raw_text(svg, LEFT - 8.0, tick.at + 4.5, TEXT, "end", "#222", label);
             }
         }
-        let middle = 0.5 * (LEFT + self.right());
-        text(svg, middle, self.bottom() + 40.0, TEXT, "middle", "#222", &chart.x.label, false);
-        let middle = 0.5 * (TOP + self.bottom());
+        let middle = 0.5 * (LEFT + BODY);
+        text(svg, middle, FLOOR + 40.0, TEXT, "middle", "#222", &chart.x.label, false);
+        let middle = 0.5 * (TOP + FLOOR);
         let _ = writeln!(
             svg,
             "<text transform=\"translate(22 {}) rotate(-90)\" font-size=\"{TEXT}\" \
@@ -274,7 +276,7 @@ impl Plot {
         for spot in &spots {
             let _ = write!(path, "H{}V{}", look::number(spot.x), look::number(spot.y));
         }
-        let _ = write!(path, "H{}", look::number(self.right()));
+        let _ = write!(path, "H{}", look::number(BODY));
         let _ = writeln!(
             svg,
             "<path d=\"{path}\" stroke=\"#c9c9c9\" stroke-width=\"9\" stroke-linejoin=\"round\" \
