@@ -50,6 +50,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     let n_free = island.n_free;
     island.history.begin(&island.x[..n_free]);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
+    if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
+        distrust(island, work);
+    }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
         && attempt.is_safe(motion_since(island, island.history.origin()), limits)
     {
@@ -61,6 +64,24 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
     struggle::settle(island, limits, work)
+}
+
+/// Takes back the expected places of parts with freedom left that are worse than those they
+/// come from: nothing but their own past tells such points where to go.
+fn distrust(island: &mut Island, work: &mut Counters) {
+    let mut rooms = std::mem::take(&mut island.part_rooms);
+    for room in &mut rooms {
+        room.equations.gather(&island.x, &mut room.expected);
+        room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
+        for &p in room.equations.points() {
+            island.x[p as usize] = island.history.origin()[p as usize];
+        }
+        room.trial.evaluate(&room.equations, &island.constraints, &island.x, work);
+        if room.rows.energy < room.trial.energy {
+            room.equations.scatter(&room.expected, &mut island.x);
+        }
+    }
+    island.part_rooms = rooms;
 }
 
 /// The frame ends at the present pose.

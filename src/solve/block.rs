@@ -46,6 +46,7 @@ struct Sum {
     fx: f64,
     fy: f64,
     worst: f64,
+    n_rows: u32,
     /// The first active gradient; then the cross product with the second.
     first: Option<Vector>,
     side: f64,
@@ -73,6 +74,7 @@ impl Sum {
         self.fx += g.x * f;
         self.fy += g.y * f;
         self.worst = self.worst.max(f.abs());
+        self.n_rows += 1;
         match self.first {
             None => self.first = Some(g),
             Some(first) if self.side == 0.0 => self.side = first.cross(g),
@@ -80,8 +82,14 @@ impl Sum {
         }
     }
 
-    /// The damped Gauss-Newton step.
+    /// The Gauss-Newton step, damped by `mu` where the rows are nearly in line. A single row
+    /// of a distance is met exactly by the step along it.
     fn step(&self, mu: f64) -> Vector {
+        if self.n_rows == 1 {
+            return Vector::new(-self.fx, -self.fy);
+        }
+        let is_sound = self.xx * self.yy - self.xy * self.xy > IN_LINE * IN_LINE;
+        let mu = if is_sound { 0.0 } else { mu };
         let (a, b) = (self.xx + mu, self.yy + mu);
         let k = -1.0 / (a * b - self.xy * self.xy);
         Vector::new(b * self.fx - self.xy * self.fy, a * self.fy - self.xy * self.fx) * k
