@@ -443,7 +443,9 @@ fn motion(session: &mut Session, n_frames: u32) -> Vec<(Scene, f64)> {
 fn animation(frames: &[(Scene, f64)]) -> String {
     let view = View::of(frames.iter().map(|(scene, _)| scene));
     let mut animation = Animation::new(view, &Options::default());
-    frames.iter().for_each(|(scene, time)| animation.push(scene, *time));
+    for (scene, time) in frames {
+        animation.push(scene, *time);
+    }
     animation.finish()
 }
 
