@@ -2,9 +2,10 @@
 
 use std::rc::Rc;
 
-use super::figure::{Figure, Key, Layer, Path};
+use super::figure::{Figure, Key, Layer};
 use super::ink::Ink;
 use super::page::{Extent, Page};
+use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
 use crate::constraint::{Point, Vector};

@@ -5,10 +5,11 @@ use std::f64::consts::{PI, TAU};
 use super::bar::Span;
 use super::{Draw, teeth};
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::figure::{Layer, Path, Placement};
+use crate::render::figure::{Layer, Placement};
 use crate::render::groups::Groups;
 use crate::render::ink::Ink;
 use crate::render::page::Extent;
+use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// From tooth to tooth, px, where there is room for it.
