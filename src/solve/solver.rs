@@ -203,7 +203,9 @@ impl Solver {
         for (nth, &k) in visit.iter().enumerate() {
             if budget.is_spent() {
                 report.is_interrupted = true;
-                visit[nth..].iter().for_each(|&k| self.wake(k));
+                for &k in &visit[nth..] {
+                    self.wake(k);
+                }
                 break;
             }
             self.visit(k, world, settings, budget, task, &mut report);
@@ -251,19 +253,25 @@ impl Solver {
         if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
             made = self.topology.update(&touched, world, &mut self.pending);
             work.islands_rebuilt += made.len() as u64;
-            made.iter().for_each(|&k| self.remind(k));
+            for &k in &made {
+                self.remind(k);
+            }
             self.pending = Memory::default();
             if touched.all {
                 self.awake.clear();
                 self.is_awake.fill(false);
             }
-            made.iter().for_each(|&k| self.wake(k));
+            for &k in &made {
+                self.wake(k);
+            }
             let topology = &self.topology;
             self.awake.retain(|&k| topology.get(k).is_some());
             self.unsolved.retain(|&k| topology.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = topology.checked().collect();
-            checked.into_iter().for_each(|id| self.check(world, id, settings));
+            for id in checked {
+                self.check(world, id, settings);
+            }
         }
         for &id in &touched.values {
             match self.topology.home(id) {

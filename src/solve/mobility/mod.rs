@@ -7,6 +7,7 @@
 mod conflict;
 mod dependence;
 mod freedom;
+mod motions;
 mod pose;
 mod projector;
 mod scene;
@@ -14,6 +15,7 @@ mod settle;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
+pub use motions::motion_of;
 pub use pose::Pose;
 pub use scene::Scene;
 

@@ -6,6 +6,10 @@ use crate::constraint::{Point, Relation};
 
 const N_STEPS: usize = 40;
 
+/// A step that promises no more than this part of the energy leads nowhere: a best fit. Near a
+/// pose where all holds, a step promises nearly all of it.
+const NOWHERE: f64 = 1e-6;
+
 /// Whether these constraints can hold, from this pose, when all others are forgotten: damped
 /// Gauss-Newton steps bring their distances below `tolerance`.
 pub fn can_hold_alone(scene: &Scene, constraints: &[usize], tolerance: f64) -> bool {
@@ -21,9 +25,14 @@ pub fn can_hold_alone(scene: &Scene, constraints: &[usize], tolerance: f64) -> b
         if here.worst() <= tolerance {
             return true;
         }
-        let mut step = vec![0.0; here.n_unknowns()];
-        here.rows.iter().for_each(|row| row.add_to(-row.f, &mut step));
+        let mut downhill = vec![0.0; here.n_unknowns()];
+        here.rows.iter().for_each(|row| row.add_to(-row.f, &mut downhill));
+        let mut step = downhill.clone();
         Projector::of(&here).solve_damped(mu, &mut step);
+        let promised: f64 = 0.5 * step.iter().zip(&downhill).map(|(s, d)| s * d).sum::<f64>();
+        if promised <= NOWHERE * here.energy() {
+            return false;
+        }
         let moves = scene.displacements(&points, &step);
         let moved: Vec<Point> = x.iter().zip(&moves).map(|(x, d)| *x + *d).collect();
         let there = Scene { x: &moved, ..*scene }.rows_over(points.clone(), constraints);
