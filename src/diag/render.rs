@@ -100,7 +100,7 @@ fn snippet<'a>(
         .collect();
     let from = labels.iter().map(|(range, ..)| line_start(text, range.start)).min()?;
     let to = labels.iter().map(|(range, ..)| line_end(text, range.start)).max()?.max(from);
-    let line = text[..from].bytes().filter(|&byte| byte == b'\n').count() + 1;
+    let line = text[..from].bytes().filter(|&byte| byte == b'\n').count() + source.first_line;
     let annotations = labels.into_iter().map(|(range, label, kind)| {
         let label = (!label.is_empty()).then_some(label);
         kind.span(range.start - from..range.end - from).label(label)
