@@ -120,8 +120,14 @@ fn json_has_these_keys_and_numbers() {
     assert_eq!(printed.last().map(String::as_str), Some("]"));
     assert_eq!(printed.len(), 72);
     let keys = [
-        "method", "iterations", "tolerance", "seconds_per_frame", "residual", "position_error",
-        "failed_frames", "efficient",
+        "method",
+        "iterations",
+        "tolerance",
+        "seconds_per_frame",
+        "residual",
+        "position_error",
+        "failed_frames",
+        "efficient",
     ];
     for line in &printed[1..71] {
         let found: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
@@ -133,12 +139,14 @@ fn json_has_these_keys_and_numbers() {
 
 #[test]
 fn a_scene_without_motion_is_solved_from_its_start() {
-    let (printed, told, _) = said("
+    let (printed, told, _) = said(
+        "
         point A = (0, 0) frozen, B = (4, 0) frozen, C = (1, 1)
         length A C = 3; length B C = 3
         solve
         accuracy
-    ");
+    ",
+    );
     assert!(told.iter().any(|t| t.starts_with("nothing moves in this scene")), "{told:?}");
     let one = printed.iter().find(|line| numbers(line).starts_with(&["relaxation", "1"]));
     let one = numbers(one.expect("it is a setting"));
@@ -148,11 +156,13 @@ fn a_scene_without_motion_is_solved_from_its_start() {
 
 #[test]
 fn a_scene_that_never_converges_has_no_position_errors() {
-    let (printed, told, _) = said("
+    let (printed, told, _) = said(
+        "
         point A = (0, 0) frozen, B = (1, 0), C = (0.3, 0.8)
         length A B = 1; length B C = 1; length C A = 3
         accuracy
-    ");
+    ",
+    );
     let words = "there is no reference: it ended as best fit";
     assert!(told.iter().any(|t| t.starts_with(words)), "{told:?}");
     assert!(printed.last().is_some_and(|line| line.contains("better by residual")));
@@ -161,13 +171,15 @@ fn a_scene_that_never_converges_has_no_position_errors() {
 
 #[test]
 fn a_motion_with_freedoms_left_says_so() {
-    let (_, told, _) = said("
+    let (_, told, _) = said(
+        "
         point p[0] = (0, 0) frozen
         for i in 1..6 { point p[i] = (i, 0.1 * i^2); length p[i-1] p[i] }
         freeze p[6]
         drag p[6] to p[6] - (1, 0) over 20
         accuracy
-    ");
+    ",
+    );
     assert!(told.iter().any(|t| t.contains("freedoms left")), "{told:?}");
     assert!(told.iter().any(|t| t.starts_with("20 frames, ")), "{told:?}");
 }
@@ -176,7 +188,8 @@ fn a_motion_with_freedoms_left_says_so() {
 fn a_motion_past_its_branches_has_no_reference() {
     // Both frames end where the crank is straight with the coupler, and which way it folds is
     // a matter of how the way there was divided.
-    let (_, told, _) = said("
+    let (_, told, _) = said(
+        "
         point A = (0, 0) frozen, D = (2, 0) frozen
         point B = polar(4, 30deg), C = (2.6, 0.8)
         crank: motor A B radius 4 speed 1rev
@@ -184,7 +197,8 @@ fn a_motion_past_its_branches_has_no_reference() {
         set dt 1/60
         step 60
         accuracy
-    ");
+    ",
+    );
     assert!(told.iter().any(|t| t.starts_with("there is no reference")), "{told:?}");
 }
 

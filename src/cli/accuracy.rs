@@ -4,13 +4,12 @@ use std::cell::Cell;
 use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::rc::Rc;
 
 use super::args::Study;
 use super::outside::Process;
-use super::run::{Script, Status, read_script};
-use super::{interrupt, talk};
+use super::run::{self, Status};
+use super::talk;
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::session::{Flow, Host, Session, Telling};
 
@@ -74,18 +73,7 @@ impl Host for Rehearsal {
 }
 
 /// Studies a script's motion.
-pub fn accuracy(wish: &Study) -> ExitCode {
-    interrupt::listen();
-    let status = rehearse_and_study(wish);
-    talk::flush();
-    status.into()
-}
-
-fn rehearse_and_study(wish: &Study) -> Status {
-    let Script { name, text, folder } = match read_script(&wish.file) {
-        Ok(script) => script,
-        Err(status) => return status,
-    };
+pub fn accuracy(wish: &Study) -> Status {
     let is_over = Rc::new(Cell::new(false));
     let process = Process::new(&wish.outside);
     let host = Rehearsal { process, is_over: is_over.clone(), written: HashMap::new() };
@@ -93,17 +81,13 @@ fn rehearse_and_study(wish: &Study) -> Status {
     for (name, value) in &wish.outside.set {
         session.override_parameter(name, *value);
     }
-    let source = session.add_source(&name, &text, Some(folder));
-    let result = session.execute_all(source).and_then(|flow| {
-        session.finish()?;
-        if flow == Flow::Stopped {
-            return Ok(flow);
-        }
-        is_over.set(true);
-        let telling = if wish.json { Telling::Json } else { Telling::Table };
-        session.study_accuracy(wish.frames, telling)
-    });
-    match result {
+    let status = run::script(&wish.file, &mut session);
+    if status != Status::Fine {
+        return status;
+    }
+    is_over.set(true);
+    let telling = if wish.json { Telling::Json } else { Telling::Table };
+    match session.study_accuracy(wish.frames, telling) {
         Ok(Flow::Stopped) => Status::Interrupted,
         Ok(_) => Status::Fine,
         Err(problem) => {

@@ -31,11 +31,7 @@ pub enum Telling {
 }
 
 impl Session {
-    pub(super) fn accuracy(
-        &mut self,
-        promise: &Promise,
-        span: Span,
-    ) -> Result<Flow, Diagnostic> {
+    pub(super) fn accuracy(&mut self, promise: &Promise, span: Span) -> Result<Flow, Diagnostic> {
         let limits = self.promised(promise)?;
         let study = self.study(None, span)?;
         if limits.tolerance.is_none() && limits.seconds.is_none() {
@@ -89,8 +85,10 @@ impl Session {
                 course.with_frames(n)
             }
             None => {
-                self.note("nothing has moved since the scene last changed: studied is what \
-                           comes next");
+                self.note(
+                    "nothing has moved since the scene last changed: studied is what \
+                           comes next",
+                );
                 let memory = self.solver.memory();
                 Course::ahead(&self.world, memory, self.preferences.solve, FRAMES)
             }

@@ -2,8 +2,8 @@
 
 use super::{Diagnostic, Session};
 use crate::constraint::{
-    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence, Field, Glider,
-    Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
+    Field, Glider, Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
 use crate::diag::Span;
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
@@ -112,7 +112,7 @@ impl Session {
                 let value = self.drive(ratio, Field::Ratio, &mut drivers)?;
                 let ratio = cog_ratio(value, *inside, ratio.span)?;
                 let x = self.world.points().column();
-                let wheels = match self.preferences.solve.cog {
+                let wheels: Constraint = match self.preferences.solve.cog {
                     CogForm::Holonomic => Cog::new(points, ratio, x).into(),
                     CogForm::Velocity => CogVelocity::new(points, ratio, x).into(),
                 };
@@ -286,19 +286,28 @@ impl Session {
                 Bounds { lo, hi }
             }
         };
-        if measure == Measure::Length {
-            // A lower bound below 0 allows everything; an upper one, nothing.
-            let (Relation::Equal(e)
-            | Relation::Less(e)
-            | Relation::LessEqual(e)
-            | Relation::Greater(e)
-            | Relation::GreaterEqual(e)
-            | Relation::In(Range { to: e, .. })) = relation;
-            if bounds.hi < 0.0 {
-                not_negative(bounds.hi, "a length", e.span)?;
-            }
+        let last = upper(relation).span;
+        if bounds.lo > bounds.hi {
+            return Err(Diagnostic::error("no angle is like this")
+                .at(last, "angles lie between -180deg and 180deg"));
+        }
+        // A lower bound below 0 allows everything; an upper one, nothing.
+        if measure == Measure::Length && bounds.hi < 0.0 {
+            not_negative(bounds.hi, "a length", last)?;
         }
         Ok(bounds)
+    }
+}
+
+/// The expression of a relation that says how large a value may be, if one does.
+const fn upper(relation: &Relation) -> &Expr {
+    match relation {
+        Relation::Equal(e)
+        | Relation::Less(e)
+        | Relation::LessEqual(e)
+        | Relation::Greater(e)
+        | Relation::GreaterEqual(e)
+        | Relation::In(Range { to: e, .. }) => e,
     }
 }
 

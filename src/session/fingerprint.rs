@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use super::Session;
 use super::run::format_rounded;
 use super::settings::SETTINGS;
-use super::Session;
 use crate::diag::format_number;
 use crate::render::Options;
 

@@ -1,5 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
+use super::perform::format_count;
 use super::receipt::Summary;
 use super::{Diagnostic, Flow, Session};
 use crate::diag::{Kind, Span, format_number};
@@ -62,7 +63,7 @@ impl Session {
         if !(0.0..=super::limits::MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
             return Err(
-                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_number(n)))
+                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
             );
         }
         let (n, limits) = (n as u64, self.promised(promise)?);
@@ -93,13 +94,17 @@ impl Session {
             hands.push(Hand { point: id, from, way: to - from });
         }
         // A free point is held by the hand that drags it, and let go after.
-        let free: Vec<PointId> =
-            hands.iter().map(|h| h.point).filter(|&id| !self.world.points().is_frozen(id)).collect();
+        let free: Vec<PointId> = hands
+            .iter()
+            .map(|h| h.point)
+            .filter(|&id| !self.world.points().is_frozen(id))
+            .collect();
         self.begin_lap(n);
         self.begin_motion();
         for &id in &free {
             self.edit(Edit::Freeze(id, true));
         }
+        let is_at_start = self.world.clock().frame == 0;
         let (flow, n_done) = self.frames(n, Limits::default(), span, |session, k| {
             for hand in &hands {
                 let at = hand.at(k as f64 / n as f64);
@@ -108,6 +113,12 @@ impl Session {
         })?;
         for &id in &free {
             self.edit(Edit::Freeze(id, false));
+        }
+        // The hand moved before the clock left 0: `reset` puts the point back under it.
+        if is_at_start && self.world.clock().frame > 0 {
+            for hand in &hands {
+                self.edit(Edit::Start(hand.point, hand.from));
+            }
         }
         self.end_lap(n, n_done, hands);
         Ok(flow)
@@ -139,7 +150,11 @@ impl Session {
                 break;
             }
             hand(self, k);
-            let report = self.pass(&limits)?;
+            let report = self.pass(&limits).map_err(|why| {
+                let clock = self.world.clock();
+                let time = format_number(clock.time());
+                why.note(format!("at frame {}, time {time}", clock.frame))
+            })?;
             summary.add(&report, self.world.clock().frame, span);
             if !leaves_nothing {
                 self.keep_frame(report.status != Status::Converged || report.is_interrupted);

@@ -25,7 +25,8 @@ impl Study {
     /// most accurate of those that are fast enough, and of equals the fastest.
     pub fn advice(&self, wish: Wish) -> Advice {
         let error = |row: &Row| row.error(self.measure).max(self.floor);
-        let is_accurate = |row: &Row| wish.within.is_none_or(|most| row.error(self.measure) <= most);
+        let is_accurate =
+            |row: &Row| wish.within.is_none_or(|most| row.error(self.measure) <= most);
         let is_fast = |row: &Row| wish.in_time.is_none_or(|most| row.seconds_per_frame <= most);
         let by_time = |row: &Row| (row.seconds_per_frame, error(row));
         let by_error = |row: &Row| (error(row), row.seconds_per_frame);

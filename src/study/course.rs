@@ -106,8 +106,7 @@ impl Course {
     pub(super) fn at_the_start(&self) -> Self {
         let mut course = Self { legs: Vec::new(), n_frames: 1, ..self.clone() };
         let points = course.world.points().ids();
-        let free: Vec<PointId> =
-            points.filter(|&p| !course.world.points().is_frozen(p)).collect();
+        let free: Vec<PointId> = points.filter(|&p| !course.world.points().is_frozen(p)).collect();
         for p in free {
             let start = course.world.points().start(p);
             course.world.apply(Edit::Move(p, start));

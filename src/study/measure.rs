@@ -50,8 +50,12 @@ pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Stud
     let start;
     let mut subject = Subject { course, is_still: false, n_frames: found.n_frames };
     if found.is_still {
-        notes.insert(0, "nothing moves in this scene: what is studied is one solve of the pose it \
-                         was given".to_owned());
+        notes.insert(
+            0,
+            "nothing moves in this scene: what is studied is one solve of the pose it \
+                         was given"
+                .to_owned(),
+        );
         start = course.at_the_start();
         subject = Subject { course: &start, is_still: true, n_frames: 1 };
         found = reference::of_pose(&subject, outside)?;
@@ -74,7 +78,9 @@ pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Stud
         time(&subject, outside, begun, &mut study)?;
     }
     if study.rows.iter().all(|row| row.residual == 0.0) && study.is_still {
-        study.notes.push("the pose satisfies everything as it is: there is nothing to solve".into());
+        study
+            .notes
+            .push("the pose satisfies everything as it is: there is nothing to solve".into());
     }
     study.mark_efficient();
     study.is_stopped = (outside.stop)();

@@ -267,10 +267,7 @@ fn size_of(world: &World, at: &[Point]) -> f64 {
     let (lo, hi) = all.fold(
         (Point::new(f64::INFINITY, f64::INFINITY), Point::new(-f64::INFINITY, -f64::INFINITY)),
         |(lo, hi), p| {
-            (
-                Point::new(lo.x.min(p.x), lo.y.min(p.y)),
-                Point::new(hi.x.max(p.x), hi.y.max(p.y)),
-            )
+            (Point::new(lo.x.min(p.x), lo.y.min(p.y)), Point::new(hi.x.max(p.x), hi.y.max(p.y)))
         },
     );
     let size = (hi.x - lo.x).max(hi.y - lo.y);

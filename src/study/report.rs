@@ -133,8 +133,7 @@ impl Study {
 
     /// What was cut, in words: a line for each method and reason.
     pub fn cut_notes(&self) -> Vec<String> {
-        let is_together =
-            |a: &Cut, b: &Cut| a.rung.method == b.rung.method && a.why == b.why;
+        let is_together = |a: &Cut, b: &Cut| a.rung.method == b.rung.method && a.why == b.why;
         let groups = self.cuts.chunk_by(is_together);
         let line = |group: &[Cut]| {
             let settings: Vec<String> = group.iter().map(|cut| cut.rung.setting()).collect();
@@ -174,9 +173,10 @@ impl Study {
 /// stays.
 fn is_beaten(places: &[(f64, f64)], k: usize) -> bool {
     let (x, y) = places[k];
-    places.iter().enumerate().any(|(other, &(u, v))| {
-        other != k && u <= x && v <= y && (u < x || v < y || other < k)
-    })
+    places
+        .iter()
+        .enumerate()
+        .any(|(other, &(u, v))| other != k && u <= x && v <= y && (u < x || v < y || other < k))
 }
 
 #[cfg(test)]

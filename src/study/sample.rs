@@ -75,7 +75,11 @@ impl Subject<'_> {
             if is_over() {
                 return Err(outside.why_over());
             }
-            return if take(&mut outcome, &world, &report, 0) { Ok(outcome) } else { Err(Why::Blown) };
+            return if take(&mut outcome, &world, &report, 0) {
+                Ok(outcome)
+            } else {
+                Err(Why::Blown)
+            };
         }
         let mut replay = Replay::new(self.course, 1);
         let mut times = Vec::with_capacity(self.n_frames as usize);

@@ -140,7 +140,10 @@ impl Unit {
                     _ => ("ns", -9),
                 };
                 if k < least {
-                    return format!("0.{}1 ns", "0".repeat((least - k - 1).unsigned_abs() as usize));
+                    return format!(
+                        "0.{}1 ns",
+                        "0".repeat((least - k - 1).unsigned_abs() as usize)
+                    );
                 }
                 format!("{} {unit}", 10_i64.pow((k - least).unsigned_abs()))
             }
@@ -175,7 +178,10 @@ mod tests {
 
     #[test]
     fn linear_steps_are_round() {
-        assert_eq!(labels(false, Unit::None, &[0.0, 30.0]), ["0", "5", "10", "15", "20", "25", "30"]);
+        assert_eq!(
+            labels(false, Unit::None, &[0.0, 30.0]),
+            ["0", "5", "10", "15", "20", "25", "30"]
+        );
         assert_eq!(labels(false, Unit::None, &[0.0, 0.4])[1], "0.1");
     }
 

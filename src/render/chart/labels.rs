@@ -86,7 +86,14 @@ impl Labels {
     /// Writes a label beside `at` where it covers no other and no mark, and as little of lines
     /// as possible; not at all where there is no such place. One that must be seen may stand
     /// farther off.
-    pub fn place(&mut self, at: Spot, wording: Wording, anchor: Anchor, must: bool, svg: &mut String) {
+    pub fn place(
+        &mut self,
+        at: Spot,
+        wording: Wording,
+        anchor: Anchor,
+        must: bool,
+        svg: &mut String,
+    ) {
         let (w, h) = (width(wording.text, wording.size), wording.size);
         let distances: &[f64] = if must {
             &[7.0, 11.0, 18.0, 28.0, 42.0, 60.0, 85.0, 115.0, 150.0]
@@ -100,8 +107,12 @@ impl Labels {
                 let (c, s) = (phi.cos(), phi.sin());
                 // The nearest edge of the label is at that distance.
                 let (x, y) = (at.x + c * (distance + 0.5 * w), at.y - s * (distance + 0.5 * h));
-                let area =
-                    Area { left: x - 0.5 * w, top: y - 0.5 * h, right: x + 0.5 * w, bottom: y + 0.5 * h };
+                let area = Area {
+                    left: x - 0.5 * w,
+                    top: y - 0.5 * h,
+                    right: x + 0.5 * w,
+                    bottom: y + 0.5 * h,
+                };
                 let Some(covered) = self.covered(&area) else { continue };
                 let preferred = match anchor {
                     Anchor::Near => -0.3 * (phi - 0.785).cos(),

@@ -25,8 +25,8 @@ mod look;
 
 use std::fmt::Write;
 
-pub use axis::{Axis, Unit};
 use axis::Scale;
+pub use axis::{Axis, Unit};
 use labels::{Anchor, Labels, Spot, Wording};
 use look::Look;
 
@@ -113,7 +113,7 @@ impl Chart {
         plot.draw_frontier(self, &mut svg);
         let lines: Vec<Line> = self.series.iter().map(|series| plot.line(series)).collect();
         lines.iter().for_each(|line| line.draw(&mut svg));
-        self.draw_labels(&plot, &lines, &mut svg);
+        self.draw_labels(&lines, &mut svg);
         self.draw_legend(&lines, &mut svg);
         svg.push_str("</svg>\n");
         svg
@@ -124,7 +124,7 @@ impl Chart {
         names.fold(0.0, f64::max).ceil().max(LEAST_LEGEND - LEGEND) + LEGEND
     }
 
-    fn draw_labels(&self, plot: &Plot, lines: &[Line], svg: &mut String) {
+    fn draw_labels(&self, lines: &[Line], svg: &mut String) {
         let mut labels = Labels::within(LEFT, TOP, BODY, FLOOR);
         for line in lines {
             line.stretches.iter().for_each(|stretch| labels.avoid_line(stretch));
@@ -133,7 +133,9 @@ impl Chart {
         let marked = || {
             let of = |line: &Line| {
                 let look = line.look;
-                line.marked().map(move |(spot, mark)| (spot, mark.clone(), look)).collect::<Vec<_>>()
+                line.marked()
+                    .map(move |(spot, mark)| (spot, mark.clone(), look))
+                    .collect::<Vec<_>>()
             };
             lines.iter().flat_map(of)
         };
@@ -297,7 +299,8 @@ impl Line<'_> {
     fn marked(&self) -> impl Iterator<Item = (Spot, &Mark)> {
         let mut last: Option<Spot> = None;
         self.marks.iter().filter_map(move |&(spot, mark)| {
-            let is_apart = last.is_none_or(|last| (spot.x - last.x).hypot(spot.y - last.y) >= MARK_GAP);
+            let is_apart =
+                last.is_none_or(|last| (spot.x - last.x).hypot(spot.y - last.y) >= MARK_GAP);
             (mark.label.is_some() || is_apart).then(|| {
                 last = Some(spot);
                 (spot, mark)
@@ -321,7 +324,8 @@ fn text(
         return;
     }
     let words = escaped(words);
-    let words = if is_bold { format!("<tspan font-weight=\"bold\">{words}</tspan>") } else { words };
+    let words =
+        if is_bold { format!("<tspan font-weight=\"bold\">{words}</tspan>") } else { words };
     raw_text(svg, x, y, size, anchor, fill, &words);
 }
 
