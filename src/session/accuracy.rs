@@ -78,20 +78,14 @@ impl Session {
 
     /// The motion to study.
     fn course(&mut self, n_frames: Option<u64>) -> Course {
-        let course = match self.last_course() {
-            Some(course) => {
-                let goes_on = course.n_frames < FEW_FRAMES && course.is_without_hands();
-                let n = if goes_on { FRAMES } else { course.n_frames };
-                course.with_frames(n)
-            }
-            None => {
-                self.note(
-                    "nothing has moved since the scene last changed: studied is what \
-                           comes next",
-                );
-                let memory = self.solver.memory();
-                Course::ahead(&self.world, memory, self.preferences.solve, FRAMES)
-            }
+        let course = if let Some(course) = self.last_course() {
+            let goes_on = course.n_frames < FEW_FRAMES && course.is_without_hands();
+            let n = if goes_on { FRAMES } else { course.n_frames };
+            course.with_frames(n)
+        } else {
+            self.note("nothing has moved since the scene last changed: studied is what comes next");
+            let memory = self.solver.memory();
+            Course::ahead(&self.world, memory, self.preferences.solve, FRAMES)
         };
         match n_frames {
             Some(n) => course.with_frames(n),

@@ -49,18 +49,18 @@ impl Session {
         fnv_1a(text.as_bytes())
     }
 
+    /// The largest distance to satisfaction of a constraint, relative to the scene's size.
+    fn residual_now(&self) -> f64 {
+        let ids = self.world.constraints().filter(|(_, r)| r.is_on).map(|(id, _)| id);
+        let violations = ids.map(|id| self.solver.violation(&self.world, id));
+        violations.fold(0.0, f64::max) / self.solver.size()
+    }
+
     /// What pictures of the present scene carry along.
     pub(super) fn picture_options(&self) -> Options {
         let run = self.run.as_ref().or(self.last_run.as_ref());
         let tolerance = run.map_or(self.preferences.solve.tolerance, |run| run.tolerance);
-        let residual = match run {
-            Some(run) => run.worst_residual,
-            None => {
-                let ids = self.world.constraints().filter(|(_, r)| r.is_on).map(|(id, _)| id);
-                let violations = ids.map(|id| self.solver.violation(&self.world, id));
-                violations.fold(0.0, f64::max) / self.solver.size()
-            }
-        };
+        let residual = run.map_or_else(|| self.residual_now(), |run| run.worst_residual);
         let receipt = [
             ("tolerance", format_number(tolerance)),
             ("largest residual", format_rounded(residual)),

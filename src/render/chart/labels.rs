@@ -46,7 +46,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 /// What is taken up already.
 pub(super) struct Labels {
     page: Area,
-    labels: Vec<Area>,
+    taken: Vec<Area>,
     marks: Vec<Spot>,
     /// Places along the lines, close together.
     lines: Vec<Spot>,
@@ -65,7 +65,7 @@ impl Labels {
     /// Nothing yet on a page with these bounds.
     pub fn within(left: f64, top: f64, right: f64, bottom: f64) -> Self {
         let page = Area { left, top, right, bottom };
-        Self { page, labels: Vec::new(), marks: Vec::new(), lines: Vec::new() }
+        Self { page, taken: Vec::new(), marks: Vec::new(), lines: Vec::new() }
     }
 
     pub fn avoid_mark(&mut self, at: Spot) {
@@ -128,7 +128,7 @@ impl Labels {
         if !must && cost > 4.0 {
             return;
         }
-        self.labels.push(area);
+        self.taken.push(area);
         let (x, y) = (0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom));
         let (nx, ny) = (at.x.clamp(area.left, area.right), at.y.clamp(area.top, area.bottom));
         if (nx - at.x).hypot(ny - at.y) > FAR {
@@ -161,7 +161,7 @@ impl Labels {
             && area.top >= page.top - 4.0
             && area.bottom <= page.bottom - 2.0;
         let is_free = is_inside
-            && self.labels.iter().all(|other| !area.meets(other, 1.5))
+            && self.taken.iter().all(|other| !area.meets(other, 1.5))
             && self.marks.iter().all(|mark| !area.holds(*mark, MARK));
         is_free.then(|| self.lines.iter().filter(|spot| area.holds(**spot, 0.5)).count() as f64)
     }

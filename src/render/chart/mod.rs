@@ -112,7 +112,9 @@ impl Chart {
         plot.draw_grid(self, &mut svg);
         plot.draw_frontier(self, &mut svg);
         let lines: Vec<Line> = self.series.iter().map(|series| plot.line(series)).collect();
-        lines.iter().for_each(|line| line.draw(&mut svg));
+        for line in &lines {
+            line.draw(&mut svg);
+        }
         self.draw_labels(&lines, &mut svg);
         self.draw_legend(&lines, &mut svg);
         svg.push_str("</svg>\n");
