@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::Session;
 use super::run::format_rounded;
+use crate::constraint::Constraint;
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::solve::{Method, Report, Settings, Status};
 use crate::study::{format_seconds, freedoms};
@@ -211,6 +212,11 @@ impl Session {
         let is_cheap = n <= SMALL || (n <= LARGE && summary.seconds >= LONG);
         let is_solved = summary.worst_status == Status::Converged && summary.n_frames > 0;
         if !is_cheap || !is_solved || n == 0 {
+            return None;
+        }
+        // Wheels in velocity form drift without any residual.
+        let is_drifting = |c: &Constraint| matches!(c, Constraint::CogVelocity(_));
+        if self.world.constraints().any(|(_, r)| r.is_on && is_drifting(&r.constraint)) {
             return None;
         }
         // The residual is relative to what hangs together; the scene is at least as large.
