@@ -95,6 +95,6 @@ mod tests {
         assert_eq!(text(&ladder[0]), "auto 1e-2");
         assert_eq!(text(&ladder[10]), "auto 1e-12");
         assert_eq!(text(&ladder[11]), "relaxation 1");
-        assert_eq!(ladder[3].statements(), ["set method auto", "set tolerance 0.00001"]);
+        assert_eq!(ladder[3].statements(), ["set method auto", "set tolerance 1e-5"]);
     }
 }
