@@ -12,6 +12,7 @@ mod constrain;
 mod delete;
 mod describe;
 mod diagnose;
+mod effects;
 mod host;
 mod journal;
 mod limits;
@@ -33,6 +34,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use diagnose::Check;
+pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
 pub use run::Summary;

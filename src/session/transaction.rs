@@ -1,8 +1,8 @@
 //! A command is a transaction: what it changed can be taken back, and done again.
 
+use super::Session;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use super::Session;
 use crate::solve::Memory;
 use crate::world::Edit;
 

@@ -174,6 +174,10 @@ impl Solver {
         world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
     }
 
+    pub(super) fn islands(&self) -> impl Iterator<Item = &Island> {
+        self.topology.iter().map(|(_, island)| island)
+    }
+
     /// The islands there are, and how many of them the next frame will visit.
     pub fn n_islands(&self) -> (usize, usize) {
         (self.topology.iter().count(), self.awake.len())
