@@ -11,6 +11,7 @@ mod change;
 mod constrain;
 mod delete;
 mod describe;
+mod diagnose;
 mod host;
 mod journal;
 mod limits;
@@ -31,8 +32,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use outside::evaluate_binding;
+pub use diagnose::Check;
 pub use host::{Host, Nowhere, reason};
+pub use outside::evaluate_binding;
 pub use run::Summary;
 pub use settings::Preferences;
 

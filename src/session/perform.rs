@@ -56,7 +56,7 @@ impl Session {
             Command::List(what) => self.list(*what),
             Command::Show(name) => self.show(name)?,
             Command::Print(items) => self.print(items)?,
-            Command::Check => self.check()?,
+            Command::Check => self.check(),
             Command::Why(name) => self.why(name)?,
             Command::Limits(name) => self.limits(name)?,
             Command::Effects => self.effects()?,

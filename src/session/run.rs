@@ -186,6 +186,7 @@ impl Session {
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
+            self.attend();
             hand(self, k);
             let report = self.pass(&limits).map_err(|why| {
                 let clock = self.world.clock();
@@ -327,10 +328,11 @@ impl Session {
 
 /// A number for talk: three digits say enough.
 pub(super) fn format_rounded(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let text = format!("{value:.2e}");
-    let rounded: f64 = text.parse().unwrap_or(value);
-    format_number(rounded)
+    format_digits(value, 3)
+}
+
+/// A number rounded to so many digits.
+pub(super) fn format_digits(value: f64, n_digits: usize) -> String {
+    let text = format!("{value:.*e}", n_digits - 1);
+    format_number(text.parse().unwrap_or(value))
 }

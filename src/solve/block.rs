@@ -119,10 +119,11 @@ pub(super) fn find(
     }
     let mut sum = evaluate(p, which, all, x);
     let mut n_steps = 0;
-    while !(sum.worst <= limits.tolerance) {
+    while sum.worst > limits.tolerance || sum.worst.is_nan() {
         let d = sum.step(DAMPING * (sum.worst / limits.size).min(1.0) + FLOOR);
         let longest = LONGEST_STEP * limits.size;
-        if !(d.x.abs() <= longest && d.y.abs() <= longest) || n_steps == MOST_STEPS {
+        let is_short = d.x.abs() <= longest && d.y.abs() <= longest;
+        if !is_short || n_steps == MOST_STEPS {
             return None;
         }
         x[p as usize] += d;

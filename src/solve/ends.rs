@@ -17,24 +17,14 @@ const FIELDS: [Field; 7] =
 
 impl Ends {
     /// The ends of the frame an island is in: its present values, and those before.
-    pub fn of_frame(island: &Island) -> Self {
-        let mut constraints: Vec<_> = island
-            .inputs
-            .constraints
-            .iter()
-            .map(|(c, before)| (*c, before.clone(), island.constraints[*c as usize].clone()))
-            .collect();
-        // What changed twice began where the first change found it.
-        constraints.sort_by_key(|(c, ..)| *c);
-        constraints.dedup_by_key(|(c, ..)| *c);
-        let mut points: Vec<_> = island
-            .inputs
-            .points
-            .iter()
-            .map(|&(p, before)| (p, before, island.x[p as usize]))
-            .collect();
-        points.sort_by_key(|(p, ..)| *p);
-        points.dedup_by_key(|(p, ..)| *p);
+    pub fn of_frame(island: &mut Island) -> Self {
+        island.inputs.tidy();
+        let constraints = island.inputs.constraints.iter();
+        let constraints = constraints
+            .map(|(c, before)| (*c, before.clone(), island.constraints[*c as usize].clone()));
+        let points = island.inputs.points.iter();
+        let points = points.map(|&(p, before)| (p, before, island.x[p as usize]));
+        let (constraints, points) = (constraints.collect(), points.collect());
         let states = island.stateful.iter();
         let states = states.filter_map(|&c| Some((c, island.constraints[c as usize].state()?)));
         Self { constraints, points, states: states.collect() }

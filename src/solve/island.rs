@@ -1,5 +1,7 @@
 //! Points that constraints tie together, with everything the solver keeps about them.
 
+use std::sync::{Arc, OnceLock};
+
 use super::history::History;
 use super::method::{Limits, Workspace};
 use super::plan::{Plan, n_firm_rows};
@@ -7,13 +9,14 @@ use super::rows::Equations;
 use super::settings::Settings;
 use super::spectrum::Spectrum;
 use super::status::{Budget, Status};
-use crate::constraint::{Constraint, Point, Relation};
+use crate::constraint::{Constraint, Field, Point, Relation};
 use crate::world::{ConstraintId, PointId, Record};
 
 /// A set of points that are not frozen, connected by constraints, and the frozen points that
 /// these constraints hold too. Points have local indices here: free ones first, each group by
 /// handle; constraints lie by kind, then points, then handle. So an island does not know in
 /// what order its constraints were made.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Island {
     /// The handles of the points, by local index.
     pub points: Vec<PointId>,
@@ -43,12 +46,13 @@ pub(super) struct Island {
     pub status: Status,
     /// The largest distance to satisfaction it left, relative to the size.
     pub residual: f64,
-    /// The iterations it took.
-    pub n_iterations: u64,
     /// The last pose that met everything, kept while none does.
     pub feasible: Option<Box<[Point]>>,
     /// Whether it was never solved.
     pub is_new: bool,
+    /// Whether the user edited it since it was solved: it is solved as it is before time
+    /// goes on.
+    pub is_edited: bool,
     /// Whether a way off a saddle was looked for since the last converged pose.
     pub is_probed: bool,
     /// What drives the island in this frame, as it was before.
@@ -57,6 +61,8 @@ pub(super) struct Island {
     pub room: Option<Box<Workspace>>,
     /// The room for each part the plan leaves to be solved as a whole; once needed.
     pub part_rooms: Vec<Workspace>,
+    /// What is remembered of it, once asked for since the last visit.
+    pub remembered: OnceLock<Arc<[f64]>>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }
@@ -78,12 +84,58 @@ impl Inputs {
         self.constraints.is_empty() && self.points.is_empty() && !self.is_disturbed
     }
 
+    /// What changed twice began where the first change found it.
+    pub fn tidy(&mut self) {
+        self.constraints.sort_by_key(|(c, _)| *c);
+        self.constraints.dedup_by_key(|(c, _)| *c);
+        self.points.sort_by_key(|(p, _)| *p);
+        self.points.dedup_by_key(|(p, _)| *p);
+    }
+
     fn clear(&mut self) {
         self.constraints.clear();
         self.points.clear();
         self.is_disturbed = false;
     }
 }
+
+/// What an island is made of, what drives it and how it lies, each as one number: equal
+/// numbers mean that nothing was edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Fingerprint {
+    pub structure: u64,
+    pub inputs: u64,
+    pub pose: u64,
+}
+
+/// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
+struct Hasher(u64);
+
+impl Default for Hasher {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01b3);
+        // Words differ most in their upper bits, which the product alone never moves down.
+        self.0 ^= self.0 >> 29;
+    }
+}
+
+/// Every value a constraint may have.
+const FIELDS: [Field; 8] = [
+    Field::Lo,
+    Field::Hi,
+    Field::X,
+    Field::Y,
+    Field::Radius,
+    Field::Speed,
+    Field::Phase,
+    Field::Ratio,
+];
 
 /// A constraint on its way into an island.
 pub(super) struct Member<'a> {
@@ -149,16 +201,17 @@ impl Island {
             history: History::default(),
             status: Status::Stalled,
             residual: f64::INFINITY,
-            n_iterations: 0,
             feasible: None,
             is_new: true,
+            is_edited: false,
             is_probed: false,
             inputs: Inputs::default(),
             room: None,
             part_rooms: Vec::new(),
+            remembered: OnceLock::new(),
             spectrum: None,
         };
-        for block in &island.plan.blocks {
+        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
             island.degree[block.point as usize] = 3;
         }
         island.update_sides();
@@ -188,12 +241,14 @@ impl Island {
         for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
             *to = *from;
         }
+        self.remembered.take();
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.constraints.push((c as u32, old));
     }
 
     /// Puts a point elsewhere, from outside.
     pub fn set_point(&mut self, p: usize, at: Point) {
+        self.remembered.take();
         let old = std::mem::replace(&mut self.x[p], at);
         if p >= self.n_free {
             self.inputs.points.push((p as u32, old));
@@ -202,10 +257,73 @@ impl Island {
         }
     }
 
+    /// Notes whether the parts that are solved as a whole have no freedom left, so that their
+    /// motion is as smooth as what drives them.
+    pub fn set_smooth(&mut self, is_smooth: bool) {
+        self.has_degree = true;
+        let free_to_choose = self.plan.rest.iter().flat_map(|part| &part.points);
+        for &p in free_to_choose {
+            self.degree[p as usize] = if is_smooth { 3 } else { 1 };
+        }
+    }
+
+    /// Whether the motion of what is solved as a whole counts as smooth.
+    pub fn is_smooth(&self) -> bool {
+        let first = self.plan.rest.first().and_then(|part| part.points.first());
+        first.is_some_and(|&p| self.degree[p as usize] > 1)
+    }
+
+    /// What later results depend on besides what is remembered.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut structure = Hasher::default();
+        structure.add(self.n_free as u64);
+        for (c, constraint) in self.constraints.iter().enumerate() {
+            structure.add(constraint.kind() as u64);
+            structure.add(n_firm_rows(constraint) as u64);
+            constraint.points().iter().for_each(|&p| structure.add(u64::from(p)));
+            let rho = self.own_rho.get(c).copied().flatten();
+            structure.add(rho.map_or(0, f64::to_bits));
+        }
+        let mut inputs = Hasher::default();
+        self.w.iter().for_each(|w| inputs.add(w.to_bits()));
+        for constraint in &self.constraints {
+            let values = FIELDS.iter().filter_map(|&field| constraint.get(field));
+            let values = values.chain(constraint.state().unwrap_or_default());
+            values.for_each(|value| inputs.add(value.to_bits()));
+        }
+        let mut pose = Hasher::default();
+        for (p, at) in self.x.iter().enumerate() {
+            let hasher = if p < self.n_free { &mut pose } else { &mut inputs };
+            hasher.add(at.x.to_bits());
+            hasher.add(at.y.to_bits());
+        }
+        Fingerprint { structure: structure.0, inputs: inputs.0, pose: pose.0 }
+    }
+
+    /// The user changed something since the last visit: a value, or the place of a free point.
+    /// Before time goes on the island has to be solved as it is now.
+    pub fn note_edit(&mut self, is_disturbed: bool) {
+        if is_disturbed {
+            // A point put elsewhere is a wish for another pose.
+            self.feasible = None;
+        } else if self.status == Status::Converged {
+            self.feasible = Some(self.x[..self.n_free].into());
+        }
+        self.status = Status::Stalled;
+        self.is_edited = true;
+        self.history.forget();
+        self.inputs.clear();
+        self.remembered.take();
+    }
+
     /// Exchanges the values that drive the island with those before.
     pub fn swap_inputs(&mut self) {
+        self.inputs.tidy();
         for (c, other) in &mut self.inputs.constraints {
             std::mem::swap(&mut self.constraints[*c as usize], other);
+        }
+        for (p, other) in &mut self.inputs.points {
+            std::mem::swap(&mut self.x[*p as usize], other);
         }
     }
 
@@ -287,7 +405,6 @@ impl Island {
 
 /// The length a constraint asks for, where it asks for one.
 pub(super) fn wanted_length(constraint: &Constraint) -> f64 {
-    use crate::constraint::Field;
     match constraint {
         Constraint::Length(c) => {
             let longest = if c.bounds.hi.is_finite() { c.bounds.hi } else { c.bounds.lo };

@@ -6,13 +6,16 @@
 //! here knows statements, clocks on the wall or files.
 
 pub mod linear;
+pub mod mobility;
 
 // What the methods work on.
 mod ends;
 mod history;
 mod island;
+mod memory;
 mod method;
 mod plan;
+mod rates;
 mod rows;
 mod spectrum;
 mod topology;
@@ -31,7 +34,6 @@ mod struggle;
 mod successive;
 
 // Their face.
-mod memory;
 mod pass;
 mod settings;
 mod solver;

@@ -17,7 +17,7 @@ pub(super) struct Plan {
     pub rest: Vec<Part>,
 }
 
-/// A point that the constraints to known points determine.
+/// A point that is found from constraints to known points.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     /// The point.
@@ -28,6 +28,8 @@ pub(super) struct Block {
     pub end: u32,
     /// Whether one constraint says outright where the point is.
     pub is_assignment: bool,
+    /// Whether the constraints leave it no freedom.
+    pub is_determined: bool,
     /// On which side of the singular pose it was last accepted: the sign of the angle between
     /// its first two rows; 0 before that.
     pub side: f64,
@@ -58,16 +60,28 @@ impl Plan {
                 continue;
             }
             let ready = search.take(p);
+            plan.push(p, &ready, true);
             let is_assignment = ready.len() == 1 && is_linear(&constraints[ready[0] as usize]);
-            let first = plan.constraints.len() as u32;
-            plan.constraints.extend(&ready);
-            let end = plan.constraints.len() as u32;
-            let (side, next_side) = (0.0, 0.0);
-            plan.blocks.push(Block { point: p, first, end, is_assignment, side, next_side });
+            plan.blocks.last_mut().expect("just pushed").is_assignment = is_assignment;
             queue.extend(search.learn(constraints, p));
         }
-        plan.rest = search.rest(constraints, n_free);
+        for part in search.rest(constraints, n_free) {
+            if let &[point] = &*part.points {
+                plan.push(point, &part.constraints, false);
+            } else {
+                plan.rest.push(part);
+            }
+        }
         plan
+    }
+
+    fn push(&mut self, point: PointIdx, constraints: &[u32], is_determined: bool) {
+        let first = self.constraints.len() as u32;
+        self.constraints.extend(constraints);
+        let end = self.constraints.len() as u32;
+        let (side, next_side, is_assignment) = (0.0, 0.0, false);
+        let block = Block { point, first, end, is_assignment, is_determined, side, next_side };
+        self.blocks.push(block);
     }
 
     /// Whether every point is found one by one.

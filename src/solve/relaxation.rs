@@ -46,6 +46,12 @@ impl Coefficient {
         (Self { rho: rho * factor, factor }, lowered)
     }
 
+    /// The coefficient `rho`, or what contracts where the largest eigenvalue is `largest`.
+    pub fn at_most(rho: f64, largest: f64) -> Self {
+        let factor = if rho * largest > MOST_RHO { MOST_RHO / (rho * largest) } else { 1.0 };
+        Self { rho: rho * factor, factor }
+    }
+
     /// The coefficient of constraint `c`.
     pub fn of(self, own: &[Option<f64>], c: usize) -> f64 {
         own.get(c).copied().flatten().map_or(self.rho, |own| own * self.factor)
@@ -67,9 +73,11 @@ pub(super) fn correct_all(
         let rho = rho(c);
         let mut squared = 0.0;
         constraint.correct(x, w, &mut |p, v| {
-            let p = p as usize;
-            squared += v.norm_squared() / w[p];
-            d[p] += v * rho;
+            // Frozen points have no place in `d`, nor a share.
+            if let Some(d) = d.get_mut(p as usize) {
+                squared += v.norm_squared() / w[p as usize];
+                *d += v * rho;
+            }
         });
         worst = worst.max(squared);
     }

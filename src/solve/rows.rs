@@ -207,6 +207,11 @@ impl Rows {
         0.5 * squares.sum::<f64>()
     }
 
+    /// What normalises each row; 0 for one that asks for nothing.
+    pub fn scales(&self) -> &[f64] {
+        &self.scale
+    }
+
     /// How many rows ask for something.
     pub fn n_active(&self) -> usize {
         self.scale.iter().filter(|scale| **scale > 0.0).count()

@@ -1,17 +1,24 @@
 //! The solver as the session knows it: a world goes in as it is driven and comes out solved.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::island::Island;
+use super::memory::{self, Memory};
 use super::method::{Limits, Outcome, Pose};
 use super::relaxation::Coefficient;
 use super::settings::{Method, Settings};
 use super::status::{Budget, Counters, Report, Status};
 use super::topology::{Home, Topology};
 use super::{
-    anderson, auto, conjugate, descent, nesterov, newton, relaxation, struggle, successive,
+    anderson, auto, conjugate, descent, nesterov, newton, rates, relaxation, struggle, successive,
 };
-use crate::constraint::{Constraint, Relation};
-use crate::world::{ConstraintId, PointId, World};
+use crate::constraint::{Constraint, Relation, Vector};
+use crate::diag::Diagnostic;
+use crate::world::{ConstraintId, PointId, Rates, World};
 
+/// Rounds until rates and what is measured on them agree. Each gains the digits by which the
+/// measured value is the weaker cause.
+const MEASURED_ROUNDS: u32 = 8;
 /// Rounds of `settle` before it counts as getting nowhere.
 const MOST_ROUNDS: u32 = 2_000;
 
@@ -23,11 +30,15 @@ pub struct Solver {
     awake: Vec<u32>,
     is_awake: Vec<bool>,
     /// Islands that are not at a solution.
-    unsolved: std::collections::BTreeSet<u32>,
+    unsolved: BTreeSet<u32>,
     /// Constraints that hold only frozen points and are not satisfied, and how far not.
-    unsatisfiable: std::collections::BTreeMap<ConstraintId, f64>,
-    /// The settings of the last call: others wake every island.
+    unsatisfiable: BTreeMap<ConstraintId, f64>,
+    /// The settings of the last call: others may wake every island.
     settings: Option<Settings>,
+    /// What islands yet to be made are to remember.
+    pending: Memory,
+    /// Whether all islands are to be made anew.
+    is_stale: bool,
 }
 
 /// What a call does with each island.
@@ -41,10 +52,19 @@ enum Task {
     Settle,
 }
 
+/// What changed the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// Time went on, and what it drives.
+    Clock,
+    /// The user.
+    Hand,
+}
+
 impl Solver {
-    /// A solver that has seen nothing yet.
+    /// A solver that has seen nothing yet, whatever its world was asked before.
     pub fn new() -> Self {
-        Self::default()
+        Self { is_stale: true, ..Self::default() }
     }
 
     /// Solves a frame: the world's values are those at its end, its points where they were at
@@ -75,6 +95,63 @@ impl Solver {
     /// Solves until everything holds, or no iteration changes anything any more.
     pub fn settle(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
         self.run(world, settings, budget, Task::Settle)
+    }
+
+    /// Takes in what the user edited. To be called before the clock goes on and before a point
+    /// is dragged along with it, so that a frame knows what it began with.
+    pub fn attend(&mut self, world: &mut World, settings: &Settings) {
+        self.take_in(world, settings, Cause::Hand, &mut Counters::default());
+    }
+
+    /// All that later results depend on besides the world and the settings.
+    pub fn memory(&self) -> Memory {
+        let mut memory = self.pending.clone();
+        for (_, island) in self.topology.iter() {
+            memory.insert(island);
+        }
+        memory
+    }
+
+    /// Brings back what was remembered, for a world that is as it was then.
+    pub fn set_memory(&mut self, memory: Memory) {
+        self.pending = memory;
+        self.is_stale = true;
+    }
+
+    /// Whether what was remembered waits for [`Solver::attend`].
+    pub(super) fn is_behind(&self) -> bool {
+        self.is_stale
+    }
+
+    /// The size of the largest island, length units; 1 if there is none.
+    pub fn size(&self) -> f64 {
+        let sizes = self.topology.iter().map(|(_, island)| island.size());
+        sizes.reduce(f64::max).unwrap_or(1.0)
+    }
+
+    /// Velocities and accelerations of all points at the present pose, exact where it is a
+    /// solution; motors turn, live values change, frozen points stand still.
+    ///
+    /// # Errors
+    /// A live value that has none now.
+    pub fn rates(&mut self, world: &mut World, settings: &Settings) -> Result<Rates, Diagnostic> {
+        self.attend(world, settings);
+        let n = world.points().column().len();
+        let still = || vec![Vector::ZERO; n];
+        let mut rates = Rates { velocity: still(), acceleration: still() };
+        // What is measured on moving points changes as they move, which moves them.
+        let n_rounds = if world.is_measured() { MEASURED_ROUNDS } else { 1 };
+        for _ in 0..n_rounds {
+            let mut fields = world.field_rates(&rates)?;
+            fields.sort_by_key(|(id, ..)| *id);
+            let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
+            for k in all {
+                if let Some(island) = self.topology.get_mut(k) {
+                    rates::solve(island, &fields, &mut rates);
+                }
+            }
+        }
+        Ok(rates)
     }
 
     /// How the island of a point ended; none for one that is frozen or on its own.
@@ -110,7 +187,15 @@ impl Solver {
         task: Task,
     ) -> Report {
         let mut report = Report::default();
-        self.take_in(world, settings, &mut report.counters);
+        let cause = if task == Task::Frame { Cause::Clock } else { Cause::Hand };
+        let made = self.take_in(world, settings, cause, &mut report.counters);
+        if task == Task::Frame {
+            for &k in &made {
+                if let Some(island) = self.topology.get_mut(k) {
+                    turn_back(island, world.clock().dt);
+                }
+            }
+        }
         let visit = std::mem::take(&mut self.awake);
         for &k in &visit {
             self.is_awake[k as usize] = false;
@@ -118,7 +203,9 @@ impl Solver {
         for (nth, &k) in visit.iter().enumerate() {
             if budget.is_spent() {
                 report.is_interrupted = true;
-                visit[nth..].iter().for_each(|&k| self.wake(k));
+                for &k in &visit[nth..] {
+                    self.wake(k);
+                }
                 break;
             }
             self.visit(k, world, settings, budget, task, &mut report);
@@ -134,15 +221,27 @@ impl Solver {
         report
     }
 
-    /// Brings the islands up to date with what changed in the world.
-    fn take_in(&mut self, world: &mut World, settings: &Settings, work: &mut Counters) {
-        if self.settings.replace(*settings) != Some(*settings) {
-            let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
-            all.into_iter().for_each(|k| self.wake(k));
+    /// Brings the islands up to date with what changed in the world; gives the new ones.
+    fn take_in(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        cause: Cause,
+        work: &mut Counters,
+    ) -> Vec<u32> {
+        if let Some(before) = self.settings.replace(*settings)
+            && (before.method, before.tolerance) != (settings.method, settings.tolerance)
+        {
+            self.doubt_all();
         }
         let mut touched = world.take_touched();
+        if std::mem::take(&mut self.is_stale) {
+            // What is remembered is what counts: forget the rest.
+            self.topology = Topology::default();
+            touched.all = true;
+        }
         if touched.is_empty() {
-            return;
+            return Vec::new();
         }
         // A constraint that was changed but holds as many equations on the same points as
         // before leaves its island as it is.
@@ -150,20 +249,29 @@ impl Solver {
             touched.constraints.iter().partition(|&&id| self.is_same_but_for_values(world, id));
         touched.values.extend(values);
         touched.constraints = others;
+        let mut made = Vec::new();
         if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
-            let made = self.topology.update(&touched, world);
+            made = self.topology.update(&touched, world, &mut self.pending);
             work.islands_rebuilt += made.len() as u64;
+            for &k in &made {
+                self.remind(k);
+            }
+            self.pending = Memory::default();
             if touched.all {
                 self.awake.clear();
                 self.is_awake.fill(false);
             }
-            made.iter().for_each(|&k| self.wake(k));
+            for &k in &made {
+                self.wake(k);
+            }
             let topology = &self.topology;
             self.awake.retain(|&k| topology.get(k).is_some());
             self.unsolved.retain(|&k| topology.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = topology.checked().collect();
-            checked.into_iter().for_each(|id| self.check(world, id, settings));
+            for id in checked {
+                self.check(world, id, settings);
+            }
         }
         for &id in &touched.values {
             match self.topology.home(id) {
@@ -174,6 +282,38 @@ impl Solver {
         }
         for &p in &touched.moved {
             self.take_in_move(world, p, settings);
+        }
+        if cause == Cause::Hand {
+            for k in self.awake.clone() {
+                if let Some(island) = self.topology.get_mut(k)
+                    && !island.inputs.is_empty()
+                {
+                    island.note_edit(island.inputs.is_disturbed);
+                }
+            }
+        }
+        made
+    }
+
+    /// Gives a new island the memory that waits for it.
+    fn remind(&mut self, k: u32) {
+        let Some(island) = self.topology.get_mut(k) else { return };
+        if let Some(remembered) = self.pending.take(island) {
+            memory::restore(island, &remembered);
+            if island.status != Status::Converged {
+                self.unsolved.insert(k);
+            }
+        }
+    }
+
+    /// What counted as solved may not any more.
+    fn doubt_all(&mut self) {
+        let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
+        for k in all {
+            if let Some(island) = self.topology.get_mut(k) {
+                island.status = Status::Stalled;
+            }
+            self.wake(k);
         }
     }
 
@@ -248,20 +388,25 @@ impl Solver {
     ) {
         let Some(island) = self.topology.get_mut(k) else { return };
         report.counters.islands_visited += 1;
+        island.remembered.take();
         let is_driven = !island.inputs.is_empty();
         let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
-        if task == Task::Frame && !is_driven && is_at_rest && !island.is_new {
+        if task == Task::Frame && !is_driven && is_at_rest {
             // Nothing moved it for a whole frame: what comes next does not go on from before.
             island.history.forget();
             report.include(Status::Converged, 0, 0.0);
             return;
         }
         let limits = island.limits(settings, budget);
-        if island.is_new && task == Task::Frame && settings.method == Method::Auto {
-            begin(island, world.clock().dt, &limits, &mut report.counters);
+        if (island.is_new || island.is_edited)
+            && task == Task::Frame
+            && settings.method == Method::Auto
+        {
+            begin(island, &limits, &mut report.counters);
         }
         let (outcome, lowered) = solve(island, settings, &limits, task, &mut report.counters);
         island.is_new = false;
+        island.is_edited = false;
         island.status = outcome.status;
         island.residual = outcome.worst / limits.size;
         island.settle_inputs();
@@ -284,18 +429,22 @@ impl Solver {
     }
 }
 
-/// Solves an island that is new at the time its first frame begins, so that the motion of
-/// that frame has a beginning.
-fn begin(island: &mut Island, dt: f64, limits: &Limits, work: &mut Counters) {
+/// Works out what drove an island at the beginning of a frame that it was made in.
+fn turn_back(island: &mut Island, dt: f64) {
     island.settle_inputs();
-    for c in 0..island.constraints.len() {
-        let mut before = island.constraints[c].clone();
+    for (c, constraint) in island.constraints.iter().enumerate() {
+        let mut before = constraint.clone();
         if before.advance(-dt) {
-            let after = std::mem::replace(&mut island.constraints[c], before);
-            island.inputs.constraints.push((c as u32, after));
+            island.inputs.constraints.push((c as u32, before));
         }
     }
+}
+
+/// Solves an island that is new as it was when its first frame began, so that the motion of
+/// that frame has a beginning.
+fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
     if !island.inputs.is_empty() {
+        island.swap_inputs();
         island.status = struggle::settle(island, limits, work).status;
         island.swap_inputs();
     }

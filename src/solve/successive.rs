@@ -25,8 +25,10 @@ pub(super) fn solve(
             let mut squared = 0.0;
             let mut moves = Moves::default();
             constraint.correct(&island.x, &island.w, &mut |p, v| {
-                squared += v.norm_squared() / island.w[p as usize];
-                moves.push(p, v * rho);
+                if (p as usize) < island.n_free {
+                    squared += v.norm_squared() / island.w[p as usize];
+                    moves.push(p, v * rho);
+                }
             });
             worst = worst.max(squared);
             if moves.are_finite() {

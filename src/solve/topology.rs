@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::island::{Island, Member};
+use super::memory::Memory;
 use crate::constraint::Relation;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
@@ -85,14 +86,18 @@ impl Topology {
     }
 
     /// Takes apart what an edit touched and puts it together anew; gives the new islands.
-    pub fn update(&mut self, touched: &Touched, world: &World) -> Vec<u32> {
+    /// What is remembered of those taken apart is added to `memory`.
+    pub fn update(&mut self, touched: &Touched, world: &World, memory: &mut Memory) -> Vec<u32> {
         let n_points = world.points().column().len();
         self.of_point.resize(n_points, NONE);
         self.users.resize_with(n_points, Vec::new);
         self.of_constraint.resize(world.next_constraint().idx(), NONE);
         self.local_constraint.resize(world.next_constraint().idx(), NONE);
-        let mut loose = Loose::default();
+        let mut loose = Loose { memory: std::mem::take(memory), ..Loose::default() };
         if touched.all {
+            for island in self.islands.iter().flatten() {
+                loose.memory.insert(island);
+            }
             self.clear();
             for (id, record) in world.constraints().filter(|(_, record)| record.is_on) {
                 self.enter(id, record.constraint.points());
@@ -101,7 +106,9 @@ impl Topology {
         } else {
             self.loosen(touched, world, &mut loose);
         }
-        self.assemble(&loose, world)
+        let made = self.assemble(&loose, world);
+        *memory = loose.memory;
+        made
     }
 
     fn clear(&mut self) {
@@ -188,6 +195,7 @@ impl Topology {
     fn dissolve(&mut self, k: u32, loose: &mut Loose) -> Vec<ConstraintId> {
         let Some(island) = self.islands[k as usize].take() else { return Vec::new() };
         self.vacant.push(k);
+        loose.memory.insert(&island);
         for p in &island.points[..island.n_free] {
             self.of_point[p.idx()] = NONE;
         }
@@ -259,6 +267,8 @@ struct Loose {
     constraints: BTreeSet<ConstraintId>,
     /// The points they held, for those that were somewhere.
     points_of: BTreeMap<ConstraintId, Vec<PointId>>,
+    /// What is remembered of the islands they were in.
+    memory: Memory,
 }
 
 /// Disjoint sets of points.

@@ -108,14 +108,20 @@ impl Scene {
 
     /// One frame: the clock goes on, the solver works.
     pub fn step(&mut self) -> Report {
-        self.world.advance().expect("no live expressions here");
-        self.solver.frame(&mut self.world, &self.settings, &Budget::default())
+        self.drive(|_| {})
     }
 
-    /// Moves frozen points and solves a frame.
+    /// Moves a frozen point along with the clock and solves the frame.
     pub fn drag(&mut self, p: PointId, x: f64, y: f64) -> Report {
-        self.move_to(p, x, y);
-        self.step()
+        self.drive(|s| s.move_to(p, x, y))
+    }
+
+    /// One frame in which `hand` acts as the clock goes on.
+    pub fn drive(&mut self, hand: impl FnOnce(&mut Self)) -> Report {
+        self.solver.attend(&mut self.world, &self.settings);
+        hand(self);
+        self.world.advance().expect("no live expressions here");
+        self.solver.frame(&mut self.world, &self.settings, &Budget::default())
     }
 
     pub fn settle(&mut self) -> Report {
