@@ -269,7 +269,12 @@ impl Solver {
                 self.wake(k);
             }
             let topology = &self.topology;
-            self.awake.retain(|&k| topology.get(k).is_some());
+            // An island that takes the place of one that was awake is to be woken again.
+            let is_awake = &mut self.is_awake;
+            self.awake.retain(|&k| {
+                is_awake[k as usize] = topology.get(k).is_some();
+                is_awake[k as usize]
+            });
             self.unsolved.retain(|&k| topology.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = topology.checked().collect();
