@@ -55,6 +55,7 @@ pub struct World {
     ghosts: Vec<Ghost>,
     live: live::Live,
     touched: Touched,
+    revision: u64,
 }
 
 impl World {
@@ -119,6 +120,12 @@ impl World {
     /// The clock.
     pub const fn clock(&self) -> &Clock {
         &self.clock
+    }
+
+    /// Counts the edits that changed what there is: while it stays the same, a motion can be
+    /// gone back to.
+    pub const fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// The traces, in the order they were asked for.
