@@ -1,4 +1,4 @@
-//! Questions that take some work: `limits`, `effects`.
+//! Questions that take some work: `limits`.
 
 use super::{Diagnostic, Session};
 use crate::lang::ast::Name;
@@ -6,8 +6,5 @@ use crate::lang::ast::Name;
 impl Session {
     pub(super) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
         Err(Diagnostic::error("`limits` is not there yet").at(name.span, ""))
-    }
-    pub(super) fn effects(&mut self) -> Result<(), Diagnostic> {
-        Err(Diagnostic::error("`effects` is not there yet"))
     }
 }

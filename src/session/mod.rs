@@ -13,6 +13,7 @@ mod constrain;
 mod delete;
 mod describe;
 mod diagnose;
+mod effects;
 mod fingerprint;
 mod host;
 mod journal;
@@ -39,6 +40,7 @@ use std::sync::Arc;
 
 pub use accuracy::Telling;
 pub use diagnose::Check;
+pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
 pub use receipt::{Summary, Way};

@@ -149,6 +149,7 @@ impl Session {
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
+            self.attend();
             hand(self, k);
             let report = self.pass(&limits).map_err(|why| {
                 let clock = self.world.clock();

@@ -43,7 +43,8 @@ impl Session {
     }
 
     /// The script that makes this world, its settings and its state.
-    pub fn to_script(&self) -> String {
+    pub fn to_script(&mut self) -> String {
+        self.attend();
         let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {

@@ -105,10 +105,18 @@ impl Session {
         }
         self.journal.covered.clear();
         let reels = self.recorders.iter().map(Recorder::mark).collect();
+        self.attend();
         let motion = Box::new(self.world.motion());
         self.journal.current.push(Change::Memory(Box::new(self.solver.memory())));
         self.journal.current.push(Change::World(Edit::Motion(motion)));
         self.journal.current.push(Change::Reels(reels));
+    }
+
+    /// Lets the solver take in what was edited, so that what it remembers is of the world as
+    /// it is.
+    pub(super) fn attend(&mut self) {
+        let Self { solver, world, preferences, .. } = self;
+        solver.attend(world, &preferences.solve);
     }
 
     /// Takes back what the command under way did.
@@ -129,6 +137,7 @@ impl Session {
 
     /// Takes back one command, or does it again: gives what was taken back.
     fn invert(&mut self, entry: Entry) -> Entry {
+        self.attend();
         let changes = entry.changes.into_iter().rev().map(|change| self.apply(change)).collect();
         Entry { label: entry.label, changes }
     }
