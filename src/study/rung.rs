@@ -1,6 +1,5 @@
 //! The ladder: every method with the settings that are tried.
 
-use crate::diag::format_number;
 use crate::solve::{Method, Settings};
 
 /// A method with one setting.
@@ -71,7 +70,7 @@ impl Rung {
     pub fn statements(&self) -> [String; 2] {
         let setting = match self.step {
             Step::Iterations(n) => format!("set iterations {n}"),
-            Step::Tolerance(tolerance) => format!("set tolerance {}", format_number(tolerance)),
+            Step::Tolerance(tolerance) => format!("set tolerance {tolerance:e}"),
         };
         [format!("set method {}", self.method.word()), setting]
     }
