@@ -31,6 +31,7 @@ mod newton;
 mod relaxation;
 mod struggle;
 mod successive;
+mod sweep;
 
 // Their face.
 mod pass;
