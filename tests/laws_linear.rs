@@ -270,7 +270,7 @@ fn rows_join_the_basis_while_they_raise_the_rank() {
             rows.push(&points, &sum);
         }
         let jacobian = rows.jacobian();
-        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice));
+        let mut basis = RowBasis::new(n_points, rows.points.iter().map(Vec::as_slice), 1e-9);
         for row_idx in 0..rows.points.len() {
             let (points, values) = (&rows.points[row_idx], &rows.values[row_idx]);
             let before = jacobian.rows(0, row_idx).into_owned();
@@ -279,4 +279,21 @@ fn rows_join_the_basis_while_they_raise_the_rank() {
             assert_eq!(basis.insert(points, values), raises, "row {row_idx} of {n_points} points");
         }
     }
+}
+
+#[test]
+fn no_points_and_rows_without_points_are_nothing() {
+    let empty: [&[u32]; 2] = [&[], &[]];
+    for storage in [Storage::Sparse, Storage::Supernodal] {
+        for n_points in [0, 3] {
+            let mut normal = NormalMatrix::with_storage(storage, n_points, empty.into_iter());
+            normal.add_row(1, &[]);
+            assert_eq!(normal.nullity(1e-10), 2 * n_points);
+            normal.factor(1.0);
+            let mut rhs = vec![3.0; 2 * n_points];
+            normal.solve(&mut rhs);
+            assert_eq!(rhs, vec![3.0; 2 * n_points]);
+        }
+    }
+    assert!(!RowBasis::new(2, empty.into_iter(), 1e-9).insert(&[], &[]));
 }

@@ -3,6 +3,7 @@
 mod args;
 mod files;
 pub(crate) mod interrupt;
+pub(crate) mod obey;
 mod outside;
 mod run;
 pub(crate) mod talk;
@@ -12,8 +13,11 @@ use std::process::ExitCode;
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
-    match args.command {
+    interrupt::listen();
+    let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
         None => run::session(&args.session),
-    }
+    };
+    talk::flush();
+    status.into()
 }

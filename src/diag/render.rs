@@ -31,11 +31,9 @@ pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
     let mut report = vec![group];
     let n_hidden = problem.via.len().saturating_sub(VIA_SHOWN);
     for (position, &span) in problem.via.iter().take(VIA_SHOWN).enumerate() {
-        let mut group = Level::NOTE.secondary_title("reached from here").elements(snippet(
-            span,
-            [(span, "", AnnotationKind::Primary)],
-            sources,
-        ));
+        let mut group = Level::NOTE
+            .secondary_title("reached from here")
+            .elements(snippet(&[(span, "", AnnotationKind::Primary)], sources));
         if position + 1 == VIA_SHOWN && n_hidden > 0 {
             group = group.element(Level::NOTE.message(format!("and from {n_hidden} more places")));
         }
@@ -51,58 +49,58 @@ pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
 /// Deeper chains of `for`, `use` and `include` are counted, not drawn.
 const VIA_SHOWN: usize = 4;
 
-/// One snippet for each text the labels point into, the primary one's first.
+/// One snippet for each group of labels that lie close together, the primary one's first.
 fn snippets<'a>(problem: &'a Diagnostic, sources: &'a Sources) -> Vec<Drawn<'a>> {
-    let mut order: Vec<Span> = Vec::new();
+    let mut groups: Vec<Vec<Mark>> = Vec::new();
     let by_rank = |primary| problem.labels.iter().filter(move |label| label.primary == primary);
     for label in by_rank(true).chain(by_rank(false)) {
-        if order.iter().all(|span| span.source != label.span.source) {
-            order.push(label.span);
+        let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
+        let mark = (label.span, label.text.as_str(), kind);
+        match groups.iter_mut().find(|group| is_near(group[0].0, label.span)) {
+            Some(group) => group.push(mark),
+            None => groups.push(vec![mark]),
         }
     }
-    order
-        .into_iter()
-        .filter_map(|first| {
-            let source = first.source;
-            let here = problem.labels.iter().filter(move |label| label.span.source == source);
-            let labels = here.map(|label| {
-                let kind = match label.primary {
-                    true => AnnotationKind::Primary,
-                    false => AnnotationKind::Context,
-                };
-                (label.span, label.text.as_str(), kind)
-            });
-            snippet(first, labels, sources)
-        })
-        .collect()
+    groups.into_iter().filter_map(|marks| snippet(&marks, sources)).collect()
 }
 
+/// Can the two be drawn in one snippet?
+fn is_near(a: Span, b: Span) -> bool {
+    a.source == b.source && a.start.abs_diff(b.start) < 4_000
+}
+
+/// A place, what is written beside it, and how it is underlined.
+type Mark<'a> = (Span, &'a str, AnnotationKind);
 type Drawn<'a> = Snippet<'a, annotate_snippets::Annotation<'a>>;
 
-/// The lines of the text of `first` from the first to the last label.
+/// Bytes of a longer place are not underlined: the whole of it would be drawn.
+const LONGEST_UNDERLINED: usize = 100;
+
+/// Bytes that are drawn behind the last place: more than a terminal is wide.
+const LONGEST_TAIL: usize = 200;
+
+/// The lines of the text from the first to the last of `marks`, all of one text.
 ///
 /// Only these are handed to the drawing, so an error in a script of a million lines costs
-/// no more than in a short one. A label of several lines is cut at the end of its first.
-fn snippet<'a>(
-    first: Span,
-    labels: impl IntoIterator<Item = (Span, &'a str, AnnotationKind)>,
-    sources: &'a Sources,
-) -> Option<Drawn<'a>> {
-    let source = sources.get(first.source)?;
+/// no more than in a short one. A place of several lines is cut at the end of its first.
+fn snippet<'a>(marks: &[Mark<'a>], sources: &'a Sources) -> Option<Drawn<'a>> {
+    let source = sources.get(marks.first()?.0.source)?;
     let text: &str = &source.text;
-    let labels: Vec<_> = labels
-        .into_iter()
-        .map(|(span, label, kind)| {
+    let ranges: Vec<_> = marks
+        .iter()
+        .map(|(span, ..)| {
             let range = clip(text, span.range());
-            let end = range.end.min(line_end(text, range.start)).max(range.start);
-            (range.start..end, label, kind)
+            let cut = text.ceil_char_boundary(range.start.saturating_add(LONGEST_UNDERLINED));
+            range.start..range.end.min(line_end(text, range.start)).min(cut).max(range.start)
         })
         .collect();
-    let from = labels.iter().map(|(range, ..)| line_start(text, range.start)).min()?;
-    let to = labels.iter().map(|(range, ..)| line_end(text, range.start)).max()?.max(from);
-    let line = text[..from].bytes().filter(|&byte| byte == b'\n').count() + 1;
-    let annotations = labels.into_iter().map(|(range, label, kind)| {
-        let label = (!label.is_empty()).then_some(label);
+    let from = ranges.iter().map(|range| line_start(text, range.start)).min()?;
+    let last = ranges.iter().map(|range| range.end).max()?;
+    let tail = text.ceil_char_boundary(last.saturating_add(LONGEST_TAIL));
+    let to = line_end(text, last).min(tail).max(last);
+    let line = text[..from].bytes().filter(|&byte| byte == b'\n').count() + source.first_line;
+    let annotations = marks.iter().zip(ranges).map(|((_, label, kind), range)| {
+        let label = (!label.is_empty()).then_some(*label);
         kind.span(range.start - from..range.end - from).label(label)
     });
     Some(
@@ -121,4 +119,127 @@ fn line_end(text: &str, at: usize) -> usize {
     let line = text[at..].find('\n').map_or(text.len(), |newline| at + newline);
     // The carriage return of a CRLF is no part of the line, unless the place is behind it.
     if line > at && text.as_bytes()[line - 1] == b'\r' { line - 1 } else { line }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Diagnostic, SourceId};
+    use super::*;
+
+    /// Draws an error at `range` of `text`.
+    fn drawn(text: &str, range: std::ops::Range<usize>) -> String {
+        let mut sources = Sources::new();
+        let id = sources.add("a.link", text);
+        let problem = Diagnostic::error("wrong").at(Span::new(id, range), "here");
+        render(&problem, &sources, Paint::Plain)
+    }
+
+    fn check(text: &str, range: std::ops::Range<usize>, wanted: &str) {
+        assert_eq!(drawn(text, range), wanted, "of {text:?}");
+    }
+
+    #[test]
+    fn the_place_is_underlined() {
+        check(
+            "one\ntwo three\nfour",
+            8..13,
+            "error: wrong\n --> a.link:2:5\n  |\n2 | two three\n  |     ^^^^^ here",
+        );
+    }
+
+    #[test]
+    fn odd_line_ends_and_empty_texts_are_survived() {
+        let empty = "error: wrong\n --> a.link:1:1\n  |\n1 |\n  | ^ here";
+        check("", 0..0, empty);
+        check("", 7..9, empty);
+        check("\r\n", 0..1, empty);
+        check("ab\r\ncd", 0..2, "error: wrong\n --> a.link:1:1\n  |\n1 | ab\n  | ^^ here");
+        check("ab\n", 3..3, "error: wrong\n --> a.link:2:1\n  |\n2 |\n  | ^ here");
+        check("ab", 2..2, "error: wrong\n --> a.link:1:3\n  |\n1 | ab\n  |   ^ here");
+    }
+
+    #[test]
+    fn of_several_lines_the_first_is_underlined() {
+        check("ab\ncd\nef", 1..8, "error: wrong\n --> a.link:1:2\n  |\n1 | ab\n  |  ^ here");
+    }
+
+    #[test]
+    fn tabs_and_control_characters_are_made_visible() {
+        check("\tab", 1..2, "error: wrong\n --> a.link:1:2\n  |\n1 |     ab\n  |     ^ here");
+        let escape = drawn("a\u{1b}[31mb", 0..1);
+        assert!(!escape.contains('\u{1b}'), "{escape:?}");
+    }
+
+    #[test]
+    fn long_lines_are_cut() {
+        let text = format!("{}x{}", "a ".repeat(100_000), " b".repeat(100_000));
+        let drawn = drawn(&text, 200_000..200_001);
+        assert!(drawn.len() < 1_000, "{} bytes", drawn.len());
+        assert!(drawn.contains("a x b"), "{drawn}");
+        assert!(drawn.contains("a.link:1:200001"), "{drawn}");
+    }
+
+    #[test]
+    fn without_blanks_too() {
+        let text = "x".repeat(100_000);
+        for range in [0..1, 0..100_000, 50_000..50_001, 50_000..100_000, 100_000..100_000] {
+            let drawn = drawn(&text, range.clone());
+            assert!(drawn.len() < 1_500, "{} bytes at {range:?}", drawn.len());
+        }
+    }
+
+    #[test]
+    fn places_far_apart_are_drawn_apart() {
+        let mut sources = Sources::new();
+        let text = format!("({}\n)", "x".repeat(100_000));
+        let id = sources.add("a.link", &*text);
+        let problem = Diagnostic::error("wrong")
+            .at(Span::new(id, text.len() - 1..text.len()), "here")
+            .also(Span::new(id, 0..1), "opened here");
+        let drawn = render(&problem, &sources, Paint::Plain);
+        assert!(drawn.len() < 1_500, "{} bytes", drawn.len());
+        assert!(drawn.contains("a.link:2:1") && drawn.contains("opened here"), "{drawn}");
+    }
+
+    #[test]
+    fn the_way_to_the_place_is_told() {
+        let mut sources = Sources::new();
+        let inner = sources.add("leg.link", "length A Q");
+        let outer = sources.add("a.link", "step\ninclude \"leg.link\"");
+        let problem = Diagnostic::error("there is no `Q`")
+            .at(Span::new(inner, 9..10), "")
+            .note("the points are `A` and `B`")
+            .help("did you mean `B`?")
+            .reached_from(Span::new(outer, 5..23));
+        let wanted = "\
+error: there is no `Q`
+ --> leg.link:1:10
+  |
+1 | length A Q
+  |          ^
+  |
+  = note: the points are `A` and `B`
+  = help: did you mean `B`?
+note: reached from here
+ --> a.link:2:1
+  |
+2 | include \"leg.link\"
+  | ^^^^^^^^^^^^^^^^^^";
+        assert_eq!(render(&problem, &sources, Paint::Plain), wanted);
+        let coloured = render(&problem, &sources, Paint::Coloured);
+        assert!(coloured.contains("\u{1b}["));
+        let deep =
+            (0..100).fold(problem, |problem, _| problem.reached_from(Span::new(outer, 0..4)));
+        let drawn = render(&deep, &sources, Paint::Plain);
+        assert!(drawn.contains("and from 97 more places"), "{drawn}");
+    }
+
+    #[test]
+    fn without_a_place_the_message_stands_alone() {
+        let sources = Sources::new();
+        let problem = Diagnostic::warning("the disk is full");
+        assert_eq!(render(&problem, &sources, Paint::Plain), "warning: the disk is full");
+        let lost = Diagnostic::error("lost").at(Span::new(SourceId(9), 0..1), "x");
+        assert_eq!(render(&lost, &sources, Paint::Plain), "error: lost");
+    }
 }

@@ -81,7 +81,7 @@ impl<'a> Layout<'a> {
         let bytes = &self.text.as_bytes()[..self.end];
         while let Some(byte) = bytes.get(self.at) {
             match byte {
-                b' ' | b'\t' | b'\r' | b'\n' | b';' => self.at += 1,
+                b' ' | b'\t'..=b'\r' | b';' => self.at += 1,
                 b'#' => self.at = line_end(bytes, self.at),
                 b'\\' => match continuation(bytes, self.at) {
                     Some(next) => self.at = next,
@@ -106,7 +106,7 @@ impl<'a> Layout<'a> {
             let at = self.at;
             self.at += 1;
             match byte {
-                b' ' | b'\t' | b'\r' => continue,
+                b' ' | b'\t' | 0x0b..=b'\r' => continue,
                 b'#' => {
                     self.at = line_end(bytes, at);
                     continue;

@@ -6,6 +6,7 @@
 
 pub mod ast;
 pub mod catalogue;
+mod constraint;
 mod expr;
 mod function;
 mod layout;

@@ -1,34 +1,47 @@
-//! stub
-use crate::world::World;
-#[derive(Debug, Clone)]
-pub struct Scene;
-impl Scene {
-    pub fn new(_w: &World) -> Self {
-        Self
-    }
-}
-#[derive(Default)]
-pub struct Options;
-#[derive(Clone)]
-pub struct View;
-impl View {
-    pub fn of<'a>(_s: impl Iterator<Item = &'a Scene>) -> Self {
-        Self
-    }
-}
-pub fn svg(_s: &Scene, _o: &Options) -> String {
-    String::new()
-}
-pub fn svg_with_view(_s: &Scene, _v: &View, _o: &Options) -> String {
-    String::new()
-}
-pub struct Animation;
-impl Animation {
-    pub fn new(_v: View, _o: &Options) -> Self {
-        Self
-    }
-    pub fn push(&mut self, _s: &Scene, _t: f64) {}
-    pub fn finish(self) -> String {
-        String::new()
-    }
-}
+//! Pictures of a world: stills and moving ones, as SVG.
+//!
+//! A [`Scene`] is what there is to draw, as plain data; a [`View`] says what part of the plane
+//! is shown and where the names stand; figures in px follow from both, and a document from
+//! the figures. Nothing here changes a world or opens a file, and the same scene gives the
+//! same bytes.
+//!
+//! ```
+//! use linkwork::render::{Options, Scene, svg};
+//! use linkwork::world::World;
+//!
+//! let picture = svg(&Scene::new(&World::new()), &Options::default());
+//! assert!(picture.starts_with("<svg"));
+//! ```
+
+// From a world to what is to be drawn.
+mod curve;
+mod groups;
+mod parts;
+mod plan;
+mod samples;
+mod scene;
+
+// From there to figures on a page.
+mod cover;
+mod figure;
+mod ink;
+mod lettering;
+mod number;
+mod page;
+mod path;
+mod strip;
+mod style;
+mod view;
+
+// Figures in motion.
+mod animation;
+mod cast;
+mod motion;
+mod pen;
+
+mod document;
+
+pub use animation::Animation;
+pub use number::rounded;
+pub use scene::Scene;
+pub use view::{Options, View, svg, svg_with_view};

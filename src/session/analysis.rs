@@ -1,16 +1,10 @@
-//! Questions that take some work: `check`, `why`, `limits`, `effects`, `accuracy`.
+//! Questions that take some work: `limits`, `effects`, `accuracy`.
 
 use super::{Diagnostic, Session};
 use crate::diag::Span;
 use crate::lang::ast::{Name, Promise};
 
 impl Session {
-    pub(super) fn check(&mut self) -> Result<(), Diagnostic> {
-        Err(Diagnostic::error("`check` is not there yet"))
-    }
-    pub(super) fn why(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        Err(Diagnostic::error("`why` is not there yet").at(name.span, ""))
-    }
     pub(super) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
         Err(Diagnostic::error("`limits` is not there yet").at(name.span, ""))
     }

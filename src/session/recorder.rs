@@ -74,7 +74,12 @@ impl Recorder {
         }
         self.shots.push(match self.format {
             Format::Frames | Format::Movie => {
-                Shot::Scene(Box::new(Scene::new(world)), clock.time())
+                // A scene shares with the one before it what did not change.
+                let scene = match self.shots.last() {
+                    Some(Shot::Scene(last, _)) => last.next(world),
+                    _ => Scene::new(world),
+                };
+                Shot::Scene(Box::new(scene), clock.time())
             }
             Format::Table => {
                 let points = world.points();
@@ -83,11 +88,6 @@ impl Recorder {
                 Shot::Row(clock.time(), row.collect())
             }
         });
-    }
-
-    /// How many frames it has taken.
-    pub const fn n_shots(&self) -> usize {
-        self.shots.len()
     }
 
     /// The scenes taken, each with its time.

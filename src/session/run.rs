@@ -1,5 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
+use super::perform::format_count;
 use super::{Diagnostic, Flow, Session};
 use crate::constraint::{Point, Vector};
 use crate::diag::{Kind, Span, format_number};
@@ -109,7 +110,7 @@ impl Session {
         if !(0.0..=super::limits::MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
             return Err(
-                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_number(n)))
+                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
             );
         }
         let limits = self.promised(promise)?;
@@ -143,6 +144,7 @@ impl Session {
         for &id in &free {
             self.edit(Edit::Freeze(id, true));
         }
+        let is_at_start = self.world.clock().frame == 0;
         let flow = self.frames(n, Limits::default(), span, |session, k| {
             for &(id, from, way) in &paths {
                 let at = if k == n { from + way } else { from + way * (k as f64 / n as f64) };
@@ -151,6 +153,12 @@ impl Session {
         })?;
         for &id in &free {
             self.edit(Edit::Freeze(id, false));
+        }
+        // The hand moved before the clock left 0: `reset` puts the point back under it.
+        if is_at_start && self.world.clock().frame > 0 {
+            for &(id, from, _) in &paths {
+                self.edit(Edit::Start(id, from));
+            }
         }
         Ok(flow)
     }
@@ -179,7 +187,11 @@ impl Session {
                 break;
             }
             hand(self, k);
-            let report = self.pass(&limits)?;
+            let report = self.pass(&limits).map_err(|why| {
+                let clock = self.world.clock();
+                let time = format_number(clock.time());
+                why.note(format!("at frame {}, time {time}", clock.frame))
+            })?;
             summary.add(&report, self.world.clock().frame);
             if !leaves_nothing {
                 self.keep_frame(report.status != Status::Converged);
@@ -315,10 +327,11 @@ impl Session {
 
 /// A number for talk: three digits say enough.
 pub(super) fn format_rounded(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let text = format!("{value:.2e}");
-    let rounded: f64 = text.parse().unwrap_or(value);
-    format_number(rounded)
+    format_digits(value, 3)
+}
+
+/// A number rounded to so many digits.
+pub(super) fn format_digits(value: f64, n_digits: usize) -> String {
+    let text = format!("{value:.*e}", n_digits - 1);
+    format_number(text.parse().unwrap_or(value))
 }

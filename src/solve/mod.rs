@@ -6,6 +6,7 @@
 //! here knows statements, clocks on the wall or files.
 
 pub mod linear;
+pub mod mobility;
 
 // What the methods work on.
 mod ends;

@@ -62,9 +62,9 @@ enum Cause {
 }
 
 impl Solver {
-    /// A solver that has seen nothing yet.
+    /// A solver that has seen nothing yet, whatever its world was asked before.
     pub fn new() -> Self {
-        Self::default()
+        Self { is_stale: true, ..Self::default() }
     }
 
     /// Solves a frame: the world's values are those at its end, its points where they were at

@@ -12,6 +12,7 @@ use crate::lang::ast::{
 use super::Reader;
 use super::expr::{MAX_DEPTH, Tree, lower_expr};
 use super::grammar::Rule;
+use super::refusal;
 
 /// A position in the parts of a statement.
 pub(super) struct Cursor<'a> {
@@ -110,14 +111,14 @@ impl<'a> Cursor<'a> {
     /// A word that is going to mean something from here on.
     pub fn declared_ident(&mut self) -> Result<Ident> {
         let ident = self.ident();
-        self.reader.refuse_reserved(&ident)?;
+        refusal::reserved(&ident)?;
         Ok(ident)
     }
 
     pub fn name(&mut self) -> Result<Name> {
         let pair = self.must(Rule::name);
         let (name, _) = self.name_of(pair)?;
-        self.reader.refuse_reserved(&name.head)?;
+        refusal::reserved(&name.head)?;
         Ok(name)
     }
 
@@ -144,7 +145,7 @@ impl<'a> Cursor<'a> {
             parts.push(NamePart { kind, span });
         }
         if parts.len() > MAX_DEPTH {
-            return Err(self.reader.too_long(span));
+            return Err(refusal::too_long(span));
         }
         Ok((Name { head, parts: parts.into_boxed_slice(), span }, depth))
     }
@@ -218,7 +219,7 @@ impl<'a> Cursor<'a> {
             let word = inner.pairs.peek().expect("a clause begins with its word");
             let span = self.span(&word);
             if let Some((_, first)) = &found[slot] {
-                return Err(self.reader.twice(word.as_str(), *first, span));
+                return Err(refusal::twice(word.as_str(), *first, span));
             }
             found[slot] = Some((inner.expr()?, span));
         }

@@ -7,6 +7,8 @@ use crate::lang::ast::{Axis, BinaryOp, Expr, Function, Node, Number, Unit};
 
 use super::cursor::Cursor;
 use super::grammar::Rule;
+use super::mistake::brief;
+use super::refusal;
 
 /// The deepest tree: whatever walks over one calls itself this often at most, and a chain
 /// of operators has at most as many.
@@ -43,10 +45,9 @@ impl Waiting {
 /// length takes no stack of ours.
 pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
     let whole = cursor.span(&pair);
-    let mut parts = pair.into_inner();
     let mut operands = Vec::with_capacity(2);
     let mut waiting: Vec<Waiting> = Vec::new();
-    while let Some(part) = parts.next() {
+    for part in pair.into_inner() {
         match part.as_rule() {
             Rule::minus => waiting.push(Waiting::Minus(cursor.span(&part))),
             Rule::operator => {
@@ -55,7 +56,7 @@ pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Res
                 // Of equals the left one goes first, but `^` is read from the right.
                 let bar = new.precedence() + u8::from(op == BinaryOp::Power);
                 while let Some(top) = waiting.pop_if(|top| top.precedence() >= bar) {
-                    apply(cursor, top, &mut operands, whole)?;
+                    apply(top, &mut operands, whole)?;
                 }
                 waiting.push(new);
             }
@@ -63,7 +64,7 @@ pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Res
         }
     }
     while let Some(top) = waiting.pop() {
-        apply(cursor, top, &mut operands, whole)?;
+        apply(top, &mut operands, whole)?;
     }
     Ok(operands.pop().expect("the grammar has an operand in each expression"))
 }
@@ -78,7 +79,7 @@ fn binary_op(text: &str) -> BinaryOp {
     }
 }
 
-fn apply(cursor: &Cursor, what: Waiting, operands: &mut Vec<Tree>, whole: Span) -> Result<()> {
+fn apply(what: Waiting, operands: &mut Vec<Tree>, whole: Span) -> Result<()> {
     let right = operands.pop().expect("the grammar has an operand behind each operator");
     let tree = match what {
         Waiting::Minus(minus) => {
@@ -93,7 +94,7 @@ fn apply(cursor: &Cursor, what: Waiting, operands: &mut Vec<Tree>, whole: Span) 
         }
     };
     if tree.depth > MAX_DEPTH {
-        return Err(cursor.reader.too_long(whole));
+        return Err(refusal::too_long(whole));
     }
     operands.push(tree);
     Ok(())
@@ -107,17 +108,17 @@ fn deeper(depth: usize, node: Node, span: Span) -> Tree {
 fn operand<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
     let span = cursor.span(&pair);
     let tree = match pair.as_rule() {
-        Rule::number => deeper(0, Node::Number(number(cursor, pair.as_str(), span)?), span),
+        Rule::number => deeper(0, Node::Number(number(pair.as_str(), span)?), span),
         Rule::reference => reference(cursor, pair)?,
         _ => parens(cursor, pair)?,
     };
     if tree.depth > MAX_DEPTH {
-        return Err(cursor.reader.too_long(span));
+        return Err(refusal::too_long(span));
     }
     Ok(tree)
 }
 
-fn number(cursor: &Cursor, text: &str, span: Span) -> Result<Number> {
+fn number(text: &str, span: Span) -> Result<Number> {
     let (digits, suffix) = text.split_at(digits_end(text));
     let unit = if suffix.is_empty() {
         Some(Unit::None)
@@ -131,7 +132,7 @@ fn number(cursor: &Cursor, text: &str, span: Span) -> Result<Number> {
     let number = digits.parse().map(|written| Number { written, unit });
     match number {
         Ok(number) if number.value().is_finite() => Ok(number),
-        _ => Err(cursor.reader.too_large(span)),
+        _ => Err(refusal::too_large(span)),
     }
 }
 
@@ -155,6 +156,7 @@ fn digits_end(text: &str) -> usize {
 }
 
 fn unknown_suffix(digits: &str, suffix: &str, span: Span) -> Diagnostic {
+    let (digits, suffix) = (brief(digits), brief(suffix));
     let problem = Diagnostic::error(format!("unknown unit `{suffix}`"))
         .at(span, "not the suffix of a number");
     if suffix.eq_ignore_ascii_case("e") {
@@ -163,7 +165,7 @@ fn unknown_suffix(digits: &str, suffix: &str, span: Span) -> Diagnostic {
     if suffix.starts_with('_') {
         return problem.help("the digits of a number stand together: `1000000`, or `1e6`");
     }
-    match nearest(suffix, Unit::ALL.map(Unit::suffix)) {
+    match nearest(&suffix, Unit::ALL.map(Unit::suffix)) {
         // A letter that is no unit is more likely a factor: `2r`.
         Some(unit) if suffix.len() > 1 => problem.help(format!("did you mean `{digits}{unit}`?")),
         _ => problem
@@ -186,20 +188,20 @@ fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
             _ => return Ok(deeper(depth, Node::Name(name), whole)),
         };
         if let Some(part) = name.parts.first() {
-            return Err(cursor.reader.no_parts(&name.head, part.span));
+            return Err(refusal::no_parts(&name.head, part.span));
         }
         return Ok(deeper(0, reserved, whole));
     };
     let Some(word) = name.as_simple() else {
-        return Err(cursor.reader.not_a_function(name.span));
+        return Err(refusal::not_a_function(name.span));
     };
     let Some(function) = Function::named(&word.text) else {
-        return Err(cursor.reader.unknown_function(word));
+        return Err(refusal::unknown_function(word));
     };
     let call_span = word.span.to(cursor.span(&arguments));
     let (arguments, depth) = trees(cursor, arguments)?;
     if !function.takes(arguments.len()) {
-        return Err(cursor.reader.wrong_count(function, arguments.len(), call_span));
+        return Err(refusal::wrong_count(function, arguments.len(), call_span));
     }
     let call = deeper(depth, Node::Call(function, arguments), call_span);
     components(cursor, call, inner)
@@ -241,12 +243,12 @@ fn components<'a>(cursor: &Cursor<'a>, tree: Tree, mut rest: Cursor<'a>) -> Resu
         let axis = match member.as_str() {
             ".x" => Axis::X,
             ".y" => Axis::Y,
-            other => return Err(cursor.reader.no_component(other, at)),
+            other => return Err(refusal::no_component(other, at)),
         };
         let span = tree.expr.span.to(at);
         tree = deeper(tree.depth, Node::Component(Box::new(tree.expr), axis), span);
         if tree.depth > MAX_DEPTH {
-            return Err(cursor.reader.too_long(span));
+            return Err(refusal::too_long(span));
         }
     }
     Ok(tree)

@@ -1,16 +1,19 @@
-//! From the rules that pest expected to what a user would call them.
+//! What is wrong where the grammar stops: what was found, and what to type instead.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use pest::error::{Error, ErrorVariant, InputLocation};
 
-use crate::diag::{Diagnostic, Span, nearest};
+use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::Unit;
 use crate::lang::catalogue;
 
+use super::expected::{Expected, PATH};
 use super::grammar::Rule;
 use super::opening::{first_word, is_word_char};
-use super::{Reader, constraint, verb};
+use super::refusal;
+use super::{Reader, verb};
 
 impl Reader<'_> {
     /// What to say when `rule` does not fit the bytes `range`.
@@ -24,7 +27,8 @@ impl Reader<'_> {
         let stopped_at = range.start + at;
         let at = self.start_of_sign(range.start, stopped_at);
         let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
-            panic!("only pest itself makes errors")
+            // Little stack was left to begin with, and pest stopped before it ran out.
+            return refusal::too_long(self.span(range.clone()));
         };
         let word = first_word(&self.text[range.clone()]);
         let before = self.text[range.start..at].trim_end();
@@ -87,16 +91,21 @@ impl Reader<'_> {
                 "`{verb}` is a command; to give a parameter of that name a value, write \
                  `let {verb} = ...`"
             ),
-            "`=`" if verb == "set" => format!("leave the `=` out: `{before} ...`"),
+            "`=`" if verb == "set" => format!("leave the `=` out: `{} ...`", brief(before)),
             "`.`" if behind.starts_with(is_word_char) => {
                 "only vectors have components: `(x, y).x`".to_owned()
             }
             "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
             _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
             _ if expected.terms == [PATH] && !word.is_empty() => {
-                format!("a path stands in quotes: `{verb} \"{word}{behind}\"`")
+                format!(
+                    "a path stands in quotes: `{verb} \"{}\"`",
+                    brief(&format!("{word}{behind}"))
+                )
             }
-            _ if expected.has("a relation") && is_number => format!("did you mean `= {word}`?"),
+            _ if expected.has("a relation") && is_number => {
+                format!("did you mean `= {}`?", brief(word))
+            }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
             }
@@ -104,7 +113,10 @@ impl Reader<'_> {
             _ if before.ends_with(|char: char| char.is_ascii_digit())
                 && Unit::ALL.iter().any(|unit| unit.suffix() == word) =>
             {
-                format!("the unit stands right behind its number: `{}{word}`", last_number(before))
+                format!(
+                    "the unit stands right behind its number: `{}{word}`",
+                    brief(last_number(before))
+                )
             }
             _ => return found.meaning().map(str::to_owned),
         };
@@ -132,9 +144,9 @@ impl Reader<'_> {
             Found::String => "string".to_owned(),
             Found::Sign => match odd_char(first) {
                 Some(odd) => odd.to_owned(),
-                None => format!("`{}`", &rest[..len]),
+                None => format!("`{}`", brief(&rest[..len])),
             },
-            _ => format!("`{}`", &rest[..len]),
+            _ => format!("`{}`", brief(&rest[..len])),
         };
         FoundAt { what, term, span: self.span(at..at + len) }
     }
@@ -209,6 +221,14 @@ impl FoundAt {
 const NO_BREAK_SPACE: &str = "no-break space";
 const ODD_BLANK: &str = "odd blank";
 
+/// The beginning of a word, if it is too long for a message.
+pub(super) fn brief(word: &str) -> Cow<'_, str> {
+    match word.char_indices().nth(40) {
+        Some((end, _)) => Cow::Owned(format!("{}...", &word[..end])),
+        None => Cow::Borrowed(word),
+    }
+}
+
 fn odd_char(char: char) -> Option<&'static str> {
     match char {
         '\u{a0}' | '\u{202f}' | '\u{2007}' => Some(NO_BREAK_SPACE),
@@ -227,166 +247,4 @@ fn last_word(text: &str) -> Option<&str> {
 /// The digits that `text` ends with.
 fn last_number(text: &str) -> &str {
     text.rsplit(|char: char| !char.is_ascii_digit() && char != '.').next().unwrap_or("")
-}
-
-/// What a command that names a file expects.
-const PATH: &str = "a path in quotes";
-
-/// What could have stood there, in a user's terms.
-struct Expected {
-    terms: Vec<String>,
-    keywords: Vec<&'static str>,
-}
-
-impl Expected {
-    fn new(rules: &[Rule], verb: &str, is_first: bool) -> Self {
-        let has = |rule| rules.contains(&rule);
-        let is_value = has(Rule::expr) || has(Rule::number) || has(Rule::range);
-        let mut expected = Self { terms: Vec::new(), keywords: Vec::new() };
-        for &rule in rules {
-            match rule {
-                // A value could go on with any of these; that says nothing.
-                Rule::operator
-                | Rule::member
-                | Rule::index
-                | Rule::open_bracket
-                | Rule::arguments
-                | Rule::EOI => {}
-                Rule::number
-                | Rule::reference
-                | Rule::parens
-                | Rule::minus
-                | Rule::expr
-                | Rule::range => expected.add("a value"),
-                Rule::name | Rule::ident if is_value => {}
-                // Behind a name: it could be a function's.
-                Rule::open_paren if is_value || rules.len() > 1 => {}
-                Rule::relation => {
-                    expected.add("a relation");
-                    expected.keywords.push("in");
-                }
-                Rule::string => expected.add(if verb == "print" { "a string" } else { PATH }),
-                Rule::name
-                | Rule::names
-                | Rule::ident
-                | Rule::pair
-                | Rule::binding
-                | Rule::point_decl
-                | Rule::drag_target => expected.add(noun(verb, is_first)),
-                Rule::selection => {
-                    expected.add(noun(verb, is_first));
-                    expected.add("`all`");
-                    expected.keywords.push("all");
-                }
-                _ => match token(rule) {
-                    Some(token) => expected.add(&format!("`{token}`")),
-                    None => {
-                        if let Some(keyword) = keyword(rule) {
-                            expected.add(&format!("`{keyword}`"));
-                            expected.keywords.push(keyword);
-                        }
-                    }
-                },
-            }
-        }
-        if has(Rule::EOI) {
-            expected.add("the end of the statement");
-        } else if expected.terms.is_empty() {
-            expected.add("an operator");
-        }
-        expected
-    }
-
-    fn has(&self, term: &str) -> bool {
-        self.terms.iter().any(|known| known == term)
-    }
-
-    fn add(&mut self, term: &str) {
-        if !self.has(term) {
-            self.terms.push(term.to_owned());
-        }
-    }
-
-    /// The expected keyword that `word` is a misspelling of.
-    fn near(&self, word: &str) -> Option<&'static str> {
-        if word.is_empty() || self.keywords.contains(&word) {
-            return None;
-        }
-        nearest(word, self.keywords.iter().copied())
-    }
-}
-
-impl std::fmt::Display for Expected {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str("expected ")?;
-        for (position, term) in self.terms.iter().enumerate() {
-            match position {
-                0 => {}
-                _ if position + 1 == self.terms.len() => f.write_str(" or ")?,
-                _ => f.write_str(", ")?,
-            }
-            f.write_str(term)?;
-        }
-        Ok(())
-    }
-}
-
-/// What the statement of `verb` has names of.
-fn noun(verb: &str, is_first: bool) -> &'static str {
-    match verb {
-        "freeze" | "thaw" | "move" | "drag" | "point" | "trace" | "untrace" => "a point",
-        "let" => "a parameter",
-        "set" if is_first => "a setting",
-        "off" | "on" => "a constraint",
-        "help" => "a command",
-        "use" | "define" if is_first => "a definition",
-        _ if constraint::rule(verb).is_some() => "a point",
-        _ => "a name",
-    }
-}
-
-/// How a mark is written, or a clause begins; nothing for a keyword.
-fn token(rule: Rule) -> Option<&'static str> {
-    Some(match rule {
-        Rule::comma => ",",
-        Rule::colon => ":",
-        Rule::dots => "..",
-        Rule::equals => "=",
-        Rule::less => "<",
-        Rule::less_equal => "<=",
-        Rule::greater => ">",
-        Rule::greater_equal => ">=",
-        Rule::open_paren | Rule::parameters => "(",
-        Rule::close_paren => ")",
-        Rule::close_bracket => "]",
-        _ => return None,
-    })
-}
-
-/// The word of a keyword's rule, or the one that a clause begins with.
-fn keyword(rule: Rule) -> Option<&'static str> {
-    Some(match rule {
-        Rule::radius | Rule::kw_radius => "radius",
-        Rule::speed | Rule::kw_speed => "speed",
-        Rule::phase | Rule::kw_phase => "phase",
-        Rule::at | Rule::kw_at => "at",
-        Rule::ratio | Rule::kw_ratio => "ratio",
-        Rule::every | Rule::kw_every => "every",
-        Rule::within | Rule::kw_within => "within",
-        Rule::in_time | Rule::kw_in => "in",
-        Rule::kw_frozen => "frozen",
-        Rule::kw_to => "to",
-        Rule::kw_over => "over",
-        Rule::kw_on => "on",
-        Rule::kw_unbounded => "unbounded",
-        Rule::kw_inside => "inside",
-        Rule::kw_cascade => "cascade",
-        Rule::kw_for => "for",
-        Rule::kw_stop => "stop",
-        Rule::kw_off => "off",
-        Rule::kw_as => "as",
-        Rule::kw_all => "all",
-        Rule::kw_add => "add",
-        _ => return None,
-    })
 }

@@ -6,11 +6,15 @@
 
 mod constraint;
 mod cursor;
+mod expected;
 mod expr;
 mod mistake;
 mod opening;
 mod refusal;
 mod verb;
+
+#[cfg(test)]
+mod tests;
 
 use std::ops::Range;
 
@@ -175,7 +179,7 @@ impl<'a> Reader<'a> {
     fn state_of_unclosed(&self, start: usize, outermost: usize) -> State {
         let end = self.text.len();
         if self.text.as_bytes()[outermost] == b'{' {
-            let head = start..self.text[..outermost].trim_end().len();
+            let head = start..self.text[..outermost].trim_end().len().max(start);
             let piece = Piece { head, block: Some(end..end), whole: start..end };
             if self.statement(&piece).is_err() {
                 return State::Broken;

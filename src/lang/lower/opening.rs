@@ -7,6 +7,7 @@ use crate::lang::ast::Name;
 use crate::lang::catalogue;
 
 use super::grammar::Rule;
+use super::mistake::brief;
 use super::{Reader, constraint, verb};
 
 /// What stands in front of a verb.
@@ -72,7 +73,7 @@ impl<'a> Reader<'a> {
         if !text[colon..].starts_with(":=") {
             return None;
         }
-        let name = text[..colon].trim_end();
+        let name = brief(text[..colon].trim_end());
         let span = self.span(start + colon..start + colon + 2);
         Some(
             Diagnostic::error("unexpected `:=`")
@@ -91,12 +92,14 @@ impl<'a> Reader<'a> {
         let is_assigned = assigned_name(text);
         if let Some(name) = is_assigned {
             let span = self.span(range.start..range.start + name.len());
+            let name = brief(name);
             return Diagnostic::error(format!("`{name} = ...` is not a statement"))
                 .at(span, "expected a command")
                 .help(format!("to define a parameter, write `let {name} = ...`"))
                 .help(format!("to declare a point, write `point {name} = (x, y)`"));
         }
-        let problem = Diagnostic::error(format!("unknown command `{word}`"));
+        let shown = brief(word);
+        let problem = Diagnostic::error(format!("unknown command `{shown}`"));
         let expects_constraint = prefix.label.is_some() || prefix.add.is_some();
         let problem = problem
             .at(span, if expects_constraint { "expected a constraint" } else { "not a command" });
@@ -109,10 +112,10 @@ impl<'a> Reader<'a> {
         match near.or_else(|| other_tongue(word)) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.is_empty() => {
-                problem.help(format!("to see what it is worth, write `print {word}`"))
+                problem.help(format!("to see what it is worth, write `print {shown}`"))
             }
             None if rest.starts_with('(') => {
-                problem.help(format!("to make what a definition says, write `use {word}(...)`"))
+                problem.help(format!("to make what a definition says, write `use {shown}(...)`"))
             }
             None => problem.help("`help` lists the commands"),
         }

@@ -5,6 +5,7 @@ use crate::lang::ast::{Function, Ident};
 use crate::lang::layout::{Flaw, MAX_NESTING};
 
 use super::Reader;
+use super::mistake::brief;
 
 impl Reader<'_> {
     pub fn flaw(&self, flaw: Flaw) -> Diagnostic {
@@ -49,18 +50,6 @@ impl Reader<'_> {
         }
     }
 
-    pub fn refuse_reserved(&self, ident: &Ident) -> Result<(), Diagnostic> {
-        let meaning = match &*ident.text {
-            "pi" => "3.14159...",
-            "tau" => "6.28318...",
-            "time" => "the clock",
-            _ => return Ok(()),
-        };
-        Err(Diagnostic::error(format!("`{}` is a reserved name", ident.text))
-            .at(ident.span, format!("always {meaning}"))
-            .help("choose another name"))
-    }
-
     pub fn missing_block(&self, verb: &str, end: usize) -> Diagnostic {
         let end = self.text[..end].trim_end().len();
         Diagnostic::error(format!("`{verb}` has no block"))
@@ -74,101 +63,112 @@ impl Reader<'_> {
             .help("a block belongs to `for` and `define` only")
     }
 
-    pub fn too_long(&self, span: Span) -> Diagnostic {
-        Diagnostic::error("the expression is too long or too deeply nested")
-            .at(span, "")
-            .help("give a part of it a name with `let`")
-    }
-
-    pub fn too_large(&self, span: Span) -> Diagnostic {
-        Diagnostic::error("the number is too large").at(span, "beyond 1.7976931348623157e308")
-    }
-
-    pub fn twice(&self, word: &str, first: Span, second: Span) -> Diagnostic {
-        Diagnostic::error(format!("`{word}` is given twice"))
-            .at(second, "the second time")
-            .also(first, "the first time")
-    }
-
-    pub fn part_twice(&self, first: Span, second: Span) -> Diagnostic {
-        Diagnostic::error("the same part is changed twice")
-            .at(second, "the second time")
-            .also(first, "the first time")
-    }
-
-    pub fn parameter_twice(&self, first: &Ident, second: &Ident) -> Diagnostic {
-        Diagnostic::error(format!("two parameters are called `{}`", second.text))
-            .at(second.span, "the second one")
-            .also(first.span, "the first one")
-    }
-
     pub fn unknown_escape(&self, at: usize, escaped: char) -> Diagnostic {
         let span = self.span(at..at + 1 + escaped.len_utf8());
         Diagnostic::error(format!("unknown escape `\\{escaped}`"))
             .at(span, "expected `\\\"`, `\\\\` or `\\n`")
             .help("for a backslash write `\\\\`; in a path use `/`")
     }
+}
 
-    pub fn no_parts(&self, word: &Ident, span: Span) -> Diagnostic {
-        Diagnostic::error(format!("`{}` is a number and has no parts", word.text)).at(span, "")
-    }
+pub(super) fn reserved(ident: &Ident) -> Result<(), Diagnostic> {
+    let meaning = match &*ident.text {
+        "pi" => "3.14159...",
+        "tau" => "6.28318...",
+        "time" => "the clock",
+        _ => return Ok(()),
+    };
+    Err(Diagnostic::error(format!("`{}` is a reserved name", ident.text))
+        .at(ident.span, format!("always {meaning}"))
+        .help("choose another name"))
+}
 
-    pub fn no_component(&self, member: &str, span: Span) -> Diagnostic {
-        Diagnostic::error(format!("a vector has no part `{member}`"))
-            .at(span, "expected `.x` or `.y`")
-    }
+pub(super) fn too_long(span: Span) -> Diagnostic {
+    Diagnostic::error("the expression is too long or too deeply nested")
+        .at(span, "")
+        .help("give a part of it a name with `let`")
+}
 
-    pub fn not_a_function(&self, span: Span) -> Diagnostic {
-        Diagnostic::error("only a function can be called")
-            .at(span, "a name, not a function")
-            .help("to multiply, write `*` before the parenthesis")
-    }
+pub(super) fn too_large(span: Span) -> Diagnostic {
+    Diagnostic::error("the number is too large").at(span, "beyond 1.7976931348623157e308")
+}
 
-    pub fn unknown_function(&self, word: &Ident) -> Diagnostic {
-        let problem = Diagnostic::error(format!("unknown function `{}`", word.text))
-            .at(word.span, "not a function");
-        let near = match &*word.text {
-            "log" => Some("ln"),
-            "pow" => return problem.help("a power is written `a^b`"),
-            "length" | "len" | "magnitude" => Some("norm"),
-            "deg" | "degrees" | "radians" => {
-                return problem.help("an angle in degrees is written `90deg`");
-            }
-            "arctan" => Some("atan"),
-            "arcsin" => Some("asin"),
-            "arccos" => Some("acos"),
-            word => nearest(word, Function::ALL.map(Function::name)),
-        };
-        match near {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem
-                .help("`help functions` lists them")
-                .help(format!("to multiply, write `{} * (...)`", word.text)),
+pub(super) fn twice(word: &str, first: Span, second: Span) -> Diagnostic {
+    Diagnostic::error(format!("`{word}` is given twice"))
+        .at(second, "the second time")
+        .also(first, "the first time")
+}
+
+pub(super) fn part_twice(first: Span, second: Span) -> Diagnostic {
+    Diagnostic::error("the same part is changed twice")
+        .at(second, "the second time")
+        .also(first, "the first time")
+}
+
+pub(super) fn parameter_twice(first: &Ident, second: &Ident) -> Diagnostic {
+    Diagnostic::error(format!("two parameters are called `{}`", brief(&second.text)))
+        .at(second.span, "the second one")
+        .also(first.span, "the first one")
+}
+
+pub(super) fn no_parts(word: &Ident, span: Span) -> Diagnostic {
+    Diagnostic::error(format!("`{}` is a number and has no parts", word.text)).at(span, "")
+}
+
+pub(super) fn no_component(member: &str, span: Span) -> Diagnostic {
+    Diagnostic::error(format!("a vector has no part `{}`", brief(member)))
+        .at(span, "expected `.x` or `.y`")
+}
+
+pub(super) fn not_a_function(span: Span) -> Diagnostic {
+    Diagnostic::error("only a function can be called")
+        .at(span, "a name, not a function")
+        .help("to multiply, write `*` before the parenthesis")
+}
+
+pub(super) fn unknown_function(word: &Ident) -> Diagnostic {
+    let shown = brief(&word.text);
+    let problem =
+        Diagnostic::error(format!("unknown function `{shown}`")).at(word.span, "not a function");
+    let near = match &*word.text {
+        "log" => Some("ln"),
+        "pow" => return problem.help("a power is written `a^b`"),
+        "length" | "len" | "magnitude" => Some("norm"),
+        "deg" | "degrees" | "radians" => {
+            return problem.help("an angle in degrees is written `90deg`");
         }
+        "arctan" => Some("atan"),
+        "arcsin" => Some("asin"),
+        "arccos" => Some("acos"),
+        word => nearest(word, Function::ALL.map(Function::name)),
+    };
+    match near {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem
+            .help("`help functions` lists them")
+            .help(format!("to multiply, write `{shown} * (...)`")),
     }
+}
 
-    pub fn wrong_count(&self, function: Function, n: usize, span: Span) -> Diagnostic {
-        let name = function.name();
-        let given = match n {
-            0 => "none is given".to_owned(),
-            1 => "1 is given".to_owned(),
-            _ => format!("{n} are given"),
-        };
-        let usages: Vec<_> = function.usages().iter().map(|usage| format!("`{usage}`")).collect();
-        Diagnostic::error(format!("wrong number of arguments of `{name}`"))
-            .at(span, given)
-            .help(format!("usage: {}", usages.join(" or ")))
-    }
+pub(super) fn wrong_count(function: Function, n: usize, span: Span) -> Diagnostic {
+    let name = function.name();
+    let given = match n {
+        0 => "none is given".to_owned(),
+        1 => "1 is given".to_owned(),
+        _ => format!("{n} are given"),
+    };
+    let usages: Vec<_> = function.usages().iter().map(|usage| format!("`{usage}`")).collect();
+    Diagnostic::error(format!("wrong number of arguments of `{name}`"))
+        .at(span, given)
+        .help(format!("usage: {}", usages.join(" or ")))
+}
 
-    pub fn unknown_list(&self, word: &Ident, known: &[&str]) -> Diagnostic {
-        let problem = Diagnostic::error(format!("there is no list of `{}`", word.text)).at(
-            word.span,
-            "expected `points`, `constraints`, `traces`, `parameters` or `definitions`",
-        );
-        match nearest(&word.text, known.iter().copied()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem.help(format!("to see one thing, write `show {}`", word.text)),
-        }
+pub(super) fn unknown_list(word: &Ident, known: &[&str]) -> Diagnostic {
+    let problem = Diagnostic::error(format!("there is no list of `{}`", brief(&word.text)))
+        .at(word.span, "expected `points`, `constraints`, `traces`, `parameters` or `definitions`");
+    match nearest(&word.text, known.iter().copied()) {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem.help(format!("to see one thing, write `show {}`", brief(&word.text))),
     }
 }
 

@@ -11,6 +11,7 @@ use crate::lang::ast::{
 use super::constraint;
 use super::cursor::Cursor;
 use super::grammar::Rule;
+use super::refusal;
 
 /// The rule that reads statements beginning with `word`.
 pub(super) fn rule(word: &str) -> Option<Rule> {
@@ -173,7 +174,7 @@ fn change_parts(c: &mut Cursor) -> Result<Vec<ChangePart>, Diagnostic> {
     let mut seen: Vec<(Rule, Span)> = Vec::new();
     while let Some((rule, span)) = c.peek_span() {
         if let Some((_, first)) = seen.iter().find(|(known, _)| *known == rule) {
-            return Err(c.reader.part_twice(*first, span));
+            return Err(refusal::part_twice(*first, span));
         }
         seen.push((rule, span));
         parts.push(match rule {
@@ -247,7 +248,7 @@ fn parameters(c: &mut Cursor) -> Result<Vec<Ident>, Diagnostic> {
     while inner.peek() == Some(Rule::ident) {
         let parameter = inner.declared_ident()?;
         if let Some(first) = parameters.iter().find(|known| **known == parameter) {
-            return Err(c.reader.parameter_twice(first, &parameter));
+            return Err(refusal::parameter_twice(first, &parameter));
         }
         parameters.push(parameter);
     }
@@ -257,5 +258,5 @@ fn parameters(c: &mut Cursor) -> Result<Vec<Ident>, Diagnostic> {
 fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {
     let Some(word) = c.ident_if_any() else { return Ok(None) };
     let what = ListWhat::ALL.into_iter().find(|what| what.word() == &*word.text);
-    what.map(Some).ok_or_else(|| c.reader.unknown_list(&word, &ListWhat::ALL.map(ListWhat::word)))
+    what.map(Some).ok_or_else(|| refusal::unknown_list(&word, &ListWhat::ALL.map(ListWhat::word)))
 }

@@ -4,11 +4,6 @@ use super::elimination::{self, ROOT};
 use super::graph::{Graph, Lists, inverse, lower_triangle};
 use super::order::minimum_degree;
 
-/// A row is dependent if, of its length 1, no more than this is left once everything earlier
-/// rows account for is rotated away. Dependent rows of sound scenes leave less than 1e-12,
-/// independent ones more than 1e-2; a larger bound would call near-singular poses redundant.
-const NOTHING_LEFT: f64 = 1e-9;
-
 /// An entry smaller than this is the rounding of a 0: not worth a rotation.
 const NOISE: f64 = 1e-15;
 
@@ -27,18 +22,25 @@ pub struct RowBasis {
     rows: Vec<[Option<Vec<[f64; 2]>>; 2]>,
     /// The row at work, by places; 0 between rows.
     work: Vec<[f64; 2]>,
+    /// What may be left of a dependent row.
+    tolerance: f64,
 }
 
 impl RowBasis {
     /// No rows yet; each of `rows` lists the points of a row that may come.
-    pub fn new<'a>(n_points: usize, rows: impl Iterator<Item = &'a [u32]>) -> Self {
+    ///
+    /// A row is dependent if, of its length 1, no more than `tolerance` is left once all that
+    /// earlier rows account for is rotated away. Dependent rows of sound scenes leave less
+    /// than 1e-12, independent ones more than 1e-2.
+    pub fn new<'a>(n_points: usize, rows: impl Iterator<Item = &'a [u32]>, tolerance: f64) -> Self {
         let graph = Graph::new(n_points, rows);
         let order = minimum_degree(&graph);
         let lower = lower_triangle(&graph, &order);
         let parent = elimination::tree(&lower);
         let reach = elimination::fill(&lower, &parent).transposed();
         let rows = vec![[None, None]; n_points];
-        Self { place: inverse(&order), parent, reach, rows, work: vec![[0.0; 2]; n_points] }
+        let work = vec![[0.0; 2]; n_points];
+        Self { place: inverse(&order), parent, reach, rows, work, tolerance }
     }
 
     /// Adds a row of length 1, with (x, y) in `values` for each of its `points`; false if it
@@ -61,7 +63,7 @@ impl RowBasis {
                 } else if self.is_nothing_left(place) {
                     self.discard(place);
                     return false;
-                } else if self.work[place][half].abs() < NOTHING_LEFT {
+                } else if self.work[place][half].abs() <= self.tolerance {
                     self.work[place][half] = 0.0;
                 } else {
                     let places = [place].into_iter().chain(self.reach_of(place));
@@ -83,7 +85,7 @@ impl RowBasis {
     fn is_nothing_left(&self, place: usize) -> bool {
         let places = [place].into_iter().chain(self.reach_of(place));
         let squared: f64 = places.flat_map(|p| self.work[p]).map(|v| v * v).sum();
-        squared <= NOTHING_LEFT * NOTHING_LEFT
+        squared <= self.tolerance * self.tolerance
     }
 
     fn discard(&mut self, place: usize) {

@@ -1,0 +1,42 @@
+//! Equal vectors and parallels: the same number of chevrons on each.
+
+use super::Draw;
+use super::bar::Span;
+use crate::constraint::{Point, PointIdx};
+use crate::render::figure::Layer;
+use crate::render::ink::Ink;
+use crate::render::path::Path;
+use crate::render::style::Class;
+
+/// Two segments of one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arrows {
+    /// Start and end of the one, start and end of the other.
+    pub points: [PointIdx; 4],
+    /// How many chevrons each gets.
+    pub n_chevrons: u8,
+}
+
+impl Draw for Arrows {
+    fn points(&self) -> Vec<PointIdx> {
+        self.points.to_vec()
+    }
+
+    fn draw(&self, ink: &mut Ink) {
+        let (length, half, gap) = (ink.size(6.5), ink.size(7.5), ink.size(6.0));
+        let [a, b, c, d] = self.points;
+        for (p, q) in [(a, b), (c, d)] {
+            let middle = Span::between(ink, p, q).middle();
+            let mut chevrons = Path::default();
+            for k in 0..self.n_chevrons {
+                let tip =
+                    0.5 * length + gap * (f64::from(k) - 0.5 * f64::from(self.n_chevrons - 1));
+                chevrons
+                    .move_to(Point::new(tip - length, -half))
+                    .line_to(Point::new(tip, 0.0))
+                    .line_to(Point::new(tip - length, half));
+            }
+            ink.figure(Layer::Mark, middle).path(Class::Mark, chevrons);
+        }
+    }
+}

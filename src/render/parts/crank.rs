@@ -1,0 +1,89 @@
+//! A motor: a disc with an arrow and the crank it drives.
+
+use super::Draw;
+use super::bar::{Span, arrow_head, outlined};
+use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::figure::{Figure, Layer, Placement};
+use crate::render::ink::Ink;
+use crate::render::page::Extent;
+use crate::render::path::Path;
+use crate::render::style::{Class, MOTOR};
+use std::f64::consts::FRAC_PI_2;
+
+/// Which way a motor turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sense {
+    /// The mathematical sense.
+    CounterClockwise,
+    /// The other one.
+    Clockwise,
+    /// It stands.
+    Still,
+}
+
+impl Sense {
+    /// That of an angular speed.
+    pub fn of(speed: f64) -> Self {
+        if speed > 0.0 {
+            Self::CounterClockwise
+        } else if speed < 0.0 {
+            Self::Clockwise
+        } else {
+            Self::Still
+        }
+    }
+}
+
+/// A motor and its crank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Crank {
+    /// The centre and the point driven around it.
+    pub points: [PointIdx; 2],
+    /// Which way it turns.
+    pub sense: Sense,
+    /// Whether another motor's disc is there already.
+    pub is_bare: bool,
+}
+
+impl Draw for Crank {
+    fn points(&self) -> Vec<PointIdx> {
+        self.points.to_vec()
+    }
+
+    fn extend(&self, at: &[Point], extent: &mut Extent) {
+        let [o, p] = self.points.map(|p| at[p as usize]);
+        extent.include_circle(o, o.distance(p));
+    }
+
+    fn draw(&self, ink: &mut Ink) {
+        let [o, p] = self.points;
+        let span = Span::between(ink, o, p);
+        let radius = ink.size(MOTOR);
+        let centre = Placement::at(ink.px(o));
+        ink.figure(Layer::Construction, centre).circle(Class::Orbit, Point::ORIGIN, span.length);
+        outlined(ink, &span, [Class::CrankEdge, Class::Crank]);
+        if !self.is_bare {
+            let disc = ink.figure(Layer::Drive, centre).circle(Class::Motor, Point::ORIGIN, radius);
+            arrow(disc, self.sense, 1.8 * radius);
+        }
+    }
+}
+
+/// An arrow over the top of the origin.
+fn arrow(figure: &mut Figure, sense: Sense, radius: f64) {
+    /// From the vertical to either end, radians.
+    const HALF: f64 = 1.1;
+    let forward = match sense {
+        Sense::CounterClockwise => -1.0,
+        Sense::Clockwise => 1.0,
+        Sense::Still => return,
+    };
+    // Page angles grow clockwise from the right: straight up is a quarter turn back.
+    let (from, tip) = (-FRAC_PI_2 - forward * HALF, -FRAC_PI_2 + forward * HALF);
+    let head = 0.5 * radius;
+    // The line ends within the head, which lies along a chord of the arc.
+    figure.path(Class::Turn, Path::arc(radius, from, tip - forward * 0.6 * head / radius));
+    let direction = Vector::polar(1.0, tip - forward * 0.5 * head / radius).perp() * forward;
+    let tip = Vector::polar(radius, tip).to_point();
+    figure.path(Class::TurnHead, arrow_head(tip, direction, head));
+}

@@ -1,0 +1,37 @@
+//! A telescope: a length between two bounds, or one that is driven.
+
+use super::Draw;
+use super::bar::{Span, outlined};
+use crate::constraint::PointIdx;
+use crate::render::figure::Layer;
+use crate::render::ink::Ink;
+use crate::render::path::Path;
+use crate::render::style::Class;
+
+/// A bar of two stages that slide in one another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Telescope {
+    /// Its ends: the outer stage hangs on the first, the inner one on the second.
+    pub points: [PointIdx; 2],
+    /// The length of the outer stage, world units: the least length it allows.
+    pub outer: f64,
+}
+
+impl Draw for Telescope {
+    fn points(&self) -> Vec<PointIdx> {
+        self.points.to_vec()
+    }
+
+    fn draw(&self, ink: &mut Ink) {
+        let [a, b] = self.points;
+        let span = Span::between(ink, a, b);
+        // Some of the inner stage always shows, and the outer one is never a stump, so that
+        // the two can be told apart whatever the bounds.
+        let outer = ink.page.length(self.outer).clamp(0.35 * span.length, 0.72 * span.length);
+        let sleeve = Span { length: outer, ..span };
+        ink.figure(Layer::Bar, span.placement)
+            .path(Class::PistonEdge, Path::along_x(outer, span.length))
+            .path(Class::Piston, Path::along_x(outer, span.length));
+        outlined(ink, &sleeve, [Class::RodEdge, Class::Rod]);
+    }
+}

@@ -1,0 +1,73 @@
+//! The samples of a path, shared between the frames of a recording.
+
+use std::cell::{Ref, RefCell};
+use std::rc::Rc;
+
+use crate::world::Sample;
+
+/// The first `n` samples of a list that only ever grows, so that a thousand frames of a path
+/// take the room of one.
+#[derive(Debug, Clone)]
+pub struct Samples {
+    list: Rc<RefCell<Vec<Sample>>>,
+    n: usize,
+}
+
+impl Samples {
+    /// A list of its own.
+    pub fn new(samples: &[Sample]) -> Self {
+        Self { n: samples.len(), list: Rc::new(RefCell::new(samples.to_vec())) }
+    }
+
+    /// These samples and what `samples` has beyond them; none unless it begins with these.
+    /// Paths are cut short or grow, so that the last sample answers for those before.
+    pub fn grown(&self, samples: &[Sample]) -> Option<Self> {
+        if samples.len() < self.n {
+            return None;
+        }
+        if self.n > 0 && self.list.borrow()[self.n - 1] != samples[self.n - 1] {
+            return None;
+        }
+        let mut list = self.list.borrow_mut();
+        // Another scene may have grown the same list in another way.
+        let n_known = list.len().min(samples.len());
+        if list[self.n..n_known] != samples[self.n..n_known] {
+            return None;
+        }
+        list.extend_from_slice(&samples[n_known..]);
+        Some(Self { list: self.list.clone(), n: samples.len() })
+    }
+
+    /// How many there are.
+    pub const fn len(&self) -> usize {
+        self.n
+    }
+
+    /// The samples, in order of time.
+    pub fn get(&self) -> Ref<'_, [Sample]> {
+        Ref::map(self.list.borrow(), |list| &list[..self.n])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::Point;
+
+    fn samples(xs: &[f64]) -> Vec<Sample> {
+        xs.iter().map(|&x| Sample { at: Point::new(x, 0.0), missed: false }).collect()
+    }
+
+    #[test]
+    fn growing_shares_and_another_past_does_not() {
+        let one = Samples::new(&samples(&[1.0, 2.0]));
+        let two = one.grown(&samples(&[1.0, 2.0, 3.0])).expect("it begins with these");
+        assert!(Rc::ptr_eq(&two.list, &one.list));
+        assert_eq!((one.get().len(), two.get().len()), (2, 3));
+        assert!(one.grown(&samples(&[1.0, 5.0, 6.0])).is_none());
+        assert!(one.grown(&samples(&[1.0])).is_none());
+        // The list went on with 3 already: a path that went on otherwise needs its own.
+        assert!(one.grown(&samples(&[1.0, 2.0, 9.0])).is_none());
+        assert_eq!(*one.get(), samples(&[1.0, 2.0])[..]);
+    }
+}

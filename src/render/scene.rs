@@ -1,0 +1,122 @@
+//! A scene: the parts of a mechanism, where its points are, and what they left behind.
+
+use std::rc::Rc;
+
+use super::curve::Curve;
+use super::page::Extent;
+use super::parts::{Form, Part};
+use super::plan;
+use crate::constraint::Point;
+use crate::world::{Ghost, World};
+
+/// What is to be drawn, as plain data that owes nothing to the world it came from.
+///
+/// A copy is cheap: what does not change is shared.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub(super) pose: Pose,
+    /// The same at other times, the oldest first.
+    pub(super) ghosts: Vec<Rc<Pose>>,
+    pub(super) curves: Vec<Curve>,
+}
+
+/// Parts and where the points are that they hang on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pose {
+    /// What is drawn.
+    pub parts: Rc<[Part]>,
+    /// Positions by handle; those of points that do not live mean nothing.
+    pub at: Rc<[Point]>,
+}
+
+impl Scene {
+    /// The scene of a world as it stands.
+    pub fn new(world: &World) -> Self {
+        let pose = Pose::of(world);
+        let ghosts = world.ghosts().iter().map(|ghost| pose.exposed(ghost, world)).collect();
+        let curves = world.traces().iter().enumerate();
+        let curves = curves.map(|(k, trace)| Curve::of(k, trace, world)).collect();
+        Self { pose, ghosts, curves }
+    }
+
+    /// The scene of the same world somewhat later. It shares with this one what did not
+    /// change: frames of a recording made this way take the room of their positions.
+    #[must_use]
+    pub fn next(&self, world: &World) -> Self {
+        let mut pose = Pose::of(world);
+        if pose.parts == self.pose.parts {
+            pose.parts = self.pose.parts.clone();
+        }
+        let n_same = self.n_same_ghosts(world);
+        let mut ghosts = self.ghosts[..n_same].to_vec();
+        ghosts.extend(world.ghosts()[n_same..].iter().map(|ghost| pose.exposed(ghost, world)));
+        let curves = world.traces().iter().enumerate().map(|(k, trace)| {
+            let grown = self.curves.get(k).and_then(|curve| curve.grown(trace));
+            grown.unwrap_or_else(|| Curve::of(k, trace, world))
+        });
+        Self { pose, ghosts, curves: curves.collect() }
+    }
+
+    /// How many of the ghosts are still those of a later world.
+    fn n_same_ghosts(&self, world: &World) -> usize {
+        let n = self.ghosts.len().min(world.ghosts().len());
+        let is_last_same = n > 0
+            && world.ghosts()[n - 1].at.iter().all(|(id, place)| {
+                self.ghosts[n - 1].at.get(id.idx()).is_none_or(|at| at == place)
+            });
+        if is_last_same { n } else { 0 }
+    }
+
+    /// Grows the box to hold ghosts and paths, those that `later` holds too excepted.
+    pub(super) fn extend_by_past(&self, later: Option<&Self>, extent: &mut Extent) {
+        for (k, ghost) in self.ghosts.iter().enumerate() {
+            let same = later.and_then(|scene| scene.ghosts.get(k));
+            if same.is_none_or(|other| other != ghost) {
+                ghost.extend(extent);
+            }
+        }
+        for (k, curve) in self.curves.iter().enumerate() {
+            let same = later.and_then(|scene| scene.curves.get(k));
+            if same.is_none_or(|other| !curve.is_continued_by(other)) {
+                curve.extend(extent);
+            }
+        }
+    }
+}
+
+impl Pose {
+    /// A world as it stands.
+    fn of(world: &World) -> Self {
+        Self { parts: plan::parts(world).into(), at: world.points().column().into() }
+    }
+
+    /// The same parts where they were, without those that had not all their points then, and
+    /// without those that cannot have been elsewhere.
+    fn exposed(&self, ghost: &Ghost, world: &World) -> Rc<Self> {
+        let mut at = vec![None; self.at.len()];
+        for (id, place) in &ghost.at {
+            if let Some(slot) = at.get_mut(id.idx()) {
+                *slot = Some(*place);
+            }
+        }
+        let is_seen = |part: &&Part| {
+            let points = part.points();
+            let is_whole = points.iter().all(|&p| at[p as usize].is_some());
+            let can_move =
+                points.iter().any(|&p| !world.points().is_frozen(crate::world::PointId(p)));
+            is_whole && can_move && !matches!(part.form, Form::Construction(_))
+        };
+        let parts = self.parts.iter().filter(is_seen).cloned().collect();
+        Rc::new(Self { parts, at: at.into_iter().map(Option::unwrap_or_default).collect() })
+    }
+
+    /// Grows the box to hold it.
+    pub fn extend(&self, extent: &mut Extent) {
+        self.parts.iter().for_each(|part| part.extend(&self.at, extent));
+    }
+
+    /// The length of each bar, world units.
+    pub fn bar_lengths(&self) -> impl Iterator<Item = f64> {
+        self.parts.iter().filter_map(|part| part.bar_length(&self.at))
+    }
+}
