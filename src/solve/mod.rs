@@ -10,6 +10,7 @@ pub mod mobility;
 
 // What the methods work on.
 mod ends;
+mod fingerprint;
 mod history;
 mod island;
 mod memory;
@@ -39,6 +40,7 @@ mod pass;
 mod settings;
 mod solver;
 mod status;
+mod visit;
 
 pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
