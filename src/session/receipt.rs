@@ -123,7 +123,7 @@ impl Summary {
             format_rounded(self.worst_residual)
         );
         // Writing to a string cannot fail.
-        if let Some(error) = self.position_error {
+        if let Some(error) = self.position_error.filter(|error| *error > 0.0) {
             let _ = write!(text, ", position error about {}", format_rounded(error));
         }
         if self.n_missed > 0 {
