@@ -37,6 +37,7 @@ pub(super) mod what {
 impl Session {
     pub(super) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
         let file = self.output_file(path)?;
+        self.note_memory();
         let text = self.to_script();
         self.hand_over(file, text.into_bytes(), path.span);
         Ok(())
@@ -44,7 +45,7 @@ impl Session {
 
     /// The script that makes this world, its settings and its state.
     pub fn to_script(&mut self) -> String {
-        self.attend();
+        self.take_in();
         let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {

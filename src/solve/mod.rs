@@ -11,6 +11,7 @@ pub mod mobility;
 // What the methods work on.
 mod ends;
 mod footprint;
+mod fingerprint;
 mod history;
 mod island;
 mod memory;
@@ -33,12 +34,14 @@ mod newton;
 mod relaxation;
 mod struggle;
 mod successive;
+mod sweep;
 
 // Their face.
 mod pass;
 mod settings;
 mod solver;
 mod status;
+mod visit;
 
 pub use footprint::{Effect, is_inequality, is_wheel};
 pub use memory::Memory;
