@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::island::Island;
 use super::memory::{self, Memory};
 use super::rates;
 use super::settings::{Method, Settings};
