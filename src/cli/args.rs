@@ -24,6 +24,23 @@ pub struct Arguments {
 pub enum Command {
     /// Run scripts, one after the other, each in a world of its own.
     Run(Batch),
+    /// Run a script and examine what is there at its end: freedoms, redundant and conflicting
+    /// constraints, singular poses. Exit status 1 if something conflicts.
+    Check(Examination),
+}
+
+/// A script to be examined.
+#[derive(Debug, Args)]
+pub struct Examination {
+    /// The script; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Print the findings as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub outside: Outside,
 }
 
 /// Scripts to run.

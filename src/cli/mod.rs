@@ -1,6 +1,7 @@
 //! The command line: arguments, exit statuses, files, signals.
 
 mod args;
+mod check;
 mod files;
 pub(crate) mod interrupt;
 mod outside;
@@ -14,6 +15,7 @@ pub fn run() -> ExitCode {
     let args = args::parse();
     match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
+        Some(args::Command::Check(examination)) => check::script(&examination),
         None => run::session(&args.session),
     }
 }

@@ -12,7 +12,7 @@ use crate::session::{Flow, Session};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Status {
+pub(super) enum Status {
     Fine = 0,
     BrokenPromise = 1,
     Mistake = 2,
@@ -41,7 +41,7 @@ impl From<Status> for ExitCode {
 pub fn batch(batch: &Batch) -> ExitCode {
     interrupt::listen();
     for file in &batch.files {
-        let status = script(file, &batch.outside);
+        let (status, _) = script(file, &batch.outside);
         if status != Status::Fine {
             talk::flush();
             return status.into();
@@ -51,7 +51,8 @@ pub fn batch(batch: &Batch) -> ExitCode {
     Status::Fine.into()
 }
 
-fn script(file: &Path, outside: &Outside) -> Status {
+/// Runs a script; gives what there is at its end, if it could be read.
+pub(super) fn script(file: &Path, outside: &Outside) -> (Status, Option<Session>) {
     let (name, text, folder) = if file == Path::new("-") {
         let mut bytes = Vec::new();
         let read = io::stdin().lock().read_to_end(&mut bytes).and_then(|_| {
@@ -71,7 +72,7 @@ fn script(file: &Path, outside: &Outside) -> Status {
                 e.to_string()
             };
             eprintln!("error: cannot read `{name}`: {why}");
-            return Status::Unreadable;
+            return (Status::Unreadable, None);
         }
     };
     let mut session = begin(outside);
@@ -89,14 +90,14 @@ fn script(file: &Path, outside: &Outside) -> Status {
             if let Err(problem) = session.finish() {
                 talk::show(&problem, session.sources());
             }
-            return Status::of(&problem);
+            return (Status::of(&problem), Some(session));
         }
     };
     for name in session.unused_overrides() {
         talk::flush();
         eprintln!("warning: no `let` took `--set {name}`");
     }
-    status
+    (status, Some(session))
 }
 
 fn begin(outside: &Outside) -> Session {

@@ -1,13 +1,10 @@
-//! Questions that take some work: `limits`, `effects`, `accuracy`.
+//! Questions that take some work: `effects`, `accuracy`.
 
 use super::{Diagnostic, Session};
 use crate::diag::Span;
-use crate::lang::ast::{Name, Promise};
+use crate::lang::ast::Promise;
 
 impl Session {
-    pub(super) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        Err(Diagnostic::error("`limits` is not there yet").at(name.span, ""))
-    }
     pub(super) fn effects(&mut self) -> Result<(), Diagnostic> {
         Err(Diagnostic::error("`effects` is not there yet"))
     }

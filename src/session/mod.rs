@@ -15,6 +15,7 @@ mod diagnose;
 mod host;
 mod journal;
 mod limits;
+mod limits_of;
 mod look;
 mod perform;
 mod pictures;
@@ -25,6 +26,7 @@ mod run;
 mod save;
 mod scope;
 mod settings;
+mod subject;
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;

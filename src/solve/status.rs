@@ -15,6 +15,16 @@ pub enum Status {
 }
 
 impl Status {
+    /// One word for it, for other programs.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::BestFit => "best-fit",
+            Self::Stalled => "stalled",
+            Self::Unsatisfiable => "unsatisfiable",
+        }
+    }
+
     /// What it means, in the user's words.
     pub const fn phrase(self) -> &'static str {
         match self {

@@ -9,12 +9,17 @@ mod dependence;
 mod freedom;
 mod pose;
 mod projector;
+mod range;
+mod repair;
 mod scene;
 mod settle;
+mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
 pub use pose::Pose;
+pub use range::{End, Range, Reach, dead_end, range};
+pub use repair::repair;
 pub use scene::Scene;
 
 use dependence::dependences;
