@@ -9,6 +9,7 @@ mod bind;
 mod blocks;
 mod change;
 mod constrain;
+mod dead_point;
 mod delete;
 mod describe;
 mod diagnose;
@@ -33,7 +34,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use bind::evaluate_constant;
-pub use diagnose::Check;
+pub use dead_point::AtDeadPoint;
+pub use diagnose::{Check, Unsatisfiable};
 pub use host::{Host, Nowhere};
 pub use run::Summary;
 pub use settings::Preferences;

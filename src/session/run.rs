@@ -1,5 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
+use super::dead_point::Next;
 use super::{Diagnostic, Flow, Session};
 use crate::constraint::{Point, Vector};
 use crate::diag::{Kind, Span, format_number};
@@ -26,6 +27,10 @@ pub struct Summary {
     pub lowered_rho: Option<f64>,
     /// The tolerance that was asked for.
     pub tolerance: f64,
+    /// Frames after which something may be on another branch of its motion.
+    pub n_turned_over: u64,
+    /// The first of them, as the clock counts, and a point that changed sides.
+    pub first_turned_over: Option<(u64, PointId)>,
     /// Wall time of all frames together, seconds.
     pub seconds: f64,
 }
@@ -41,6 +46,8 @@ impl Summary {
             worst_status: Status::Converged,
             lowered_rho: None,
             tolerance,
+            n_turned_over: 0,
+            first_turned_over: None,
             seconds: 0.0,
         }
     }
@@ -53,6 +60,10 @@ impl Summary {
         if report.status != Status::Converged {
             self.n_missed += 1;
             self.first_missed.get_or_insert(frame);
+        }
+        if let Some(point) = report.turned_over {
+            self.n_turned_over += 1;
+            self.first_turned_over.get_or_insert((frame, point));
         }
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));
@@ -172,14 +183,26 @@ impl Session {
         let leaves_nothing = self.world.traces().is_empty()
             && self.recorders.is_empty()
             && self.preferences.expose_every.is_none();
+        let mut lookout = self.lookout();
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
+            self.look_out(&mut lookout);
             hand(self, k);
-            let report = self.pass(&limits)?;
+            let mut report = self.pass(&limits)?;
+            if report.status != Status::Converged {
+                match self.met(&lookout, k, n) {
+                    Next::On => {}
+                    Next::Again => {
+                        hand(self, k);
+                        report = self.pass(&limits)?;
+                    }
+                    Next::Stop => break,
+                }
+            }
             summary.add(&report, self.world.clock().frame);
             if !leaves_nothing {
                 self.keep_frame(report.status != Status::Converged);
@@ -220,6 +243,16 @@ impl Session {
                 "rho {given} would diverge on this scene; {} was used",
                 format_rounded(rho)
             ));
+        }
+        if let Some((frame, point)) = summary.first_turned_over {
+            let name = self.world.points().name(point);
+            let message = match summary.n_turned_over {
+                1 => format!("frame {frame} may have changed branch"),
+                n => format!("{n} frames may have changed branch, the first is frame {frame}"),
+            };
+            let label = format!("`{name}` changed sides in a single jump");
+            let warning = Diagnostic::warning(message).at(span, label);
+            self.warn(&warning.help("smaller frames (`set dt`) follow the motion"));
         }
         if summary.n_missed == 0 {
             return None;

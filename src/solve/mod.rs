@@ -19,6 +19,7 @@ mod rates;
 mod rows;
 mod spectrum;
 mod topology;
+mod watch;
 
 // The methods.
 mod anderson;

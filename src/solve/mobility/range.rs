@@ -66,9 +66,9 @@ const SHARPEST_BEND: f64 = 0.1;
 const LONGEST_CORRECTION: f64 = 0.05;
 /// Steps shorter than this part of the size get nowhere: something stops the motion.
 const SHORTEST_STEP: f64 = 1e-13;
-/// Branches nearer than this part of the size count as crossing. Double precision keeps apart
-/// what squares of singular values, 1e-10, tell.
-const CROSSING: f64 = 1e-5;
+/// Branches nearer than this part of the size count as crossing: the squares of singular values
+/// below 1e-5 are rounding. A four-bar off by 1e-8 from one that folds flat keeps them apart.
+const CROSSING: f64 = 1e-4;
 /// The step, as a part of the size, that leads across a change point.
 const LEAP: f64 = 1e-3;
 /// Turns after which it is given up to wait for the first pose to come again.
