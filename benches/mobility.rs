@@ -25,7 +25,46 @@ fn chain(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
     (x, w, bars)
 }
 
-/// `n` x `n` squares with both diagonals, one side held.
+/// A leg after Theo Jansen, near enough to one to cost the same.
+fn leg() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let x: Vec<_> = [
+        (0.0, 0.0),
+        (-38.0, -7.8),
+        (15.0, 0.0),
+        (-19.0, 29.0),
+        (-78.0, -1.0),
+        (-14.0, -38.0),
+        (-66.0, -36.0),
+        (-43.0, -80.0),
+    ]
+    .map(|(x, y)| Point::new(x, y))
+    .into();
+    let mut w = vec![1.0; x.len()];
+    w[0] = 0.0;
+    w[1] = 0.0;
+    let bars =
+        [(0, 2), (2, 3), (1, 3), (1, 4), (3, 4), (2, 5), (1, 5), (4, 6), (5, 6), (5, 7), (6, 7)];
+    let bars = bars.map(|(a, b)| bar(&x, a, b)).into();
+    (x, w, bars)
+}
+
+/// Bars of lengths 1, 1 and 3 at their best fit.
+fn impossible_triangle() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let x: Vec<_> = [0.0, 4.0 / 3.0, 8.0 / 3.0].map(|x| Point::new(x, 0.0)).into();
+    let bar = |a, b, l| Length { points: [a, b], bounds: Bounds::exactly(l) }.into();
+    (x, vec![1.0; 3], vec![bar(0, 1, 1.0), bar(1, 2, 1.0), bar(0, 2, 3.0)])
+}
+
+/// Three parallel cranks, coupled by two bars and one too many.
+fn wheels() -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
+    let pivots = [0.0, 2.0, 5.0];
+    let mut x: Vec<_> = pivots.map(|x| Point::new(x, 0.0)).into();
+    x.extend(pivots.map(|x| Point::new(x + 0.6, 0.8)));
+    let bars = [(0, 3), (1, 4), (2, 5), (3, 4), (4, 5), (3, 5)].map(|(a, b)| bar(&x, a, b)).into();
+    (x, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], bars)
+}
+
+/// `n` x `n` squares with both diagonals, two corners held.
 fn net(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
     let side = n + 1;
     let x: Vec<_> =
@@ -54,6 +93,9 @@ fn net(n: u32) -> (Vec<Point>, Vec<f64>, Vec<Constraint>) {
 
 fn main() {
     let scenes = [
+        ("triangle", impossible_triangle()),
+        ("wheels", wheels()),
+        ("leg", leg()),
         ("chain 10", chain(10)),
         ("chain 1000", chain(1000)),
         ("chain 10000", chain(10000)),
@@ -80,7 +122,7 @@ fn main() {
             .collect();
         times.sort_by(f64::total_cmp);
         println!(
-            "{name:<12} {:>8} {:>8} {:>10} {:>8.2}",
+            "{name:<12} {:>8} {:>8} {:>10} {:>8.3}",
             bars.len(),
             found.degrees_of_freedom,
             found.n_redundant,

@@ -280,3 +280,20 @@ fn rows_join_the_basis_while_they_raise_the_rank() {
         }
     }
 }
+
+#[test]
+fn no_points_and_rows_without_points_are_nothing() {
+    let empty: [&[u32]; 2] = [&[], &[]];
+    for storage in [Storage::Sparse, Storage::Supernodal] {
+        for n_points in [0, 3] {
+            let mut normal = NormalMatrix::with_storage(storage, n_points, empty.into_iter());
+            normal.add_row(1, &[]);
+            assert_eq!(normal.nullity(1e-10), 2 * n_points);
+            normal.factor(1.0);
+            let mut rhs = vec![3.0; 2 * n_points];
+            normal.solve(&mut rhs);
+            assert_eq!(rhs, vec![3.0; 2 * n_points]);
+        }
+    }
+    assert!(!RowBasis::new(2, empty.into_iter(), 1e-9).insert(&[], &[]));
+}

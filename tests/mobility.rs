@@ -1,9 +1,10 @@
 //! Freedoms, redundancy, conflicts and poses of mechanisms whose answers are known.
 
-use linkwork::constraint::{Bounds, Coincidence, Constraint, Length, Point, Relation};
-use linkwork::solve::linear::NormalMatrix;
+use linkwork::constraint::{
+    Bounds, Coincidence, Constraint, Glider, Length, Motor, Orientation, Period, Point, Relation,
+};
 use linkwork::solve::mobility::{
-    Analysis, Directions, Pose, Scene, analyse, conflict_with, freedom,
+    Analysis, Directions, Pose, Scene, analyse, conflict_with, freedom, motion_of,
 };
 
 const TOLERANCE: f64 = 1e-9;
@@ -90,34 +91,14 @@ impl Model {
         self.with(|scene| analyse(scene, TOLERANCE))
     }
 
-    /// Moves the points to the best fit, by damped Gauss-Newton steps on bars.
-    fn fit(&mut self) {
-        let mut points: Vec<Vec<u32>> = Vec::new();
-        for c in &self.constraints {
-            points.push(c.points().to_vec());
-        }
-        let mut normal = NormalMatrix::new(self.x.len(), points.iter().map(Vec::as_slice));
-        for _ in 0..200 {
-            normal.clear();
-            let mut rhs = vec![0.0; 2 * self.x.len()];
-            for (row_idx, c) in self.constraints.iter().enumerate() {
-                c.jacobian(&self.x, &mut |row| {
-                    let mut values = Vec::new();
-                    for (p, g) in row.terms() {
-                        let g = g * self.w[p as usize];
-                        rhs[2 * p as usize] -= g.x * row.f;
-                        rhs[2 * p as usize + 1] -= g.y * row.f;
-                        values.extend([g.x, g.y]);
-                    }
-                    normal.add_row(row_idx, &values);
-                });
+    /// Moves the points towards the best fit by the paper's relaxation.
+    fn fit(&mut self, n_iterations: usize) {
+        for _ in 0..n_iterations {
+            let mut moved = self.x.clone();
+            for c in &self.constraints {
+                c.correct(&self.x, &self.w, &mut |p, d| moved[p as usize] += d * 0.4);
             }
-            normal.factor(1e-6);
-            normal.solve(&mut rhs);
-            for (x, d) in self.x.iter_mut().zip(rhs.chunks(2)) {
-                x.x += d[0];
-                x.y += d[1];
-            }
+            self.x = moved;
         }
     }
 }
@@ -275,6 +256,54 @@ fn a_flat_parallelogram_may_go_two_ways() {
 }
 
 #[test]
+fn a_slider_crank_is_locked_at_its_dead_points_only_if_the_slider_drives() {
+    let mut model = Model::default();
+    let (pivot, pin) = (model.ground(0.0, 0.0), model.point(1.0, 0.0));
+    let slider = model.point(3.5, 0.0);
+    let rail = [model.ground(2.0, 0.0), model.ground(3.0, 0.0)];
+    model.bar(pivot, pin);
+    model.bar(pin, slider);
+    model.push(Glider { points: [rail[0], slider, rail[1]], bounded: false });
+    check(&model, 1, 0, Pose::Regular);
+    let mut driven = model.clone();
+    driven.push(Motor::new([pivot, pin], 1.0, 0.0, 1.0));
+    // The motor holds the pin at its radius, as the crank does.
+    let found = check(&driven, 0, 1, Pose::Regular);
+    assert_eq!((found.redundant[0].constraint, &*found.redundant[0].depends_on), (3, &[0][..]));
+    model.w[slider as usize] = 0.0;
+    check(&model, 1, 1, Pose::Locked);
+}
+
+#[test]
+fn the_third_of_three_parallels_is_implied() {
+    let mut model = Model::default();
+    let mut segment = |y: f64| [model.point(0.0, y), model.point(2.0, y + 1.0)];
+    let [a, b, c] = [segment(0.0), segment(2.0), segment(5.0)];
+    for [p, q] in [[a, b], [b, c], [a, c]] {
+        model.push(Orientation {
+            points: [p[0], p[1], q[0], q[1]],
+            bounds: Bounds::exactly(0.0),
+            period: Period::Half,
+            side: 0.0,
+        });
+    }
+    let found = check(&model, 10, 1, Pose::Regular);
+    assert_eq!((found.redundant[0].constraint, &*found.redundant[0].depends_on), (2, &[0, 1][..]));
+}
+
+#[test]
+fn weights_change_no_count() {
+    for k in 0..4 {
+        let mut model = Model::default();
+        model.net(3);
+        for (p, w) in model.w.iter_mut().enumerate() {
+            *w = [0.01, 0.1, 1.0, 10.0, 100.0][p * (k + 1) % 5];
+        }
+        check(&model, 3, 13, Pose::Regular);
+    }
+}
+
+#[test]
 fn coupled_wheels_run_though_the_count_says_they_stick() {
     // Three cranks on one line, coupled by bars 1-2, 2-3 and, redundant, 1-3.
     for phi in [0.3, 1.0, 2.0] {
@@ -413,7 +442,7 @@ fn a_bar_too_long_in_a_braced_net_conflicts_with_its_square() {
     let bad = 2;
     let Constraint::Length(bar) = &mut model.constraints[bad] else { unreachable!() };
     bar.bounds = Bounds::exactly(1.1 * 2f64.sqrt());
-    model.fit();
+    model.fit(3000);
     let found = model.analyse();
     assert_eq!(found.conflicts.len(), 1);
     let conflict = &found.conflicts[0];
@@ -433,13 +462,15 @@ fn a_conflict_is_found_at_a_fit_that_is_not_quite_the_best() {
     let q = model.point(-2.7, -1e-3);
     let bars =
         [model.bar_of(corner, p, 1.0), model.bar_of(p, q, 1.0), model.bar_of(corner, q, 3.0)];
-    for _ in 0..3 {
+    let mut n_found = 0;
+    for n_iterations in [0, 10, 30, 100, 300, 1000, 3000] {
+        model.fit(n_iterations);
         let found = model.analyse();
         let named: Vec<_> = found.conflicts.into_iter().map(|c| c.constraints).collect();
         assert!(named.is_empty() || named == [bars], "{named:?}");
-        model.fit();
+        n_found += named.len();
     }
-    assert_eq!(model.analyse().conflicts[0].constraints, bars);
+    assert!(n_found >= 2, "found {n_found} times of 7");
 }
 
 #[test]
@@ -473,6 +504,21 @@ fn a_point_knows_where_it_can_go() {
     let held = model.with(|scene| freedom(scene, a));
     assert_eq!(held.directions, Directions::None);
     assert_eq!(held.held_by, [x, y]);
+}
+
+#[test]
+fn the_one_free_motion_keeps_all_bars() {
+    let model = Model::four_bar([[0.0, 0.0], [0.6, 0.8], [3.0, 2.5], [4.0, 0.0]]);
+    let motion = model.with(|scene| motion_of(scene, 2)).unwrap();
+    let length: f64 = motion.iter().map(|v| v.norm_squared()).sum();
+    assert!((length - 1.0).abs() < 1e-12);
+    for c in &model.constraints {
+        c.jacobian(&model.x, &mut |row| {
+            let rate: f64 = row.terms().map(|(p, g)| g.dot(motion[p as usize])).sum();
+            assert!(rate.abs() < 1e-12, "{rate:e}");
+        });
+    }
+    assert_eq!(model.with(|scene| motion_of(scene, 0)), None);
 }
 
 #[test]

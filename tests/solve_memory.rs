@@ -16,11 +16,15 @@ fn through_numbers(memory: &Memory) -> Memory {
     copy
 }
 
-/// Runs a scene `n` frames, then `n` more with and without an interruption.
-fn check(mut s: Scene, n: usize, edit: impl Fn(&mut Scene)) {
+fn run(s: &mut Scene, n: usize) {
     for _ in 0..n {
         s.step();
     }
+}
+
+/// Runs a scene `n` frames, then `n` more with and without an interruption.
+fn check(mut s: Scene, n: usize, edit: impl Fn(&mut Scene)) {
+    run(&mut s, n);
     edit(&mut s);
     let mut loaded = Scene { world: s.world.clone(), solver: Solver::new(), settings: s.settings };
     loaded.world.take_touched();
@@ -73,12 +77,12 @@ fn a_run_that_was_edited_before_the_interruption_does_too() {
 #[test]
 fn what_is_taken_back_happens_again_to_the_bit() {
     let mut s = mechanisms(Method::Auto);
-    (0..10).for_each(|_| drop(s.step()));
+    run(&mut s, 10);
     let (motion, memory) = (s.world.motion(), s.solver.memory());
-    (0..30).for_each(|_| drop(s.step()));
+    run(&mut s, 30);
     let first = s.bits();
     s.world.apply(Edit::Motion(Box::new(motion)));
     s.solver.set_memory(memory);
-    (0..30).for_each(|_| drop(s.step()));
+    run(&mut s, 30);
     assert_eq!(s.bits(), first);
 }

@@ -78,8 +78,5 @@ pub fn parse() -> Arguments {
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
 fn parse_setting(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
-    let number =
-        crate::session::evaluate_constant(value.trim()).map_err(|e| e.message.to_string())?;
-    Ok((name.trim().to_owned(), number))
+    crate::session::evaluate_binding(text).map_err(|problem| problem.message.into())
 }

@@ -1,21 +1,22 @@
 //! `linkwork check`: what a script makes, examined at its end.
 
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 use serde_json::{Value, json};
 
 use super::args::Examination;
 use super::run::{self, Status};
-use super::{interrupt, talk};
+use super::talk;
 use crate::session::Check;
 
 /// Runs a script and says what there is to know about the mechanism at its end.
-pub fn script(examination: &Examination) -> ExitCode {
-    interrupt::listen();
-    let (status, session) = run::script(&examination.file, &examination.outside);
+pub fn script(examination: &Examination) -> Status {
+    let mut session = run::begin(&examination.outside);
+    let status = run::script(&examination.file, &mut session);
     talk::flush();
-    let Some(session) = session.filter(|_| status == Status::Fine) else { return status.into() };
+    if status != Status::Fine {
+        return status;
+    }
     let check = session.examine();
     let text = if examination.json {
         format!("{:#}\n", to_json(&check))
@@ -24,7 +25,7 @@ pub fn script(examination: &Examination) -> ExitCode {
     };
     // Whoever closed the pipe has read enough.
     let _ = io::stdout().lock().write_all(text.as_bytes());
-    if check.is_sound() { Status::Fine } else { Status::BrokenPromise }.into()
+    if check.is_sound() { Status::Fine } else { Status::BrokenPromise }
 }
 
 fn to_json(check: &Check) -> Value {

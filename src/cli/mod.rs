@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod files;
 pub(crate) mod interrupt;
+pub(crate) mod obey;
 mod outside;
 mod run;
 pub(crate) mod talk;
@@ -13,9 +14,12 @@ use std::process::ExitCode;
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
-    match args.command {
+    interrupt::listen();
+    let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
         Some(args::Command::Check(examination)) => check::script(&examination),
         None => run::session(&args.session),
-    }
+    };
+    talk::flush();
+    status.into()
 }

@@ -28,6 +28,7 @@ mod ink;
 mod lettering;
 mod number;
 mod page;
+mod path;
 mod strip;
 mod style;
 mod view;

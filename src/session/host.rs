@@ -43,6 +43,19 @@ pub trait Host {
     fn seconds(&self) -> f64;
 }
 
+/// Why a file could not be read or written, in a few words.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file or folder".to_owned(),
+        io::ErrorKind::InvalidData => "not a text in UTF-8".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "this is a folder".to_owned(),
+        io::ErrorKind::NotADirectory => "part of the path is not a folder".to_owned(),
+        io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
 /// An outside that says nothing, keeps nothing and has no files.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Nowhere;

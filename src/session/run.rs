@@ -1,6 +1,7 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
 use super::dead_point::Next;
+use super::perform::format_count;
 use super::{Diagnostic, Flow, Session};
 use crate::constraint::{Point, Vector};
 use crate::diag::{Kind, Span, format_number};
@@ -120,7 +121,7 @@ impl Session {
         if !(0.0..=super::limits::MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
             return Err(
-                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_number(n)))
+                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
             );
         }
         let limits = self.promised(promise)?;
@@ -154,6 +155,7 @@ impl Session {
         for &id in &free {
             self.edit(Edit::Freeze(id, true));
         }
+        let is_at_start = self.world.clock().frame == 0;
         let flow = self.frames(n, Limits::default(), span, |session, k| {
             for &(id, from, way) in &paths {
                 let at = if k == n { from + way } else { from + way * (k as f64 / n as f64) };
@@ -162,6 +164,12 @@ impl Session {
         })?;
         for &id in &free {
             self.edit(Edit::Freeze(id, false));
+        }
+        // The hand moved before the clock left 0: `reset` puts the point back under it.
+        if is_at_start && self.world.clock().frame > 0 {
+            for &(id, from, _) in &paths {
+                self.edit(Edit::Start(id, from));
+            }
         }
         Ok(flow)
     }
@@ -191,14 +199,16 @@ impl Session {
                 break;
             }
             self.look_out(&mut lookout);
+            self.attend();
             hand(self, k);
-            let mut report = self.pass(&limits)?;
+            let mut report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
             if report.status != Status::Converged {
                 match self.met(&lookout, k, n) {
                     Next::On => {}
                     Next::Again => {
+                        self.attend();
                         hand(self, k);
-                        report = self.pass(&limits)?;
+                        report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
                     }
                     Next::Stop => break,
                 }
@@ -212,6 +222,12 @@ impl Session {
         let broken = self.tell_summary(&summary, &limits, span);
         self.last_run = Some(summary);
         broken.map_or(Ok(flow), Err)
+    }
+
+    /// Adds to an error in which frame it came up.
+    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+        let clock = self.world.clock();
+        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }
 
     fn pass(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {

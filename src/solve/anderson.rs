@@ -67,34 +67,34 @@ pub(super) fn solve(
 }
 
 /// The combination of past changes that makes the correction smallest, by least squares.
-fn combine(changes: &[(Vec<Vector>, Vec<Vector>)], d: &[Vector]) -> Vec<f64> {
-    let m = changes.len();
+fn combine(changes: &[(Vec<Vector>, Vec<Vector>)], d: &[Vector]) -> [f64; DEPTH] {
     let dot = |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum() };
-    let mut matrix: Vec<Vec<f64>> =
-        (0..m).map(|i| (0..m).map(|j| dot(&changes[i].1, &changes[j].1)).collect()).collect();
-    let mut rhs: Vec<f64> = changes.iter().map(|(_, dd)| dot(dd, d)).collect();
-    let largest = (0..m).fold(0.0_f64, |most, i| most.max(matrix[i][i]));
-    for i in 0..m {
+    let mut matrix = [[0.0; DEPTH]; DEPTH];
+    let mut gamma = [0.0; DEPTH];
+    for (i, (_, one)) in changes.iter().enumerate() {
+        for (j, (_, other)) in changes.iter().enumerate() {
+            matrix[i][j] = dot(one, other);
+        }
+        gamma[i] = dot(one, d);
+    }
+    let largest = (0..DEPTH).fold(0.0_f64, |most, i| most.max(matrix[i][i]));
+    // Gauss on a matrix that is positive definite by what is added: no pivoting needed.
+    for i in 0..changes.len() {
         matrix[i][i] += REGULAR * largest;
-    }
-    // Gauss on a positive definite matrix: no pivoting needed.
-    for i in 0..m {
-        if !(matrix[i][i] > 0.0) {
-            return vec![0.0; m];
+        let (done, below) = matrix.split_at_mut(i + 1);
+        let pivot = &done[i];
+        if pivot[i] <= 0.0 || pivot[i].is_nan() {
+            return [0.0; DEPTH];
         }
-        for j in i + 1..m {
-            let l = matrix[j][i] / matrix[i][i];
-            for k in i..m {
-                matrix[j][k] -= l * matrix[i][k];
-            }
-            rhs[j] -= l * rhs[i];
+        for (j, row) in below.iter_mut().enumerate() {
+            let l = row[i] / pivot[i];
+            row.iter_mut().zip(pivot).for_each(|(a, b)| *a -= l * b);
+            gamma[i + 1 + j] -= l * gamma[i];
         }
     }
-    for i in (0..m).rev() {
-        for k in i + 1..m {
-            rhs[i] -= matrix[i][k] * rhs[k];
-        }
-        rhs[i] /= matrix[i][i];
+    for i in (0..changes.len()).rev() {
+        let known: f64 = (i + 1..changes.len()).map(|k| matrix[i][k] * gamma[k]).sum();
+        gamma[i] = (gamma[i] - known) / matrix[i][i];
     }
-    rhs
+    gamma
 }

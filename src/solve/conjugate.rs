@@ -9,6 +9,9 @@ const LONGEST_STEP: f64 = 0.1;
 /// A direction that is this far from down, relative to steepest, leads nowhere.
 const LEAST_FACTOR: f64 = 1e-10;
 
+/// A gain below this part of the energy is lost in its rounding.
+const INVISIBLE: f64 = 1e-17;
+
 /// Improves a pose; gives how it ended.
 pub(super) fn solve(
     room: &mut Workspace,
@@ -46,8 +49,11 @@ pub(super) fn solve(
         }
         let longest = LONGEST_STEP * limits.size / room.equations.reach(&room.step);
         let t = factor * (-along / curvature).min(longest);
-        room.remember(pose);
         let start = room.rows.energy;
+        if -along * t < INVISIBLE * start {
+            return room.outcome(Status::BestFit, n);
+        }
+        room.remember(pose);
         if room.try_step(pose, t, work) > start {
             room.reject(pose);
             steepest(room);

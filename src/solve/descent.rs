@@ -45,7 +45,7 @@ pub(super) fn search(
     let start = room.rows.energy;
     let along: f64 = room.step.iter().zip(&room.slope).map(|(s, g)| s * g).sum();
     let curvature = room.rows.curvature(&room.equations, &room.step);
-    if !(along < 0.0) {
+    if along >= 0.0 || along.is_nan() {
         return false;
     }
     let longest = 0.1 * limits.size / room.equations.reach(&room.step);

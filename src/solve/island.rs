@@ -17,6 +17,7 @@ use crate::world::{ConstraintId, PointId, Record};
 /// these constraints hold too. Points have local indices here: free ones first, each group by
 /// handle; constraints lie by kind, then points, then handle. So an island does not know in
 /// what order its constraints were made.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Island {
     /// The handles of the points, by local index.
     pub points: Vec<PointId>,

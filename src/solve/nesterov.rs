@@ -28,7 +28,7 @@ pub(super) fn solve(
             return room.outcome(Status::Converged, n);
         }
         let largest = spectrum.largest(&room.equations, &room.rows, |_| 1.0);
-        if limits.budget.is_spent() || !(largest > 0.0) {
+        if limits.budget.is_spent() || largest <= 0.0 {
             return room.outcome(Status::Stalled, n);
         }
         // A step of descent from the extrapolated pose.

@@ -23,6 +23,8 @@ const SLOW: f64 = 1e-2;
 /// The energy that the undamped model could still gain, relative to what there is, at a best
 /// fit. The gradient's norm would not tell: it is small on any ill-conditioned slope too.
 const FLAT: f64 = 1e-8;
+/// Steps taken at a best fit for the last digits; convergence is quadratic there.
+const POLISHES: u32 = 2;
 
 /// Improves a pose until it is solved, a best fit, or the limits are reached.
 pub(super) fn solve(
@@ -38,7 +40,7 @@ pub(super) fn solve(
         let end = descend(room, pose, &left, &mut nu, &mut n, work);
         let status = match end {
             End::Met => Status::Converged,
-            _ if is_best_fit(room, work) => Status::BestFit,
+            _ if is_best_fit(room, pose, work) => Status::BestFit,
             End::Slow => continue,
             End::Stuck | End::Spent => Status::Stalled,
         };
@@ -146,13 +148,39 @@ fn aim(room: &mut Workspace, mu: f64, work: &mut Counters) -> Option<f64> {
     (promised > 0.0).then_some(promised)
 }
 
-/// Whether no small move would lower the energy any further.
-pub(super) fn is_best_fit(room: &mut Workspace, work: &mut Counters) -> bool {
-    if !room.rows.energy.is_finite() {
+/// Whether no small move would lower the energy any further. If so, the last digits of the
+/// pose are got too: what they gain is too little to show in the energy, but the slope shows it.
+fn is_best_fit(room: &mut Workspace, pose: &mut Pose, work: &mut Counters) -> bool {
+    let energy = room.rows.energy;
+    if !energy.is_finite() {
         return false;
     }
     room.assemble();
     room.update_slope();
-    let energy = room.rows.energy;
-    aim(room, 10.0 * FLOOR, work).is_none_or(|gain| gain < FLAT * energy)
+    for _ in 0..=POLISHES {
+        let Some(gain) = aim(room, FLOOR, work) else { return true };
+        if gain > FLAT * energy {
+            return false;
+        }
+        let before = steepness(room);
+        room.remember(pose);
+        if room.try_step(pose, 1.0, work) > energy * (1.0 + FLAT) {
+            room.reject(pose);
+            return true;
+        }
+        room.accept();
+        room.assemble();
+        room.update_slope();
+        if steepness(room) >= before {
+            room.reject(pose);
+            room.accept();
+            return true;
+        }
+    }
+    true
+}
+
+/// The squared norm of the slope.
+fn steepness(room: &Workspace) -> f64 {
+    room.slope.iter().map(|g| g * g).sum()
 }

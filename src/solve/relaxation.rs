@@ -46,6 +46,12 @@ impl Coefficient {
         (Self { rho: rho * factor, factor }, lowered)
     }
 
+    /// The coefficient `rho`, or what contracts where the largest eigenvalue is `largest`.
+    pub fn at_most(rho: f64, largest: f64) -> Self {
+        let factor = if rho * largest > MOST_RHO { MOST_RHO / (rho * largest) } else { 1.0 };
+        Self { rho: rho * factor, factor }
+    }
+
     /// The coefficient of constraint `c`.
     pub fn of(self, own: &[Option<f64>], c: usize) -> f64 {
         own.get(c).copied().flatten().map_or(self.rho, |own| own * self.factor)

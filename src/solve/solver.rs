@@ -174,6 +174,10 @@ impl Solver {
         world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
     }
 
+    pub(super) fn islands(&self) -> impl Iterator<Item = &Island> {
+        self.topology.iter().map(|(_, island)| island)
+    }
+
     /// The islands there are, and how many of them the next frame will visit.
     pub fn n_islands(&self) -> (usize, usize) {
         (self.topology.iter().count(), self.awake.len())
@@ -203,7 +207,9 @@ impl Solver {
         for (nth, &k) in visit.iter().enumerate() {
             if budget.is_spent() {
                 report.is_interrupted = true;
-                visit[nth..].iter().for_each(|&k| self.wake(k));
+                for &k in &visit[nth..] {
+                    self.wake(k);
+                }
                 break;
             }
             self.visit(k, world, settings, budget, task, &mut report);
@@ -251,19 +257,30 @@ impl Solver {
         if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
             made = self.topology.update(&touched, world, &mut self.pending);
             work.islands_rebuilt += made.len() as u64;
-            made.iter().for_each(|&k| self.remind(k));
+            for &k in &made {
+                self.remind(k);
+            }
             self.pending = Memory::default();
             if touched.all {
                 self.awake.clear();
                 self.is_awake.fill(false);
             }
-            made.iter().for_each(|&k| self.wake(k));
+            for &k in &made {
+                self.wake(k);
+            }
             let topology = &self.topology;
-            self.awake.retain(|&k| topology.get(k).is_some());
+            // An island that takes the place of one that was awake is to be woken again.
+            let is_awake = &mut self.is_awake;
+            self.awake.retain(|&k| {
+                is_awake[k as usize] = topology.get(k).is_some();
+                is_awake[k as usize]
+            });
             self.unsolved.retain(|&k| topology.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = topology.checked().collect();
-            checked.into_iter().for_each(|id| self.check(world, id, settings));
+            for id in checked {
+                self.check(world, id, settings);
+            }
         }
         for &id in &touched.values {
             match self.topology.home(id) {

@@ -3,7 +3,8 @@
 
 use super::island::Island;
 use super::method::{Limits, Outcome, Pose, Workspace};
-use super::spectrum::noise;
+use super::relaxation::{self, Coefficient};
+use super::spectrum::{Spectrum, noise};
 use super::status::{Counters, Status};
 use super::{conjugate, newton};
 use crate::constraint::{Point, Vector};
@@ -14,6 +15,8 @@ const FAR: f64 = 1e-3;
 const FIRST_ORDER_STEPS: u32 = 300;
 /// How far points are pushed to leave a saddle, relative to the size.
 const PUSH: f64 = 1e-4;
+/// The paper's coefficient, for relaxation as a first step.
+const GENTLE: f64 = 0.5;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
 
@@ -24,7 +27,8 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         island.feasible = Some(island.x[..n_free].into());
     }
     island.history.forget();
-    let is_elsewhere = island.feasible.as_ref().is_some_and(|pose| **pose != island.x[..n_free]);
+    let start: Box<[Point]> = island.x[..n_free].into();
+    let is_elsewhere = island.feasible.as_ref().is_some_and(|pose| *pose != start);
     let mut room = island.take_room();
     let mut best = descend(island, &mut room, limits, work);
     // What is reached from the last feasible pose does not depend on the way since then. It
@@ -42,9 +46,12 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         }
         island.feasible = Some(feasible);
     }
-    if !best.is_converged() && !island.is_probed {
+    if !best.is_converged() && !island.is_probed && !limits.budget.is_spent() {
         island.is_probed = true;
         best = probe(island, &mut room, best, limits, work);
+        if !best.is_converged() {
+            best = relax_first(island, &mut room, &start, best, limits, work);
+        }
     }
     island.room = Some(room);
     if best.is_converged() {
@@ -104,6 +111,32 @@ fn probe(
         let push = Vector::new(noise(2 * id.0), noise(2 * id.0 + 1));
         *x += push * (PUSH * limits.size);
     }
+    let after = descend(island, room, limits, work);
+    if is_better(&after, &before) {
+        return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
+    }
+    island.x[..n_free].copy_from_slice(&here);
+    before
+}
+
+/// Relaxes from the start before the Newton steps: of the many best fits of a scene that
+/// contradicts itself the one taken is no worse than the one the paper's method finds.
+fn relax_first(
+    island: &mut Island,
+    room: &mut Box<Workspace>,
+    start: &[Point],
+    before: Outcome,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let n_free = island.n_free;
+    let here: Box<[Point]> = island.x[..n_free].into();
+    island.x[..n_free].copy_from_slice(start);
+    room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
+    let mut spectrum = Spectrum::new(&island.points[..n_free]);
+    let largest = spectrum.largest(&room.equations, &room.rows, |_| 1.0);
+    let coefficient = Coefficient::at_most(GENTLE, largest);
+    relaxation::solve(island, coefficient, limits, work);
     let after = descend(island, room, limits, work);
     if is_better(&after, &before) {
         return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };

@@ -32,20 +32,23 @@ const AT_BEST_FIT: f64 = 1e-5;
 /// their distances; less than this part of the worst contradiction is not looked at.
 const SECOND_ORDER: f64 = 1e-3;
 
+/// Sets of more constraints than this are reported as found: each trial that leaves one out
+/// settles the others.
+const MOST_TRIED: usize = 200;
+
 /// Conflicts of an island at its best fit, none of which shares a constraint with another.
 ///
 /// At a best fit the residuals are a stress that the rows bear among themselves. Each
-/// dependent row with those it depends on is a smallest set that can bear one, so it
-/// contradicts itself if its residuals do work on that stress, and no subset of it does.
+/// dependent row with those it depends on is a smallest set that can bear one, so to first
+/// order it contradicts itself if its residuals do work on that stress.
 pub fn conflicts(scene: &Scene, island: &Rows, tolerance: f64) -> Vec<Conflict> {
     let mut apart: Vec<Conflict> = Vec::new();
-    for dependence in contradictions(island, tolerance) {
-        let conflict = conflict(&dependence, &island.rows);
-        let is_apart = |known: &Conflict| {
-            known.constraints.iter().all(|c| conflict.constraints.binary_search(c).is_err())
-        };
-        if apart.iter().all(is_apart) && !can_hold_alone(scene, &conflict.constraints, tolerance) {
-            apart.push(conflict);
+    for set in contradictions(island, tolerance) {
+        let is_apart =
+            |known: &Conflict| known.constraints.iter().all(|c| set.binary_search(c).is_err());
+        if apart.iter().all(is_apart) && !can_hold_alone(scene, &set, tolerance) {
+            let set = smallest(scene, set, None, tolerance);
+            apart.push(conflict(island, set));
         }
     }
     apart
@@ -58,16 +61,38 @@ pub fn conflict_with(scene: &Scene, constraint: usize, tolerance: f64) -> Option
     let mut island = rows.islands().into_iter().find(has_it)?;
     // Taken last, it depends on the others if it can.
     island.rows.sort_by_key(|row| (row.source.0 == constraint, row.source));
-    contradictions(&island, tolerance)
-        .iter()
-        .map(|dependence| conflict(dependence, &island.rows))
-        .filter(|conflict| conflict.constraints.contains(&constraint))
-        .find(|conflict| !can_hold_alone(scene, &conflict.constraints, tolerance))
+    let sets = contradictions(&island, tolerance).into_iter();
+    let mut about_it =
+        sets.filter(|set| set.binary_search(&constraint).is_ok()).filter_map(|set| {
+            if can_hold_alone(scene, &set, tolerance) {
+                return None;
+            }
+            let set = smallest(scene, set, Some(constraint), tolerance);
+            let others: Vec<_> = set.iter().copied().filter(|&c| c != constraint).collect();
+            can_hold_alone(scene, &others, tolerance).then_some(set)
+        });
+    about_it.next().map(|set| conflict(&island, set))
 }
 
-/// The dependent rows whose residuals do work on their stress, those of few rows first, and
-/// among equals the worst.
-fn contradictions(island: &Rows, tolerance: f64) -> Vec<Dependence> {
+/// Leaves out, the latest first, what a set contradicts itself without (a deletion filter);
+/// never `kept`.
+fn smallest(scene: &Scene, mut set: Vec<usize>, kept: Option<usize>, tolerance: f64) -> Vec<usize> {
+    if set.len() > MOST_TRIED {
+        return set;
+    }
+    for k in (0..set.len()).rev() {
+        let mut others = set.clone();
+        let left_out = others.remove(k);
+        if Some(left_out) != kept && !can_hold_alone(scene, &others, tolerance) {
+            set = others;
+        }
+    }
+    set
+}
+
+/// The constraints of dependent rows whose residuals do work on their stress, small sets
+/// first, and among equals the worst.
+fn contradictions(island: &Rows, tolerance: f64) -> Vec<Vec<usize>> {
     if island.worst() <= tolerance {
         return Vec::new();
     }
@@ -76,21 +101,36 @@ fn contradictions(island: &Rows, tolerance: f64) -> Vec<Dependence> {
     let worst = found.iter().map(misfit).fold(0.0, f64::max);
     found.retain(|dependence| misfit(dependence) > tolerance.max(SECOND_ORDER * worst));
     found.sort_by(|a, b| a.on.len().cmp(&b.on.len()).then(misfit(b).total_cmp(&misfit(a))));
-    found
+    let constraints = |dependence: &Dependence| {
+        let rows = dependence.stress().map(|(k, _)| island.rows[k].source.0);
+        let mut constraints: Vec<_> = rows.collect();
+        constraints.sort_unstable();
+        constraints.dedup();
+        constraints
+    };
+    found.iter().map(constraints).collect()
 }
 
-fn conflict(dependence: &Dependence, rows: &[UnitRow]) -> Conflict {
-    let work: f64 = dependence.stress().map(|(k, y)| y * rows[k].f).sum();
-    let mut terms: Vec<_> = dependence.stress().map(|(k, y)| (&rows[k], y)).collect();
+fn conflict(island: &Rows, constraints: Vec<usize>) -> Conflict {
+    let rows = island.filtered(|row| constraints.binary_search(&row.source.0).is_ok());
+    let stresses = dependences(&rows, AT_BEST_FIT);
+    let misfit = |dependence: &&Dependence| dependence.misfit(&rows.rows).abs();
+    let stress = stresses.iter().max_by(|a, b| misfit(a).total_cmp(&misfit(b)));
+    let repairs = stress.map_or(Vec::new(), |stress| repairs(stress, &rows.rows));
+    Conflict { constraints, residual: rows.worst(), repairs }
+}
+
+/// For each constraint with one row under stress, the change of its value after which the
+/// residuals do no work.
+fn repairs(stress: &Dependence, rows: &[UnitRow]) -> Vec<Repair> {
+    let work: f64 = stress.stress().map(|(k, y)| y * rows[k].f).sum();
+    let mut terms: Vec<_> = stress.stress().map(|(k, y)| (&rows[k], y)).collect();
     terms.sort_by_key(|(row, _)| row.source);
-    let mut constraints: Vec<_> = terms.iter().map(|(row, _)| row.source.0).collect();
-    constraints.dedup();
-    let residual = terms.iter().fold(0.0, |worst: f64, (row, _)| row.f.abs().max(worst));
-    let repairs = terms.chunk_by(|a, b| a.0.source.0 == b.0.source.0).filter_map(|of_one| {
+    let of_each = terms.chunk_by(|a, b| a.0.source.0 == b.0.source.0);
+    let repair = |of_one: &[(&UnitRow, f64)]| match of_one {
+        [(row, y)] => Some(Repair { constraint: row.source.0, change: work / (y * row.scale) }),
         // Of a vector equation no single value could be changed.
-        let [(row, y)] = of_one else { return None };
-        Some(Repair { constraint: row.source.0, change: work / (y * row.scale) })
-    });
-    let repairs = repairs.collect();
-    Conflict { constraints, residual, repairs }
+        _ => None,
+    };
+    of_each.filter_map(repair).collect()
 }

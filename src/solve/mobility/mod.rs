@@ -7,6 +7,7 @@
 mod conflict;
 mod dependence;
 mod freedom;
+mod motions;
 mod pose;
 mod projector;
 mod range;
@@ -17,6 +18,7 @@ mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
+pub use motions::motion_of;
 pub use pose::Pose;
 pub use range::{End, Range, Reach, dead_end, range};
 pub use repair::repair;

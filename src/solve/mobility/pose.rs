@@ -1,6 +1,7 @@
 //! Whether a pose is one where the count of freedoms jumps, and what that means.
 
 use super::dependence::Dependence;
+use super::motions::{Random, motions};
 use super::projector::Projector;
 use super::scene::{Rows, Scene};
 use crate::constraint::{Kind, Point, Relation, Vector};
@@ -89,27 +90,6 @@ fn extent(scene: &Scene, island: &Rows) -> f64 {
     if extent > 0.0 { extent } else { 1.0 }
 }
 
-/// Orthonormal motions that change no row, chosen at random.
-fn motions(projector: &mut Projector, n_unknowns: usize, n_motions: usize) -> Vec<DVector<f64>> {
-    let mut random = Random::new();
-    let mut motions: Vec<DVector<f64>> = Vec::new();
-    while motions.len() < n_motions {
-        let mut y: Vec<f64> = (0..n_unknowns).map(|_| random.next()).collect();
-        projector.onto_motions(&mut y);
-        let mut y = DVector::from_vec(y);
-        for _ in 0..2 {
-            for v in &motions {
-                y.axpy(-v.dot(&y), v, 1.0);
-            }
-        }
-        match y.try_normalize(1e-6) {
-            Some(y) => motions.push(y),
-            None => break,
-        }
-    }
-    motions
-}
-
 /// For each stress, scaled to length 1, the second derivatives of what it weighs the rows
 /// with, over the given motions.
 fn forms(
@@ -167,21 +147,4 @@ fn some_sum_is_definite(forms: &[DMatrix<f64>]) -> bool {
         }
     }
     false
-}
-
-/// A reproducible source of numbers in [-1, 1) (`SplitMix64`).
-struct Random(u64);
-
-impl Random {
-    fn new() -> Self {
-        Self(0)
-    }
-
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }

@@ -6,6 +6,10 @@ use crate::constraint::{Point, PointIdx, Relation};
 
 const N_STEPS: usize = 40;
 
+/// A step that promises no more than this part of the energy leads nowhere: a best fit. Near a
+/// pose where all holds, a step promises nearly all of it.
+const NOWHERE: f64 = 1e-6;
+
 /// Some constraints of a scene and the points of theirs that move.
 pub struct Part<'a> {
     scene: Scene<'a>,
@@ -41,9 +45,14 @@ impl<'a> Part<'a> {
             if here.worst() <= tolerance {
                 break;
             }
-            let mut step = vec![0.0; here.n_unknowns()];
-            here.rows.iter().for_each(|row| row.add_to(-row.f, &mut step));
+            let mut downhill = vec![0.0; here.n_unknowns()];
+            here.rows.iter().for_each(|row| row.add_to(-row.f, &mut downhill));
+            let mut step = downhill.clone();
             Projector::of(&here).solve_damped(mu, &mut step);
+            let promised: f64 = 0.5 * step.iter().zip(&downhill).map(|(s, d)| s * d).sum::<f64>();
+            if promised <= NOWHERE * here.energy() {
+                break;
+            }
             let moves = self.scene.displacements(&self.points, &step);
             let moved: Vec<Point> = x.iter().zip(&moves).map(|(x, d)| *x + *d).collect();
             let there = self.rows(&moved, light);
