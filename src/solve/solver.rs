@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::island::Island;
 use super::memory::{self, Memory};
 use super::rates;
 use super::settings::{Method, Settings};
@@ -403,6 +404,10 @@ impl Solver {
         island.residual = outcome.worst / limits.size;
         island.settle_inputs();
         write_back(island, world);
+        if let Some(p) = island.turned_over.take() {
+            let id = island.points[p as usize];
+            report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
+        }
         let status = island.status;
         if outcome.status == Status::Converged {
             self.unsolved.remove(&k);
