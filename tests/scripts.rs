@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::thread;
 
-const FOLDERS: [&str; 4] = ["paper", "gallery", "hard", "bench"];
+const FOLDERS: [&str; 5] = ["paper", "study", "gallery", "hard", "bench"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts")
@@ -65,7 +65,8 @@ fn pictures(text: &str) -> impl Iterator<Item = &str> {
 /// What is wrong with a script, if anything.
 fn complaint(script: &Path) -> Option<String> {
     let text = fs::read_to_string(script).expect("the script is text");
-    if !text.starts_with("# ") || text.lines().all(|line| line.starts_with('#') || line.is_empty()) {
+    if !text.starts_with("# ") || text.lines().all(|line| line.starts_with('#') || line.is_empty())
+    {
         return Some("a script opens with a comment and then does something".to_owned());
     }
     let out = tempfile::tempdir().expect("a temporary folder");
@@ -93,7 +94,10 @@ fn every_script_holds() {
                 while let Some(script) = next() {
                     if let Some(text) = complaint(&script) {
                         let name = script.strip_prefix(root()).unwrap_or(&script).display();
-                        complaints.lock().expect("no worker panics").push(format!("{name}: {text}"));
+                        complaints
+                            .lock()
+                            .expect("no worker panics")
+                            .push(format!("{name}: {text}"));
                     }
                 }
             });

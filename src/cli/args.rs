@@ -24,6 +24,26 @@ pub struct Arguments {
 pub enum Command {
     /// Run scripts, one after the other, each in a world of its own.
     Run(Batch),
+    /// Tell what accuracy costs in time on a script's own motion: a table, `accuracy.csv` and
+    /// `accuracy.svg`.
+    Accuracy(Study),
+}
+
+/// A script to study.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// The script; `-` is standard input. What it prints and writes is left out.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Study so many frames, not those of the script's longest run.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub frames: Option<u64>,
+    /// Print a list of JSON objects, not a table.
+    #[arg(long)]
+    pub json: bool,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub outside: Outside,
 }
 
 /// Scripts to run.
@@ -61,8 +81,5 @@ pub fn parse() -> Arguments {
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
 fn parse_setting(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
-    let number =
-        crate::session::evaluate_constant(value.trim()).map_err(|e| e.message.to_string())?;
-    Ok((name.trim().to_owned(), number))
+    crate::session::evaluate_binding(text).map_err(|problem| problem.message.into())
 }

@@ -1,8 +1,11 @@
 //! The command line: arguments, exit statuses, files, signals.
 
+mod accuracy;
 mod args;
+mod bar;
 mod files;
 pub(crate) mod interrupt;
+pub(crate) mod obey;
 mod outside;
 mod run;
 pub(crate) mod talk;
@@ -12,8 +15,12 @@ use std::process::ExitCode;
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
-    match args.command {
+    interrupt::listen();
+    let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
+        Some(args::Command::Accuracy(wish)) => accuracy::accuracy(&wish),
         None => run::session(&args.session),
-    }
+    };
+    talk::flush();
+    status.into()
 }

@@ -1,27 +1,35 @@
 //! Running scripts in batch, and the session.
 
-use std::io::{self, IsTerminal, Read};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::io::{self, BufRead, IsTerminal, Read};
+use std::path::Path;
 use std::process::ExitCode;
 
 use super::args::{Batch, Outside};
+use super::obey::{Outcome, Typed};
 use super::outside::Process;
 use super::{files, interrupt, talk};
-use crate::diag::{Diagnostic, Kind};
-use crate::session::{Flow, Session};
+use crate::diag::{Diagnostic, Kind, Sources};
+use crate::lang::is_incomplete;
+use crate::session::{Flow, Host, Session, reason};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Status {
+pub enum Status {
+    /// Everything was done.
     Fine = 0,
+    /// An `assert` failed, or what a run promised did not hold.
     BrokenPromise = 1,
+    /// A statement asked for something that cannot be done.
     Mistake = 2,
+    /// A file could not be read or written.
     Unreadable = 3,
-    Interrupted = 130,
+    /// The user stopped it.
+    Interrupted = interrupt::STATUS as isize,
 }
 
 impl Status {
-    const fn of(problem: &Diagnostic) -> Self {
+    pub const fn of(problem: &Diagnostic) -> Self {
         match problem.kind {
             Kind::Promise => Self::BrokenPromise,
             Kind::Mistake => Self::Mistake,
@@ -38,65 +46,64 @@ impl From<Status> for ExitCode {
 }
 
 /// Runs scripts up to the first error.
-pub fn batch(batch: &Batch) -> ExitCode {
-    interrupt::listen();
+pub fn batch(batch: &Batch) -> Status {
+    let mut unused: Option<BTreeSet<String>> = None;
     for file in &batch.files {
-        let status = script(file, &batch.outside);
+        let mut session = begin(&batch.outside);
+        let status = script(file, &mut session);
         if status != Status::Fine {
-            talk::flush();
-            return status.into();
+            return status;
         }
+        let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
+        unused = Some(unused.map_or(here.clone(), |all| &all & &here));
     }
-    talk::flush();
-    Status::Fine.into()
+    for name in unused.unwrap_or_default() {
+        let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
+        Process::new(&batch.outside).tell(&warning, &Sources::new());
+    }
+    Status::Fine
 }
 
-fn script(file: &Path, outside: &Outside) -> Status {
-    let (name, text, folder) = if file == Path::new("-") {
-        let mut bytes = Vec::new();
-        let read = io::stdin().lock().read_to_end(&mut bytes).and_then(|_| {
-            String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
-        });
-        ("<stdin>".to_owned(), read, PathBuf::new())
-    } else {
-        let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
-        (file.to_string_lossy().into_owned(), files::read(file), folder)
-    };
+/// Runs one script, `-` from standard input, and says what went wrong.
+pub fn script(file: &Path, session: &mut Session) -> Status {
+    let is_stdin = file == Path::new("-");
+    let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
+    let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };
     let text = match text {
         Ok(text) => text,
         Err(e) => {
-            let why = if e.kind() == io::ErrorKind::InvalidData {
-                "not a text in UTF-8".to_owned()
-            } else {
-                e.to_string()
-            };
-            eprintln!("error: cannot read `{name}`: {why}");
+            let why = reason(&e);
+            let problem = Diagnostic::error(format!("cannot read `{name}`: {why}"));
+            talk::show(&problem, session.sources());
             return Status::Unreadable;
         }
     };
-    let mut session = begin(outside);
+    let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
     let source = session.add_source(&name, &text, Some(folder));
     let result = session.execute_all(source).and_then(|flow| {
         session.finish()?;
         Ok(flow)
     });
-    let status = match result {
+    match result {
         Ok(Flow::Stopped) => Status::Interrupted,
         Ok(_) => Status::Fine,
         Err(problem) => {
             talk::show(&problem, session.sources());
             // What was recorded up to here is not lost.
-            if let Err(problem) = session.finish() {
-                talk::show(&problem, session.sources());
+            if let Err(second) = session.finish()
+                && second != problem
+            {
+                talk::show(&second, session.sources());
             }
-            return Status::of(&problem);
+            Status::of(&problem)
         }
-    };
-    for name in session.unused_overrides() {
-        talk::flush();
-        eprintln!("warning: no `let` took `--set {name}`");
     }
-    status
+}
+
+fn read_stdin() -> io::Result<String> {
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes)?;
+    String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
 }
 
 fn begin(outside: &Outside) -> Session {
@@ -108,47 +115,61 @@ fn begin(outside: &Outside) -> Session {
 }
 
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
-pub fn session(outside: &Outside) -> ExitCode {
-    interrupt::listen();
+pub fn session(outside: &Outside) -> Status {
     let mut session = begin(outside);
-    let folder = Some(PathBuf::from("."));
     let status = if io::stdin().is_terminal() {
-        crate::repl::converse(&mut session, folder);
+        crate::repl::converse(&mut session);
         Status::Fine
     } else {
         typed_ahead(&mut session)
     };
-    let status = match session.finish() {
+    match session.finish() {
         Ok(()) => status,
         Err(problem) => {
             talk::show(&problem, session.sources());
             Status::of(&problem)
         }
-    };
-    talk::flush();
-    status.into()
+    }
 }
 
-/// Statements from a pipe: goes on after an error as a terminal would.
+/// A block longer than this is looked at from time to time only, to see whether it is whole:
+/// each look reads all of it.
+const LINES_WATCHED: usize = 64;
+
+/// Statements from a pipe, carried out as they come: goes on after an error as a terminal would.
 fn typed_ahead(session: &mut Session) -> Status {
-    let mut bytes = Vec::new();
-    if let Err(e) = io::stdin().lock().read_to_end(&mut bytes) {
-        eprintln!("error: cannot read standard input: {e}");
-        return Status::Unreadable;
-    }
-    let text = String::from_utf8_lossy(&bytes);
-    let source = session.add_source("<stdin>", &text, Some(PathBuf::from(".")));
+    let mut typed = Typed::new("<stdin>");
     let mut status = Status::Fine;
-    for statement in crate::lang::parse(source, &text) {
-        match statement.and_then(|statement| session.execute(&statement)) {
-            Ok(Flow::On) => {}
-            Ok(Flow::Quit) => break,
-            Ok(Flow::Stopped) => return Status::Interrupted,
-            Err(problem) => {
+    let mut piece = String::new();
+    let mut n_lines = 0;
+    loop {
+        let mut line = Vec::new();
+        match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
+            Ok(_) => {}
+            Err(e) => {
+                let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
                 talk::show(&problem, session.sources());
-                status = Status::Mistake;
+                return Status::Unreadable;
             }
         }
+        let is_end = line.is_empty();
+        piece.push_str(&String::from_utf8_lossy(&line));
+        n_lines += 1;
+        let is_due = n_lines < LINES_WATCHED || n_lines % LINES_WATCHED == 0 || line == b"}\n";
+        if !is_end && (!is_due || is_incomplete(&piece)) {
+            continue;
+        }
+        let Outcome { flow, has_failed } = typed.obey(session, &piece);
+        piece.clear();
+        n_lines = 0;
+        if has_failed {
+            status = Status::Mistake;
+        }
+        match flow {
+            Flow::On if is_end => return status,
+            Flow::On => {}
+            Flow::Quit => return status,
+            Flow::Stopped => return Status::Interrupted,
+        }
     }
-    status
 }

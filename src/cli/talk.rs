@@ -1,29 +1,38 @@
 //! What the program says: answers on standard output, everything else on standard error.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::diag::{Diagnostic, Paint, Sources, render};
 
+/// Answers not yet written: to a file or a pipe they go in large pieces.
+fn out() -> MutexGuard<'static, BufWriter<Stdout>> {
+    static OUT: OnceLock<Mutex<BufWriter<Stdout>>> = OnceLock::new();
+    let out = OUT.get_or_init(|| Mutex::new(BufWriter::with_capacity(1 << 16, io::stdout())));
+    out.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Writes one line of the answer. A reader that has gone away ends the process quietly.
 pub fn answer(line: &str) {
-    let mut out = io::stdout().lock();
+    let mut out = out();
     if let Err(e) = out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")) {
         end_on(&e);
     }
 }
 
-/// Writes what is still held back.
+/// Writes what is still held back: before anything else is said, before waiting for input,
+/// and at the end.
 pub fn flush() {
-    if let Err(e) = io::stdout().lock().flush() {
+    if let Err(e) = out().flush() {
         end_on(&e);
     }
 }
 
-fn end_on(error: &io::Error) {
+fn end_on(error: &io::Error) -> ! {
     if error.kind() == io::ErrorKind::BrokenPipe {
         std::process::exit(0);
     }
-    eprintln!("linkwork: cannot write the answer: {error}");
+    complain(&format!("error: cannot write the answer: {error}\n"));
     std::process::exit(3);
 }
 
@@ -34,12 +43,22 @@ pub fn show(problem: &Diagnostic, sources: &Sources) {
     if !text.ends_with('\n') {
         text.push('\n');
     }
+    complain(&text);
+}
+
+fn complain(text: &str) {
     // Nobody is left to tell if standard error is gone.
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
 
 /// Colours on a terminal, unless the user asked for none.
 fn paint() -> Paint {
+    if io::stderr().is_terminal() && wants_colours() { Paint::Coloured } else { Paint::Plain }
+}
+
+/// Whether the user has nothing against colours where there is a terminal.
+pub fn wants_colours() -> bool {
     let is_unwanted = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-    if io::stderr().is_terminal() && !is_unwanted { Paint::Coloured } else { Paint::Plain }
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    !is_unwanted && !is_dumb
 }

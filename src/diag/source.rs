@@ -27,6 +27,11 @@ impl Span {
         Self { source: self.source, start: self.start, end: other.end.max(self.start) }
     }
 
+    /// Whether `other` lies within this span.
+    pub fn holds(self, other: Self) -> bool {
+        self.source == other.source && self.start <= other.start && other.end <= self.end
+    }
+
     /// The empty span just after this one.
     #[must_use]
     pub fn after(self) -> Self {
@@ -50,6 +55,8 @@ pub struct Source {
     pub name: Arc<str>,
     /// All of it.
     pub text: Arc<str>,
+    /// The number of its first line: more than 1 for a piece of what was typed.
+    pub first_line: usize,
 }
 
 /// Every text read so far. Nothing is ever taken out, so a [`Span`] stays good.
@@ -66,9 +73,24 @@ impl Sources {
 
     /// Keeps `text` under `name`.
     pub fn add(&mut self, name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceId {
+        self.add_piece(name, text, 1)
+    }
+
+    /// Keeps a piece of the text `name`, which begins at line `first_line` of it.
+    pub fn add_piece(
+        &mut self,
+        name: impl Into<Arc<str>>,
+        text: impl Into<Arc<str>>,
+        first_line: usize,
+    ) -> SourceId {
         let id = SourceId(u32::try_from(self.all.len()).expect("fewer than 2^32 texts"));
-        self.all.push(Source { name: name.into(), text: text.into() });
+        self.all.push(Source { name: name.into(), text: text.into(), first_line });
         id
+    }
+
+    /// The text that was added first.
+    pub fn first(&self) -> Option<&Source> {
+        self.get(SourceId(0))
     }
 
     /// The text called `id`, if it is one of these.
@@ -86,11 +108,11 @@ impl Sources {
 
     /// Line and column of the first byte of `span`.
     pub fn place(&self, span: Span) -> Option<Place> {
-        let text = &self.get(span.source)?.text;
+        let Source { text, first_line, .. } = self.get(span.source)?;
         let before = &text[..clip(text, span.range()).start];
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
         Some(Place {
-            line: before.bytes().filter(|&byte| byte == b'\n').count() + 1,
+            line: before.bytes().filter(|&byte| byte == b'\n').count() + first_line,
             column: before[line_start..].chars().count() + 1,
         })
     }

@@ -95,14 +95,14 @@ impl Actor {
         ));
         let placements = self.placements_throughout();
         let places: Vec<f64> = placements.iter().flat_map(|p| [p.at.x, p.at.y]).collect();
-        let place = track(Change::Place, times, &places, 2, TOLERANCE, |row| numbers(row));
+        let place = track(Change::Place, times, &places, 2, TOLERANCE, numbers);
 
         let reach = self.figure.reach();
         let mut turns: Vec<f64> = placements.iter().map(|p| p.turn).collect();
         unwind(&mut turns);
         // A turn moves the far end of the figure.
         let tolerance = TOLERANCE.atan2(reach).to_degrees();
-        let mut turn = track(Change::Turn, times, &turns, 1, tolerance, |row| numbers(row));
+        let mut turn = track(Change::Turn, times, &turns, 1, tolerance, numbers);
         if turn.is_none() && turns[0] != 0.0 && place.is_some() {
             // A moving place stands for the whole transform: the turn has to be said again.
             let value = numbers(&turns[..1]);
@@ -173,7 +173,7 @@ fn columns<const N: usize>(
 ) -> impl Iterator<Item = Track> {
     attributes.into_iter().enumerate().filter_map(move |(i, attribute)| {
         let column: Vec<f64> = rows.iter().skip(i).step_by(N).copied().collect();
-        track(Change::Shape(shape, attribute), times, &column, 1, TOLERANCE, |row| numbers(row))
+        track(Change::Shape(shape, attribute), times, &column, 1, TOLERANCE, numbers)
     })
 }
 

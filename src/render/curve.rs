@@ -2,9 +2,10 @@
 
 use std::rc::Rc;
 
-use super::figure::{Figure, Key, Layer, Path};
+use super::figure::{Figure, Key, Layer};
 use super::ink::Ink;
 use super::page::{Extent, Page};
+use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
 use crate::constraint::{Point, Vector};
@@ -190,7 +191,7 @@ mod tests {
             assert_eq!((line[0], line[line.len() - 1]), (points[0], points[5000]), "{name}");
         };
         check("line", &|t| Point::new(300.0 * t, 20.0 * t), 2);
-        check("circle", &|t| Vector::polar(200.0, 7.0 * t).to_point(), 110);
+        check("circle", &|t| Vector::polar(200.0, 7.0 * t).to_point(), 120);
         check("there and back", &|t| Point::new(100.0 * libm::sin(20.0 * t), 0.0), 60);
         check("rosette", &|t| Vector::polar(200.0 * libm::cos(28.0 * t), 7.0 * t).to_point(), 800);
         check("one place", &|_| Point::new(3.0, 4.0), 2);

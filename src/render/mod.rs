@@ -28,9 +28,13 @@ mod ink;
 mod lettering;
 mod number;
 mod page;
+mod path;
 mod strip;
 mod style;
 mod view;
+
+// Numbers in lines.
+pub mod chart;
 
 // Figures in motion.
 mod animation;

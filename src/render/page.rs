@@ -125,7 +125,9 @@ mod tests {
 
     fn page_of(points: &[(f64, f64)]) -> Page {
         let mut extent = Extent::default();
-        points.iter().for_each(|&(x, y)| extent.include(Point::new(x, y)));
+        for &(x, y) in points {
+            extent.include(Point::new(x, y));
+        }
         Page::fit(&extent)
     }
 

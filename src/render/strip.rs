@@ -1,9 +1,10 @@
 //! The strip below a drawing: a scale, and which colour is whose path.
 
 use super::curve::Curve;
-use super::figure::{Key, Layer, Path, Placement};
+use super::figure::{Key, Layer, Placement};
 use super::ink::Ink;
 use super::page::{Page, STRIP};
+use super::path::Path;
 use super::style::{BASE_LINE, CAPTION, Class, text_width};
 use crate::constraint::Point;
 use crate::diag::format_number;

@@ -229,7 +229,9 @@ impl Class {
         let look = self.look();
         let mut text = format!(".{}{{fill:{}", self.name(), look.fill);
         if look.stroke != "none" {
-            text.push_str(&format!(";stroke:{};stroke-width:", look.stroke));
+            text.push_str(";stroke:");
+            text.push_str(look.stroke);
+            text.push_str(";stroke-width:");
             // Below half a pixel a line is a shade of grey.
             push_rounded(&mut text, (look.width * mark).max(0.5), 2);
         }

@@ -373,19 +373,24 @@ fn binary(
         | (Operator::Multiply, Number, Vector)
         | (Operator::Multiply | Operator::Divide, Vector, Number) => Vector,
         (_, a, b) => {
-            let problem = Diagnostic::error(format!(
-                "`{}` does not go between a {} and a {}",
-                operator.sign(),
-                a.noun(),
-                b.noun()
-            ))
-            .at(expr.span, "")
-            .also(sides[0].span, format!("a {}", a.noun()))
-            .also(sides[1].span, format!("a {}", b.noun()));
-            return Err(if (operator, a, b) == (Operator::Multiply, Vector, Vector) {
-                problem.help("`dot(v, w)` and `cross(v, w)` multiply vectors")
+            let sorts = if a == b {
+                format!("two {}s", a.noun())
             } else {
-                problem
+                format!("a {} and a {}", a.noun(), b.noun())
+            };
+            let sign = operator.sign();
+            let problem = Diagnostic::error(format!("`{sign}` does not go between {sorts}"))
+                .at(expr.span, "")
+                .also(sides[0].span, format!("a {}", a.noun()))
+                .also(sides[1].span, format!("a {}", b.noun()));
+            return Err(match (operator, a, b) {
+                (Operator::Multiply, Vector, Vector) => {
+                    problem.help("`dot(v, w)` and `cross(v, w)` multiply vectors")
+                }
+                (Operator::Power, Vector, Number) => {
+                    problem.help("`dot(v, v)` is the square of a vector's length")
+                }
+                _ => problem,
             });
         }
     };
@@ -403,25 +408,4 @@ fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(format!("expected a {}", shape.noun()))
         .at(expr.span, format!("this is a {}", is.noun()))
-}
-
-/// The value of an expression without names, as `--set r=90deg` gives one.
-///
-/// # Errors
-/// Where the text is no such expression.
-pub fn evaluate_constant(text: &str) -> Result<f64, Diagnostic> {
-    use crate::lang::ast::{Command, PrintItem};
-    let mut session = Session::new(Box::new(super::Nowhere));
-    let statement = format!("print {text}");
-    let source = session.add_source("value", &statement, None);
-    let mut statements = crate::lang::parse(source, &statement);
-    let no_value = || Diagnostic::error(format!("`{text}` is not a number"));
-    let statement = statements.next().ok_or_else(no_value)??;
-    match (&statement.command, statements.next()) {
-        (Command::Print(items), None) => match &items[..] {
-            [PrintItem::Value(expr)] => session.number(expr),
-            _ => Err(no_value()),
-        },
-        _ => Err(no_value()),
-    }
 }

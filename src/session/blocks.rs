@@ -1,10 +1,12 @@
 //! Blocks: `for`, `define` and `use`, `include` and `load`.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::journal::Change;
 use super::limits::{DEEPEST_NESTING, MOST_STATEMENTS};
+use super::perform::format_count;
 use super::scope::{Bound, Meaning, Scope};
 use super::{Diagnostic, Flow, Session};
 use crate::diag::{Kind, Span};
@@ -27,7 +29,11 @@ impl Session {
         let result = inside(self);
         self.depth -= 1;
         // Reached through this statement, whatever went wrong in there.
-        result.map_err(|problem| problem.reached_from(span))
+        result.map_err(|problem| match problem.via.last() {
+            // Recursion shows each of its places once.
+            Some(last) if *last == span => problem,
+            _ => problem.reached_from(span),
+        })
     }
 
     fn perform_all(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
@@ -56,16 +62,21 @@ impl Session {
                 .at(expr.span, format!("this is {}", crate::diag::format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
-        if to - from >= MOST_STATEMENTS as f64 {
+        // Loops within loops multiply; one that is long in every round is found in the first.
+        let n_rounds = (to - from + 1.0).max(1.0);
+        let n_outer = self.n_rounds;
+        if n_rounds * n_outer > 2.0 * MOST_STATEMENTS as f64 || n_rounds > MOST_STATEMENTS as f64 {
+            let mut text = format!("{} rounds", format_count(n_rounds));
+            if n_outer > 1.0 {
+                let _ = write!(text, " in each of {}", format_count(n_outer));
+            }
             return Err(Diagnostic::error("this loop has too many rounds").at(
                 range.from.span.to(range.to.span),
-                format!(
-                    "{} rounds, no more than 20 million",
-                    crate::diag::format_number(to - from + 1.0)
-                ),
+                format!("{text}, no more than 20 million statements a command"),
             ));
         }
-        self.nested(span, |session| {
+        self.n_rounds = n_rounds * n_outer;
+        let result = self.nested(span, |session| {
             let scope = session.scopes.last_mut().expect("the outermost scope is never left");
             let slot = scope.bindings.len();
             scope.bindings.push((variable.text.clone(), Bound::Number(from)));
@@ -75,15 +86,14 @@ impl Session {
                 let scope = session.scopes.last_mut().expect("the outermost scope is never left");
                 scope.bindings[slot].1 = Bound::Number(value);
                 flow = session.perform_all(body)?;
-                if session.host.is_interrupted() {
-                    flow = Flow::Stopped;
-                }
                 value += 1.0;
             }
             let scope = session.scopes.last_mut().expect("the outermost scope is never left");
             scope.bindings.truncate(slot);
             Ok(flow)
-        })
+        });
+        self.n_rounds = n_outer;
+        result
     }
 
     pub(super) fn define(&mut self, definition: &Arc<Definition>) {
@@ -106,13 +116,12 @@ impl Session {
         let wanted = definition.parameters.len();
         if wanted != arguments.len() {
             let names: Vec<&str> = definition.parameters.iter().map(|p| &*p.text).collect();
-            return Err(Diagnostic::error(format!(
-                "`{}` takes {wanted} arguments, not {}",
-                word.text,
-                arguments.len()
-            ))
-            .at(span, format!("expected `{}({})`", word.text, names.join(", ")))
-            .also(definition.name.span, "defined here"));
+            let plural = if wanted == 1 { "argument" } else { "arguments" };
+            let given = arguments.len();
+            let message = format!("`{}` takes {wanted} {plural}, not {given}", word.text);
+            return Err(Diagnostic::error(message)
+                .at(span, format!("expected `{}({})`", word.text, names.join(", ")))
+                .also(definition.name.span, "defined here"));
         }
         let mut bindings = Vec::with_capacity(wanted);
         for (parameter, argument) in definition.parameters.iter().zip(arguments) {
@@ -152,12 +161,23 @@ impl Session {
     pub(super) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
         let file = folder.join(Path::new(&*path.value));
+        if self.included.contains(&file) {
+            return Err(Diagnostic::error(format!("`{}` includes itself", path.value))
+                .at(path.span, "this file is being included already"));
+        }
         let text = self.read(&file, path)?;
-        self.perform_text(&file, &text, span)
+        self.included.push(file.clone());
+        let result = self.perform_text(&file, &text, span);
+        self.included.pop();
+        result
     }
 
     fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
-        self.host.read(file).map_err(|e| unreadable(path, &e))
+        self.host.read(file).map_err(|e| {
+            Diagnostic::error(format!("cannot read `{}`", path.value))
+                .kind(Kind::Unreadable)
+                .at(path.span, super::reason(&e))
+        })
     }
 
     /// Carries out the statements of a file as part of the command under way.
@@ -192,15 +212,4 @@ impl Session {
         self.clear();
         self.perform_text(&file, &text, span)
     }
-}
-
-fn unreadable(path: &Text, error: &std::io::Error) -> Diagnostic {
-    let why = match error.kind() {
-        std::io::ErrorKind::NotFound => "no such file".to_owned(),
-        std::io::ErrorKind::InvalidData => "not a text in UTF-8".to_owned(),
-        _ => error.to_string(),
-    };
-    Diagnostic::error(format!("cannot read `{}`", path.value))
-        .kind(Kind::Unreadable)
-        .at(path.span, why)
 }

@@ -17,7 +17,7 @@ impl Session {
             Entity::Parameter(id) => match parts {
                 [ChangePart::Relation(Relation::Equal(value))] => {
                     let formula = self.live(value)?.into_formula(value.span);
-                    self.redefine(id, formula, name, value)
+                    self.redefine(id, formula, value)
                 }
                 _ => Err(self.no_such_part(name, "a parameter takes `= value`")),
             },
@@ -99,12 +99,12 @@ impl Session {
                 c.target = self.target(e, &mut drivers)?;
                 &[Field::X, Field::Y]
             }
-            (c @ Constraint::Cog(_), ChangePart::Ratio(e)) => {
+            (c @ (Constraint::Cog(_) | Constraint::CogVelocity(_)), ChangePart::Ratio(e)) => {
                 let value = self.drive(e, Field::Ratio, &mut drivers)?;
                 c.set(Field::Ratio, cog_ratio(value, false, e.span)?);
                 &[Field::Ratio]
             }
-            (c @ Constraint::Cog(_), ChangePart::Inside) => {
+            (c @ (Constraint::Cog(_) | Constraint::CogVelocity(_)), ChangePart::Inside) => {
                 let ratio = c.get(Field::Ratio).unwrap_or(1.0);
                 c.set(Field::Ratio, -ratio.abs());
                 &[]
@@ -136,7 +136,7 @@ fn takes(constraint: &Constraint) -> &'static str {
         Constraint::Motor(_) => "a motor takes `radius`, `speed` and `phase`",
         Constraint::Hinge(_) => "a hinge takes `at ratio`",
         Constraint::Coordinate(_) => "a coordinate takes `at (x, y)`",
-        Constraint::Cog(_) => "cogs take `ratio r` and `inside`",
+        Constraint::Cog(_) | Constraint::CogVelocity(_) => "cogs take `ratio r` and `inside`",
         Constraint::Glider(_) => "a glider takes `unbounded`",
         _ => "this constraint has no part that can be changed",
     }

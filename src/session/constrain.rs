@@ -2,11 +2,12 @@
 
 use super::{Diagnostic, Session};
 use crate::constraint::{
-    Bounds, Cog, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence, Field, Glider,
-    Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
+    Field, Glider, Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
 use crate::diag::Span;
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
+use crate::solve::CogForm;
 use crate::world::{Edit, Formula, PointId, Record, Shape, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -110,7 +111,12 @@ impl Session {
                 let points = self.pairs(first, second)?;
                 let value = self.drive(ratio, Field::Ratio, &mut drivers)?;
                 let ratio = cog_ratio(value, *inside, ratio.span)?;
-                (Cog::new(points, ratio, self.world.points().column()).into(), "cog")
+                let x = self.world.points().column();
+                let wheels: Constraint = match self.preferences.solve.cog {
+                    CogForm::Holonomic => Cog::new(points, ratio, x).into(),
+                    CogForm::Velocity => CogVelocity::new(points, ratio, x).into(),
+                };
+                (wheels, "cog")
             }
             Stated::Distance { point, line, relation } => {
                 let [a, b] = self.pair(line)?;
@@ -280,19 +286,28 @@ impl Session {
                 Bounds { lo, hi }
             }
         };
-        if measure == Measure::Length {
-            // A lower bound below 0 allows everything; an upper one, nothing.
-            let (Relation::Equal(e)
-            | Relation::Less(e)
-            | Relation::LessEqual(e)
-            | Relation::Greater(e)
-            | Relation::GreaterEqual(e)
-            | Relation::In(Range { to: e, .. })) = relation;
-            if bounds.hi < 0.0 {
-                not_negative(bounds.hi, "a length", e.span)?;
-            }
+        let last = upper(relation).span;
+        if bounds.lo > bounds.hi {
+            return Err(Diagnostic::error("no angle is like this")
+                .at(last, "angles lie between -180deg and 180deg"));
+        }
+        // A lower bound below 0 allows everything; an upper one, nothing.
+        if measure == Measure::Length && bounds.hi < 0.0 {
+            not_negative(bounds.hi, "a length", last)?;
         }
         Ok(bounds)
+    }
+}
+
+/// The expression of a relation that says how large a value may be, if one does.
+const fn upper(relation: &Relation) -> &Expr {
+    match relation {
+        Relation::Equal(e)
+        | Relation::Less(e)
+        | Relation::LessEqual(e)
+        | Relation::Greater(e)
+        | Relation::GreaterEqual(e)
+        | Relation::In(Range { to: e, .. }) => e,
     }
 }
 

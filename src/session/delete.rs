@@ -3,6 +3,7 @@
 use super::journal::Change;
 use super::{Diagnostic, Session};
 use crate::lang::ast::Name;
+use crate::solve::Memory;
 use crate::world::{Edit, Entity, Formula, Mention};
 
 impl Session {
@@ -114,10 +115,11 @@ impl Session {
         }
     }
 
-    /// Forgets definitions, recordings and settings, and what the solver remembers.
+    /// Ends recordings, forgets definitions and settings, and what the solver remembers.
     fn stop_everything(&mut self) {
-        self.change(Change::Recorders(Vec::new()));
-        self.change(Change::Memory(Box::default()));
+        self.stop_recording();
+        self.set_memory(Memory::default());
+        self.change(Change::Series(Vec::new()));
         let definitions: Vec<_> = self.definitions.keys().cloned().collect();
         for name in definitions {
             self.change(Change::Definition(name, None));
@@ -125,10 +127,12 @@ impl Session {
         self.change(Change::Preferences(Box::default()));
     }
 
-    pub(super) fn reset(&mut self) {
+    /// Time 0 again, and everything where it stood when the clock left 0.
+    pub(super) fn reset(&mut self) -> Result<(), Diagnostic> {
         self.begin_motion();
         let start = self.world.start();
         self.edit(Edit::Motion(Box::new(start)));
-        self.change(Change::Memory(Box::default()));
+        self.set_memory(Memory::default());
+        self.world.refresh().map_err(|why| why.note("at time 0"))
     }
 }

@@ -39,8 +39,24 @@ pub trait Host {
         false
     }
 
+    /// Told how much of a long piece of work is done, from 0 to 1.
+    fn progress(&self, _share: f64) {}
+
     /// Seconds of wall time since some fixed moment; for promises and receipts only.
     fn seconds(&self) -> f64;
+}
+
+/// Why a file could not be read or written, in a few words.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file or folder".to_owned(),
+        io::ErrorKind::InvalidData => "not a text in UTF-8".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "this is a folder".to_owned(),
+        io::ErrorKind::NotADirectory => "part of the path is not a folder".to_owned(),
+        io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// An outside that says nothing, keeps nothing and has no files.

@@ -1,6 +1,6 @@
 //! What was done, so that it can be undone: every command is one transaction.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use super::Preferences;
@@ -8,7 +8,7 @@ use super::limits::{UNDO_BYTES, UNDO_COMMANDS};
 use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
 use crate::solve::Memory;
-use crate::world::Edit;
+use crate::world::{ConstraintId, Edit, ParameterId, PointId};
 
 /// One reversible change of a session. Making it gives the change that takes it back.
 #[derive(Debug)]
@@ -21,8 +21,12 @@ pub enum Change {
     Definition(Arc<str>, Option<Arc<Definition>>),
     /// Sets what the solver remembers.
     Memory(Box<Memory>),
-    /// Sets the recorders.
-    Recorders(Vec<Recorder>),
+    /// Begins a recording at a place in the list, or takes it out.
+    Recorder(usize, Option<Box<Recorder>>),
+    /// Appends a value to a series, or takes the last one away.
+    Sample(Arc<str>, Option<f64>),
+    /// Sets all series.
+    Series(super::series::SeriesList),
     /// Sets what the recorders have taken.
     Reels(Vec<Reel>),
 }
@@ -37,6 +41,30 @@ impl Change {
         };
         size_of::<Self>() + inside
     }
+}
+
+/// What an edit sets to a value whatever it was before, so that within a command the first
+/// inverse takes all of them back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// Where a point is.
+    Position(PointId),
+    /// Whether a point is frozen.
+    Freedom(PointId),
+    /// The weight of a point.
+    Weight(PointId),
+    /// A constraint that stays in being.
+    Constraint(ConstraintId),
+    /// Whether a constraint is on.
+    Switch(ConstraintId),
+    /// A parameter that stays in being.
+    Parameter(ParameterId),
+    /// The clock.
+    Clock,
+    /// What the solver remembers.
+    Memory,
+    /// All that running changes.
+    Motion,
 }
 
 /// One command that changed something.
@@ -55,6 +83,8 @@ pub struct Journal {
     pub current: Vec<Change>,
     /// Whether `current` holds all that running changes already: once is enough.
     pub has_motion: bool,
+    /// What `current` takes back already; anew once it holds all that running changes.
+    pub covered: BTreeSet<Part>,
     done: VecDeque<(Entry, usize)>,
     undone: Vec<Entry>,
     n_bytes: usize,
@@ -63,13 +93,18 @@ pub struct Journal {
 impl Journal {
     /// Ends the command under way; what was undone before can no longer be redone.
     pub fn commit(&mut self, label: &str) {
-        self.has_motion = false;
-        if self.current.is_empty() {
-            return;
+        let changes = self.take_current();
+        if !changes.is_empty() {
+            self.undone.clear();
+            self.keep(Entry { label: label.to_owned(), changes });
         }
-        self.undone.clear();
-        let changes = std::mem::take(&mut self.current);
-        self.keep(Entry { label: label.to_owned(), changes });
+    }
+
+    /// Ends the command under way without a trace; gives what takes it back.
+    pub fn take_current(&mut self) -> Vec<Change> {
+        self.has_motion = false;
+        self.covered.clear();
+        std::mem::take(&mut self.current)
     }
 
     /// Keeps a command as the last one done.

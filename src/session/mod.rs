@@ -4,6 +4,7 @@
 //! edits, lets the solver work, and hands what is to be printed or written to a [`Host`].
 //! It never touches a terminal, and never leaves half an edit behind.
 
+mod accuracy;
 mod analysis;
 mod bind;
 mod blocks;
@@ -12,37 +13,49 @@ mod constrain;
 mod delete;
 mod describe;
 mod diagnose;
+mod effects;
+mod fingerprint;
 mod host;
 mod journal;
+mod laps;
 mod limits;
 mod look;
+mod outside;
 mod perform;
 mod pictures;
 mod points;
+mod receipt;
 mod recorder;
 mod restore;
 mod run;
 mod save;
 mod scope;
+mod series;
 mod settings;
+mod transaction;
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use bind::evaluate_constant;
+pub use accuracy::Telling;
 pub use diagnose::Check;
-pub use host::{Host, Nowhere};
-pub use run::Summary;
+pub use effects::{Effects, Row as EffectRow};
+pub use host::{Host, Nowhere, reason};
+pub use outside::evaluate_binding;
+pub use receipt::{Summary, Way};
 pub use settings::Preferences;
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
 use crate::lang::ast::{Definition, Statement};
 use crate::solve::Solver;
-use crate::world::{Edit, World};
-use journal::{Change, Entry, Journal};
+use crate::world::World;
+use journal::Journal;
+use laps::Laps;
+use outside::Override;
 use recorder::Recorder;
 use scope::Scope;
+use series::SeriesList;
 
 /// A world with everything that a user can say to it.
 pub struct Session {
@@ -56,6 +69,10 @@ pub struct Session {
     scopes: Vec<Scope>,
     /// Statements carried out by the command under way.
     n_statements: u64,
+    /// Rounds of the loops under way, multiplied.
+    n_rounds: f64,
+    /// Files being included, the outermost first.
+    included: Vec<PathBuf>,
     /// How deep `include`, `use` and `for` are nested now.
     depth: usize,
     sources: Sources,
@@ -66,13 +83,10 @@ pub struct Session {
     /// Files to be written when the command under way has succeeded.
     outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     last_run: Option<Summary>,
-}
-
-/// A value from outside and whether some `let` took it.
-#[derive(Debug, Clone)]
-struct Override {
-    value: f64,
-    is_used: bool,
+    /// What the command under way has run so far.
+    run: Option<Summary>,
+    laps: Laps,
+    series: SeriesList,
 }
 
 /// How a statement ended.
@@ -99,12 +113,17 @@ impl Session {
             journal: Journal::default(),
             scopes: vec![Scope::default()],
             n_statements: 0,
+            n_rounds: 1.0,
+            included: Vec::new(),
             depth: 0,
             sources: Sources::new(),
             folders: HashMap::new(),
             overrides: BTreeMap::new(),
             outbox: Vec::new(),
             last_run: None,
+            run: None,
+            laps: Laps::default(),
+            series: SeriesList::new(),
         }
     }
 
@@ -125,21 +144,22 @@ impl Session {
 
     /// Keeps a text. `folder` is where what it includes is looked for.
     pub fn add_source(&mut self, name: &str, text: &str, folder: Option<PathBuf>) -> SourceId {
-        let id = self.sources.add(name, text);
+        self.add_piece(name, text, 1, folder)
+    }
+
+    /// Keeps a piece of a text that is typed piece by piece; it begins at line `first_line`.
+    pub fn add_piece(
+        &mut self,
+        name: &str,
+        text: &str,
+        first_line: usize,
+        folder: Option<PathBuf>,
+    ) -> SourceId {
+        let id = self.sources.add_piece(name, text, first_line);
         if let Some(folder) = folder {
             self.folders.insert(id, folder);
         }
         id
-    }
-
-    /// Gives a parameter a value that wins over the scripts' own `let`.
-    pub fn override_parameter(&mut self, name: &str, value: f64) {
-        self.overrides.insert(name.to_owned(), Override { value, is_used: false });
-    }
-
-    /// Names given to [`override_parameter`](Self::override_parameter) that no `let` has.
-    pub fn unused_overrides(&self) -> impl Iterator<Item = &str> {
-        self.overrides.iter().filter(|(_, o)| !o.is_used).map(|(name, _)| name.as_str())
     }
 
     /// Carries out one statement, whole or not at all.
@@ -154,6 +174,8 @@ impl Session {
         });
         match result {
             Ok(flow) => {
+                self.end_laps();
+                self.give_receipt();
                 let label = self.label(statement.span);
                 self.journal.commit(&label);
                 Ok(flow)
@@ -185,23 +207,26 @@ impl Session {
     /// # Errors
     /// Where a file cannot be written.
     pub fn finish(&mut self) -> Result<(), Diagnostic> {
-        let span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
-        self.stop_recording(span)?;
+        self.stop_recording();
         self.post()?;
         self.journal.commit("");
         Ok(())
     }
 
-    /// Writes the files of a command that succeeded.
+    /// Writes the files of a command that succeeded. One that cannot be written keeps no
+    /// other back.
     fn post(&mut self) -> Result<(), Diagnostic> {
+        let mut result = Ok(());
         for (path, bytes, span) in std::mem::take(&mut self.outbox) {
-            self.host.write(&path, &bytes).map_err(|e| {
-                Diagnostic::error(format!("cannot write `{}`: {e}", path.display()))
-                    .kind(Kind::Unreadable)
-                    .at(span, "")
-            })?;
+            if let Err(e) = self.host.write(&path, &bytes)
+                && result.is_ok()
+            {
+                let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
+                let why = reason(&e);
+                result = Err(problem.kind(Kind::Unreadable).at(span, why));
+            }
         }
-        Ok(())
+        result
     }
 
     /// The first line of a statement, for telling what was undone.
@@ -212,102 +237,6 @@ impl Session {
             Some((end, _)) => format!("{}...", &line[..end]),
             None => line.to_owned(),
         }
-    }
-
-    /// Makes a reversible change; gives the change that takes it back.
-    fn apply(&mut self, change: Change) -> Change {
-        match change {
-            Change::World(edit) => Change::World(self.world.apply(edit)),
-            Change::Preferences(new) => {
-                Change::Preferences(Box::new(std::mem::replace(&mut self.preferences, *new)))
-            }
-            Change::Definition(name, Some(new)) => {
-                let old = self.definitions.insert(name.clone(), new);
-                Change::Definition(name, old)
-            }
-            Change::Definition(name, None) => {
-                let old = self.definitions.remove(&name);
-                Change::Definition(name, old)
-            }
-            Change::Memory(memory) => {
-                let old = self.solver.memory();
-                self.solver.set_memory(*memory);
-                Change::Memory(Box::new(old))
-            }
-            Change::Recorders(new) => {
-                Change::Recorders(std::mem::replace(&mut self.recorders, new))
-            }
-            Change::Reels(reels) => Change::Reels(
-                self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
-            ),
-        }
-    }
-
-    /// Makes a change that belongs to the command under way.
-    fn change(&mut self, change: Change) {
-        let inverse = self.apply(change);
-        self.journal.current.push(inverse);
-    }
-
-    /// Makes an edit of the world that belongs to the command under way.
-    fn edit(&mut self, edit: Edit) {
-        let inverse = self.world.apply(edit);
-        self.journal.current.push(Change::World(inverse));
-    }
-
-    /// Keeps all that running changes, before the command under way lets time pass or the
-    /// solver move points. Once a command is enough.
-    fn begin_motion(&mut self) {
-        if std::mem::replace(&mut self.journal.has_motion, true) {
-            return;
-        }
-        let reels = self.recorders.iter().map(Recorder::mark).collect();
-        let motion = Box::new(self.world.motion());
-        self.journal.current.push(Change::Memory(Box::new(self.solver.memory())));
-        self.journal.current.push(Change::World(Edit::Motion(motion)));
-        self.journal.current.push(Change::Reels(reels));
-    }
-
-    /// Takes back what the command under way did.
-    fn roll_back(&mut self) {
-        self.outbox.clear();
-        self.journal.has_motion = false;
-        self.scopes.truncate(1);
-        self.depth = 0;
-        let scope = self.scopes.last_mut().expect("the outermost scope is never left");
-        scope.bindings.clear();
-        for change in std::mem::take(&mut self.journal.current).into_iter().rev() {
-            self.apply(change);
-        }
-    }
-
-    /// Takes back one command, or does it again: gives what was taken back.
-    fn invert(&mut self, entry: Entry) -> Entry {
-        let mut changes: Vec<Change> = Vec::with_capacity(entry.changes.len());
-        for change in entry.changes.into_iter().rev() {
-            changes.push(self.apply(change));
-        }
-        Entry { label: entry.label, changes }
-    }
-
-    fn undo(&mut self, n: usize) -> usize {
-        for done in 0..n {
-            let Some(entry) = self.journal.pop_done() else { return done };
-            let inverse = self.invert(entry);
-            self.note(format!("undid `{}`", inverse.label));
-            self.journal.push_undone(inverse);
-        }
-        n
-    }
-
-    fn redo(&mut self, n: usize) -> usize {
-        for done in 0..n {
-            let Some(entry) = self.journal.pop_undone() else { return done };
-            let inverse = self.invert(entry);
-            self.note(format!("did `{}` again", inverse.label));
-            self.journal.keep(inverse);
-        }
-        n
     }
 
     /// Tells the user something that is not an answer.

@@ -13,6 +13,23 @@ impl Session {
                 .at(statement.span, "20 million statements were carried out")
                 .help("split it into several commands"));
         }
+        let flow = self.carry_out(statement).map_err(|problem| {
+            // What fails elsewhere, in a live expression, was reached from here.
+            let is_elsewhere = problem.place().is_some_and(|place| !statement.span.holds(place));
+            if is_elsewhere && problem.via.is_empty() {
+                problem.reached_from(statement.span)
+            } else {
+                problem
+            }
+        })?;
+        if flow == Flow::On && self.host.is_interrupted() {
+            self.note("stopped");
+            return Ok(Flow::Stopped);
+        }
+        Ok(flow)
+    }
+
+    fn carry_out(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let span = statement.span;
         match &statement.command {
             Command::Let(bindings) => self.let_parameters(bindings)?,
@@ -30,7 +47,7 @@ impl Session {
             Command::Set { setting, value, targets } => self.set(setting, value, targets)?,
             Command::Undo(n) => self.undo_or_redo(n.as_ref(), span, true)?,
             Command::Redo(n) => self.undo_or_redo(n.as_ref(), span, false)?,
-            Command::Reset => self.reset(),
+            Command::Reset => self.reset()?,
             Command::Clear => self.clear(),
             Command::Step { frames, promise } => return self.step(frames.as_ref(), promise, span),
             Command::Run { time, promise } => return self.run(time, promise, span),
@@ -43,7 +60,7 @@ impl Session {
             Command::Why(name) => self.why(name)?,
             Command::Limits(name) => self.limits(name)?,
             Command::Effects => self.effects()?,
-            Command::Accuracy(promise) => self.accuracy(promise, span)?,
+            Command::Accuracy(promise) => return self.accuracy(promise, span),
             Command::Assert { left, relation, within } => {
                 self.assert(left, relation, within.as_ref(), span)?;
             }
@@ -53,6 +70,8 @@ impl Session {
             Command::Expose(expose) => self.expose(expose)?,
             Command::Svg(path) => self.svg(path)?,
             Command::Record { path, every } => self.record(path, every.as_ref())?,
+            Command::Sample { series, values } => self.sample(series, values)?,
+            Command::Plot { path, parts } => self.plot(path, parts)?,
             Command::RecordStop => self.record_stop(span)?,
             Command::For { variable, range, body } => {
                 return self.repeat(variable, range, body, span);
@@ -91,9 +110,9 @@ impl Session {
             return Err(Diagnostic::error(format!(
                 "expected {} to {} {of}",
                 number(least),
-                number(most)
+                format_count(most)
             ))
-            .at(expr.span, format!("this is {}", number(value))));
+            .at(expr.span, format!("this is {}", format_count(value))));
         }
         Ok(n as u64)
     }
@@ -128,4 +147,9 @@ impl Session {
         Err(Diagnostic::error(format!("`{word}` cannot be part of another command"))
             .at(span, "inside of a `for`, a definition or an included file"))
     }
+}
+
+/// A count for a message: nobody counts the zeros of a large round one.
+pub(super) fn format_count(value: f64) -> String {
+    if value.abs() >= 1e6 { format!("{value:e}") } else { crate::diag::format_number(value) }
 }

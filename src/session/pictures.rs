@@ -7,7 +7,7 @@ use super::recorder::{Format, Recorder};
 use super::{Diagnostic, Session};
 use crate::diag::Span;
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
-use crate::render::{Animation, Options, Scene, View, svg, svg_with_view};
+use crate::render::{Animation, Scene, View, svg, svg_with_view};
 use crate::world::{Edit, Trace};
 
 impl Session {
@@ -91,6 +91,16 @@ impl Session {
         }
     }
 
+    /// Where an output path that is to be one file leads.
+    pub(super) fn output_file(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let file = self.output_path(path)?;
+        if path.value.ends_with('/') || file.file_name().is_none() {
+            return Err(Diagnostic::error("this is no file")
+                .at(path.span, "expected a file name, this names a folder"));
+        }
+        Ok(file)
+    }
+
     /// Where an output path leads; refused outside the output folder.
     pub(super) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let given = Path::new(&*path.value);
@@ -99,27 +109,37 @@ impl Session {
                 Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
             );
         }
-        let is_inside =
-            given.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-        if is_inside || self.host.allows_any_path() {
+        if self.host.allows_any_path() {
             return Ok(given.to_path_buf());
+        }
+        let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        if given.components().all(is_inside) {
+            let is_named = |part: &Component| matches!(part, Component::Normal(_));
+            return Ok(given.components().filter(is_named).collect());
         }
         Err(Diagnostic::error("files are written below the output folder only")
             .at(path.span, "this path leads elsewhere")
+            .help("name the file alone: the output folder is `--out`, or where you are")
             .help("`--allow-any-path` on the command line permits it"))
     }
 
     pub(super) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
-        let file = self.output_path(path)?;
-        if path.value.ends_with('/') {
-            return Err(Diagnostic::error("`svg` writes one file")
-                .at(path.span, "this names a folder")
-                .help(format!("`record \"{}\"` writes a folder of frames", path.value)));
-        }
+        let file = self.output_file(path).map_err(|problem| {
+            if !path.value.ends_with('/') {
+                return problem;
+            }
+            problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
+        })?;
         let scene = Scene::new(&self.world);
-        let picture = svg(&scene, &Options::default());
-        self.outbox.push((file, picture.into_bytes(), path.span));
+        let picture = svg(&scene, &self.picture_options());
+        self.hand_over(file, picture.into_bytes(), path.span);
         Ok(())
+    }
+
+    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
+    pub(super) fn hand_over(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
+        self.outbox.retain(|(other, ..)| *other != file);
+        self.outbox.push((file, bytes, span));
     }
 
     pub(super) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
@@ -149,9 +169,8 @@ impl Session {
                     .help("`trace C` adds the columns of a point"),
             );
         }
-        let mut recorders = self.recorders.clone();
-        recorders.push(Recorder::new(file, path.span, every, format));
-        self.change(Change::Recorders(recorders));
+        let recorder = Box::new(Recorder::new(file, path.span, every, format));
+        self.change(Change::Recorder(self.recorders.len(), Some(recorder)));
         Ok(())
     }
 
@@ -159,11 +178,16 @@ impl Session {
         if self.recorders.is_empty() {
             return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
         }
-        self.stop_recording(span)
+        self.stop_recording();
+        Ok(())
     }
 
     /// Ends all recordings and hands over their files.
-    pub(super) fn stop_recording(&mut self, _span: Span) -> Result<(), Diagnostic> {
+    pub(super) fn stop_recording(&mut self) {
+        if self.recorders.is_empty() {
+            return;
+        }
+        let options = self.picture_options();
         for recorder in &self.recorders {
             match recorder.format {
                 Format::Table => {
@@ -174,14 +198,14 @@ impl Session {
                 Format::Frames => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
                     for (k, (scene, _)) in recorder.scenes().enumerate() {
-                        let picture = svg_with_view(scene, &view, &Options::default());
+                        let picture = svg_with_view(scene, &view, &options);
                         let path = recorder.path.join(format!("frame-{k:04}.svg"));
                         self.outbox.push((path, picture.into_bytes(), recorder.span));
                     }
                 }
                 Format::Movie => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
-                    let mut movie = Animation::new(view, &Options::default());
+                    let mut movie = Animation::new(view, &options);
                     for (scene, time) in recorder.scenes() {
                         movie.push(scene, time);
                     }
@@ -190,9 +214,8 @@ impl Session {
                 }
             }
         }
-        if !self.recorders.is_empty() {
-            self.change(Change::Recorders(Vec::new()));
+        for idx in (0..self.recorders.len()).rev() {
+            self.change(Change::Recorder(idx, None));
         }
-        Ok(())
     }
 }

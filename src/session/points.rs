@@ -1,6 +1,5 @@
 //! Points and parameters: making, moving, freezing.
 
-use super::journal::Change;
 use super::{Diagnostic, Session};
 use crate::constraint::Relation as _;
 use crate::diag::nearest;
@@ -35,7 +34,7 @@ impl Session {
             formula = Formula::constant(given.value);
         }
         match self.world.names().get(&text) {
-            Some(Entity::Parameter(id)) => self.redefine(id, formula, name, value),
+            Some(Entity::Parameter(id)) => self.redefine(id, formula, value),
             _ => {
                 let text = self.declare(name)?;
                 let id = self.world.next_parameter();
@@ -49,15 +48,20 @@ impl Session {
         &mut self,
         id: ParameterId,
         formula: Formula,
-        name: &Name,
         value: &Expr,
     ) -> Result<(), Diagnostic> {
         let old = self.world.parameter(id).expect("a named parameter lives");
         let text = old.name.clone();
-        if self.world.would_cycle(id, &formula) {
-            return Err(Diagnostic::error(format!("`{text}` would depend on itself"))
-                .at(value.span, format!("this leads back to `{text}`"))
-                .also(name.span, "defined here"));
+        if let Some(path) = self.world.cycle(id, &formula) {
+            let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
+                .at(value.span, format!("this leads back to `{text}`"));
+            let path = path.into_iter().map(|id| self.world.name_of(Entity::Parameter(id)));
+            let path: Vec<String> = path.map(|name| format!("`{name}`")).collect();
+            return Err(if path.len() == 1 {
+                problem.help("an expression stays live; to count on, give the number itself")
+            } else {
+                problem.note(format!("`{text}` from {}", path.join(", that from ")))
+            });
         }
         let (was, is) = (old.formula.shape(), formula.shape());
         if was != is && !self.world.users(&[Entity::Parameter(id)]).is_empty() {
@@ -75,7 +79,7 @@ impl Session {
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();
         let result = self.world.set_parameter(id, name, formula, &mut undo);
-        self.journal.current.extend(undo.into_iter().map(Change::World));
+        undo.into_iter().for_each(|inverse| self.keep(inverse));
         result
     }
 

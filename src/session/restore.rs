@@ -1,6 +1,5 @@
 //! `restore`: state that no other statement can bring back; `save` writes it.
 
-use super::journal::Change;
 use super::save::{ordinals, what};
 use super::{Diagnostic, Session};
 use crate::constraint::{Point, Relation as _};
@@ -57,10 +56,7 @@ impl Session {
             (what::FIRST_STATE, Some(name)) => {
                 let id = self.constraint(name)?;
                 let state = numbers(&values).ok_or_else(bad)?;
-                let mut states = self.world.start_states().to_vec();
-                states.retain(|(other, _)| *other != id);
-                states.push((id, state));
-                self.edit(Edit::StartStates(states));
+                self.edit(Edit::StartState(id, Some(state)));
             }
             (what::TRACE, Some(name)) => self.restore_trace(name, &values).ok_or_else(bad)??,
             (what::MISSED, Some(name)) => {
@@ -84,7 +80,7 @@ impl Session {
                 if !memory.restore(id, &values) {
                     return Err(bad());
                 }
-                self.change(Change::Memory(Box::new(memory)));
+                self.set_memory(memory);
             }
             _ => return Err(bad()),
         }

@@ -5,8 +5,9 @@ use std::fmt::Write;
 use super::describe::{ident, literal, named, text_of, vector};
 use super::settings::SETTINGS;
 use super::{Diagnostic, Session};
-use crate::constraint::Relation as _;
+use crate::constraint::{Constraint, Relation as _};
 use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
+use crate::solve::CogForm;
 use crate::world::{PointId, World};
 
 /// What `restore` brings back.
@@ -35,14 +36,15 @@ pub(super) mod what {
 
 impl Session {
     pub(super) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
-        let file = self.output_path(path)?;
+        let file = self.output_file(path)?;
         let text = self.to_script();
-        self.outbox.push((file, text.into_bytes(), path.span));
+        self.hand_over(file, text.into_bytes(), path.span);
         Ok(())
     }
 
     /// The script that makes this world, its settings and its state.
-    pub fn to_script(&self) -> String {
+    pub fn to_script(&mut self) -> String {
+        self.attend();
         let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
@@ -106,13 +108,29 @@ impl Session {
     }
 
     fn save_constraints(&self, script: &mut String) {
+        let now = self.preferences.solve.cog;
+        let mut form = now;
         for (_, record) in self.world.constraints() {
+            let wanted = match &record.constraint {
+                Constraint::Cog(_) => CogForm::Holonomic,
+                Constraint::CogVelocity(_) => CogForm::Velocity,
+                _ => form,
+            };
+            if std::mem::replace(&mut form, wanted) != wanted {
+                set_cog(script, wanted);
+            }
             line(script, self.constraint_statement(record));
             let name = Some(&*record.name);
             if let Some(rho) = record.rho {
                 let targets = vec![named(&record.name)];
                 let value = literal(rho);
                 line(script, Command::Set { setting: ident("rho"), value, targets });
+            }
+            // The values come first: a new ratio makes wheels mesh anew.
+            if !record.drivers.is_empty() {
+                let value = |field| record.constraint.get(field).unwrap_or_default();
+                let values: Vec<f64> = record.drivers.iter().map(|d| value(d.0)).collect();
+                restore(script, what::VALUES, name, numbers(&values));
             }
             let captured = record.constraint.captured();
             if !captured.is_empty() {
@@ -125,19 +143,12 @@ impl Session {
                 line(script, Command::Off(vec![named(&record.name)]));
             }
         }
+        if form != now {
+            set_cog(script, now);
+        }
         for (id, state) in self.world.start_states() {
             if let Some(record) = self.world.constraint(*id) {
                 restore(script, what::FIRST_STATE, Some(&record.name), numbers(state));
-            }
-        }
-        for (_, record) in self.world.constraints() {
-            if !record.drivers.is_empty() {
-                let values: Vec<f64> = record
-                    .drivers
-                    .iter()
-                    .map(|(field, _)| record.constraint.get(*field).unwrap_or_default())
-                    .collect();
-                restore(script, what::VALUES, Some(&record.name), numbers(&values));
             }
         }
     }
@@ -168,6 +179,10 @@ impl Session {
             });
             restore(script, what::GHOST, None, places.flatten().collect());
         }
+        for (series, values) in &self.series {
+            let series = super::describe::quoted(series);
+            line(script, Command::Sample { series, values: numbers(values) });
+        }
         if let Some(every) = self.preferences.expose_every {
             line(script, Command::Expose(Expose::Every(literal(every as f64))));
         }
@@ -182,6 +197,11 @@ pub(super) fn ordinals(world: &World) -> Vec<PointId> {
 fn line(script: &mut String, command: Command) {
     script.push_str(&text_of(command));
     script.push('\n');
+}
+
+fn set_cog(script: &mut String, form: CogForm) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(script, "set cog {}", form.word());
 }
 
 fn numbers(values: &[f64]) -> Vec<Expr> {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
-use crate::diag::{Diagnostic, Span, nearest};
+use crate::diag::{Diagnostic, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Name, PartKind};
 use crate::world::{ConstraintId, Entity, Formula, PointId};
 
@@ -122,12 +122,21 @@ impl Session {
 
     /// What has this name.
     pub(super) fn entity(&mut self, name: &Name) -> Result<Entity, Diagnostic> {
+        self.entity_for(name, "a point, a constraint or a parameter")
+    }
+
+    /// What has this name, where `wanted` is expected.
+    fn entity_for(&mut self, name: &Name, wanted: &str) -> Result<Entity, Diagnostic> {
         match self.meaning(name)? {
             (Meaning::Entity(entity), None) => Ok(entity),
             (Meaning::Bound(Bound::Point(id)), None) => Ok(Entity::Point(id)),
-            (Meaning::Bound(_), _) => {
-                Err(Diagnostic::error(format!("`{}` is a value here", name.head.text))
-                    .at(name.span, "expected the name of a point, a constraint or a parameter"))
+            (Meaning::Bound(bound), _) => {
+                let value = match bound {
+                    Bound::Number(n) => format!("the number {}", format_number(n)),
+                    _ => "a value".to_owned(),
+                };
+                Err(Diagnostic::error(format!("`{}` stands for {value} here", name.head.text))
+                    .at(name.span, format!("expected the name of {wanted}")))
             }
             (_, Some(_)) => {
                 let whole = self.spell(name, name.parts.len())?;
@@ -138,7 +147,7 @@ impl Session {
 
     /// The point of this name.
     pub(super) fn point(&mut self, name: &Name) -> Result<PointId, Diagnostic> {
-        match self.entity(name)? {
+        match self.entity_for(name, "a point")? {
             Entity::Point(id) => Ok(id),
             other => Err(self.wrong_kind(name, other, "a point")),
         }
@@ -146,7 +155,7 @@ impl Session {
 
     /// The constraint of this name.
     pub(super) fn constraint(&mut self, name: &Name) -> Result<ConstraintId, Diagnostic> {
-        match self.entity(name)? {
+        match self.entity_for(name, "a constraint")? {
             Entity::Constraint(id) => Ok(id),
             other => Err(self.wrong_kind(name, other, "a constraint")),
         }
@@ -203,7 +212,7 @@ impl Session {
     pub(super) fn must_be_free(&self, text: &str, span: Span) -> Result<(), Diagnostic> {
         let names = self.world.names();
         if names.is_free(text) {
-            return Ok(());
+            return self.must_have_no_owner(text, span);
         }
         let noun = names.get(text).map_or("instance", Entity::noun);
         let article = if noun == "instance" { "an" } else { "a" };
@@ -217,6 +226,20 @@ impl Session {
                 "point" => format!("`move {text} to (x, y)` moves it, `delete {text}` removes it"),
                 _ => format!("`delete {text} cascade` removes it"),
             }))
+    }
+
+    /// Refuses a member of something that is no instance: `A.x` is a coordinate.
+    fn must_have_no_owner(&self, text: &str, span: Span) -> Result<(), Diagnostic> {
+        let names = self.world.names();
+        for (dot, _) in text.match_indices('.') {
+            let owner = &text[..dot];
+            if let Some(entity) = names.get(owner) {
+                return Err(Diagnostic::error(format!("`{owner}` is a {}", entity.noun()))
+                    .at(span, "only an instance of a definition has members")
+                    .help("choose a name without the dot"));
+            }
+        }
+        Ok(())
     }
 
     /// The first free `{prefix}{stem}1`, `{prefix}{stem}2`, ...
@@ -243,15 +266,42 @@ impl Session {
                 .at(span, "expected one of its members")
                 .help(format!("for example `{}`", member.unwrap_or_default()));
         }
+        let problem = problem.at(span, "nothing has this name");
+        if let Some((first, last)) = self.siblings(text) {
+            return problem.help(if first == last {
+                format!("there is `{first}`")
+            } else {
+                format!("there are `{first}` to `{last}`")
+            });
+        }
         let prefix = &self.scope().prefix;
         let mut known: Vec<&str> = names.iter().map(|(name, _)| name).collect();
         known.extend(self.scope().bindings.iter().map(|(name, _)| &**name));
         known.extend(names.iter().filter_map(|(name, _)| name.strip_prefix(prefix.as_str())));
         known.sort_unstable();
-        let problem = problem.at(span, "nothing has this name");
         match nearest(text, known.iter().copied()) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem,
         }
+    }
+
+    /// The names that differ from this one in their last index only: the least and the
+    /// greatest.
+    fn siblings(&self, text: &str) -> Option<(String, String)> {
+        let (stem, rest) = text.rsplit_once('[')?;
+        let (_, end) = rest.split_once(']')?;
+        let prefix = &self.scope().prefix;
+        let index = |name: &str| -> Option<i64> {
+            let name = name.strip_prefix(prefix.as_str()).unwrap_or(name);
+            name.strip_prefix(stem)?
+                .strip_prefix('[')?
+                .strip_suffix(end)?
+                .strip_suffix(']')?
+                .parse()
+                .ok()
+        };
+        let indices = || self.world.names().iter().filter_map(|(name, _)| index(name));
+        let name = |index: i64| format!("{stem}[{index}]{end}");
+        Some((name(indices().min()?), name(indices().max()?)))
     }
 }

@@ -87,15 +87,7 @@ impl Session {
                     "cog" => {
                         solve.cog = word_of(value, &CogForm::ALL, CogForm::word, "a form of cogs")?;
                     }
-                    "rho" => {
-                        solve.rho = self.positive(value)?;
-                        if solve.rho > 2.0 {
-                            return Err(Diagnostic::error(
-                                "a relaxation coefficient above 2 never converges",
-                            )
-                            .at(value.span, "expected 0 < rho <= 2"));
-                        }
-                    }
+                    "rho" => solve.rho = self.coefficient(value)?,
                     "iterations" => {
                         solve.iterations = self.count(value, 1.0, 1e9, "iterations")? as u32;
                     }
@@ -120,6 +112,16 @@ impl Session {
             .at(expr.span, format!("this is {}", format_number(value))))
     }
 
+    /// A coefficient of relaxation.
+    fn coefficient(&mut self, expr: &Expr) -> Result<f64, Diagnostic> {
+        let rho = self.positive(expr)?;
+        if rho <= 2.0 {
+            return Ok(rho);
+        }
+        Err(Diagnostic::error("a relaxation coefficient above 2 never converges")
+            .at(expr.span, "expected 0 < rho <= 2"))
+    }
+
     fn set_for(
         &mut self,
         setting: &Ident,
@@ -138,7 +140,7 @@ impl Session {
                 }
                 ("rho", Entity::Constraint(id)) => {
                     let mut record = self.world.constraint(id).expect("it is named").clone();
-                    record.rho = Some(number);
+                    record.rho = Some(self.coefficient(value)?);
                     self.edit(Edit::Constraint(id, Some(Box::new(record))));
                 }
                 (_, entity) => {

@@ -12,6 +12,8 @@ use crate::constraint::Point;
 /// A correction of the expected pose larger than this part of the motion means that the
 /// motion was not understood; measured on mechanisms at 1 to 60 degrees a frame.
 const SURPRISE: f64 = 0.3;
+/// The same for points with freedom left, against the size.
+const FREE_SURPRISE: f64 = 0.02;
 /// A motion that is smaller than this part of the size is not worth a second look.
 const NO_MOTION: f64 = 1e-6;
 
@@ -48,6 +50,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     let n_free = island.n_free;
     island.history.begin(&island.x[..n_free]);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
+    if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
+        distrust(island, work);
+    }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
         && attempt.is_safe(motion_since(island, island.history.origin()), limits)
     {
@@ -59,6 +64,24 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
     struggle::settle(island, limits, work)
+}
+
+/// Takes back the expected places of parts with freedom left that are worse than those they
+/// come from: nothing but their own past tells such points where to go.
+fn distrust(island: &mut Island, work: &mut Counters) {
+    let mut rooms = std::mem::take(&mut island.part_rooms);
+    for room in &mut rooms {
+        room.equations.gather(&island.x, &mut room.expected);
+        room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
+        for &p in room.equations.points() {
+            island.x[p as usize] = island.history.origin()[p as usize];
+        }
+        room.trial.evaluate(&room.equations, &island.constraints, &island.x, work);
+        if room.rows.energy < room.trial.energy {
+            room.equations.scatter(&room.expected, &mut island.x);
+        }
+    }
+    island.part_rooms = rooms;
 }
 
 /// The frame ends at the present pose.
@@ -121,31 +144,31 @@ fn attempt_rest(
     let mut is_found = true;
     for room in &mut rooms {
         let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-        let mut reference = Vec::new();
         let mut n = 0;
         if !is_predicted {
             // Where the first step leads is what the motion looks like from here.
             let one = Limits { n_iterations: 1, ..*limits };
             n = newton::approach(room, &mut pose, &one, work).n_iterations;
         }
-        room.equations.gather(pose.x, &mut reference);
+        room.equations.gather(pose.x, &mut room.expected);
         let outcome = newton::approach(room, &mut pose, limits, work);
-        let points = room.equations.points().iter();
-        let correction = points.zip(&reference).fold(0.0_f64, |most, (&p, before)| {
-            let d = pose.x[p as usize] - *before;
-            most.max(d.x.abs()).max(d.y.abs())
-        });
         sum.worst = sum.worst.max(outcome.worst);
         sum.n_iterations = sum.n_iterations.max(outcome.n_iterations + n);
-        sum.correction = sum.correction.max(correction);
         if !outcome.is_converged() {
             is_found = false;
             break;
         }
     }
-    if is_found && !island.has_degree {
-        let is_rigid = |room: &mut Workspace| room.assemble().nullity(RANK_CUT) == 0;
-        island.set_smooth(rooms.iter_mut().all(is_rigid));
+    if is_found {
+        if !island.has_degree {
+            let is_rigid = |room: &mut Workspace| room.assemble().nullity(RANK_CUT) == 0;
+            island.set_smooth(rooms.iter_mut().all(is_rigid));
+        }
+        let correction = rooms.iter().map(|room| room.correction(&island.x)).fold(0.0, f64::max);
+        // What is free to choose where it goes has no branch to lose.
+        if island.is_smooth() || correction > FREE_SURPRISE * limits.size {
+            sum.correction = sum.correction.max(correction);
+        }
     }
     island.part_rooms = rooms;
     is_found.then_some(())

@@ -1,7 +1,7 @@
 //! One point found from constraints to known points.
 
 use super::method::Limits;
-use super::plan::Block;
+use super::plan::{Block, Form};
 use super::status::Counters;
 use crate::constraint::{Constraint, Point, PointIdx, Relation, Row, Vector};
 
@@ -15,6 +15,12 @@ const DAMPING: f64 = 1e-2;
 const FLOOR: f64 = 1e-11;
 /// A step longer than this part of the size is no longer a small change.
 const LONGEST_STEP: f64 = 0.5;
+
+/// Bars closer to one line than this, as the sine of the angle between them, are left to
+/// damped steps.
+const IN_LINE: f64 = 1e-3;
+/// Steps of a dyad before it counts as not near its solution.
+const MOST_BLIND_STEPS: u32 = 3;
 
 /// How a point was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +46,7 @@ struct Sum {
     fx: f64,
     fy: f64,
     worst: f64,
+    n_rows: u32,
     /// The first active gradient; then the cross product with the second.
     first: Option<Vector>,
     side: f64,
@@ -67,6 +74,7 @@ impl Sum {
         self.fx += g.x * f;
         self.fy += g.y * f;
         self.worst = self.worst.max(f.abs());
+        self.n_rows += 1;
         match self.first {
             None => self.first = Some(g),
             Some(first) if self.side == 0.0 => self.side = first.cross(g),
@@ -74,8 +82,14 @@ impl Sum {
         }
     }
 
-    /// The damped Gauss-Newton step.
+    /// The Gauss-Newton step, damped by `mu` where the rows are nearly in line. A single row
+    /// of a distance is met exactly by the step along it.
     fn step(&self, mu: f64) -> Vector {
+        if self.n_rows == 1 {
+            return Vector::new(-self.fx, -self.fy);
+        }
+        let is_sound = self.xx * self.yy - self.xy * self.xy > IN_LINE * IN_LINE;
+        let mu = if is_sound { 0.0 } else { mu };
         let (a, b) = (self.xx + mu, self.yy + mu);
         let k = -1.0 / (a * b - self.xy * self.xy);
         Vector::new(b * self.fx - self.xy * self.fy, a * self.fy - self.xy * self.fx) * k
@@ -93,7 +107,7 @@ fn evaluate(p: PointIdx, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum 
 
 /// The side of the singular pose a block is on, at a pose.
 pub(super) fn side(block: &Block, which: &[u32], all: &[Constraint], x: &[Point]) -> f64 {
-    if block.is_assignment { 0.0 } else { evaluate(block.point, which, all, x).side }
+    if block.form == Form::Assignment { 0.0 } else { evaluate(block.point, which, all, x).side }
 }
 
 /// Puts the point of a block where its constraints `which` say; none if it is not near.
@@ -109,13 +123,24 @@ pub(super) fn find(
     let p = block.point;
     work.evaluations += which.len() as u64;
     let mut reference = x[p as usize];
-    if block.is_assignment {
-        // One linear equation: where the step leads is where the point belongs.
-        let d = assign(p, &all[which[0] as usize], x)?;
-        x[p as usize] += d;
-        let correction = if is_predicted { d.x.abs().max(d.y.abs()) } else { 0.0 };
-        let is_finite = x[p as usize].is_finite();
-        return is_finite.then_some(Found { worst: 0.0, n_steps: 0, correction, side: 0.0 });
+    match block.form {
+        Form::Assignment => {
+            // One linear equation: where the step leads is where the point belongs.
+            x[p as usize] = assign(p, &all[which[0] as usize], x).filter(|at| at.is_finite())?;
+            let d = x[p as usize] - reference;
+            let correction = if is_predicted { d.x.abs().max(d.y.abs()) } else { 0.0 };
+            return Some(Found { worst: 0.0, n_steps: 0, correction, side: 0.0 });
+        }
+        Form::Dyad(others) if is_predicted => {
+            let lengths = [which[0], which[1]].map(|c| length(&all[c as usize]));
+            if let Some((at, found)) =
+                meet(reference, others.map(|q| x[q as usize]), lengths, limits)
+            {
+                x[p as usize] = at;
+                return Some(found);
+            }
+        }
+        Form::Dyad(_) | Form::Any => {}
     }
     let mut sum = evaluate(p, which, all, x);
     let mut n_steps = 0;
@@ -143,8 +168,13 @@ pub(super) fn find(
     Some(Found { worst: sum.worst, n_steps, correction, side: sum.side })
 }
 
-/// The displacement of `p` that satisfies a linear vector equation.
-fn assign(p: PointIdx, constraint: &Constraint, x: &[Point]) -> Option<Vector> {
+/// The place of `p` that satisfies a linear vector equation.
+fn assign(p: PointIdx, constraint: &Constraint, x: &[Point]) -> Option<Point> {
+    if let Constraint::Motor(motor) = constraint
+        && motor.points[1] == p
+    {
+        return Some(x[motor.points[0] as usize] + motor.target());
+    }
     let mut rows = [(0.0, Vector::ZERO); 2];
     let mut n = 0;
     constraint.jacobian(x, &mut |row| {
@@ -156,5 +186,49 @@ fn assign(p: PointIdx, constraint: &Constraint, x: &[Point]) -> Option<Vector> {
     // The coefficient of the point as a complex number, squared; 0 for a point that is held
     // against itself.
     let det = g.cross(k);
-    (det > 0.0).then(|| Vector::new(h * g.y - f * k.y, f * k.x - h * g.x) / det)
+    let d = Vector::new(h * g.y - f * k.y, f * k.x - h * g.x);
+    (det > 0.0).then(|| x[p as usize] + d / det)
+}
+
+/// The length of a bar.
+fn length(constraint: &Constraint) -> f64 {
+    match constraint {
+        Constraint::Length(bar) => bar.bounds.lo,
+        _ => f64::NAN,
+    }
+}
+
+/// Where bars of two lengths from two places meet, near `start`; none if they are nearly in
+/// line, or the start is too far for the error to be told from the steps.
+///
+/// A step d that meets both linearised equations leaves of a length l no more than
+/// d^2 / 2 (l - d). Once that is below the tolerance nothing needs to be evaluated again.
+fn meet(
+    start: Point,
+    others: [Point; 2],
+    lengths: [f64; 2],
+    limits: &Limits,
+) -> Option<(Point, Found)> {
+    let mut at = start;
+    for n_steps in 1..=MOST_BLIND_STEPS {
+        let [v, w] = others.map(|other| at - other);
+        let (l, m) = (v.norm(), w.norm());
+        let (f, h) = (l - lengths[0], m - lengths[1]);
+        let side = v.cross(w);
+        // All that follows is false for values that are not numbers.
+        if side.abs() <= IN_LINE * l * m {
+            return None;
+        }
+        let d = (w * (f * l) - v * (h * m)).perp() / side;
+        at += d;
+        let squared = d.norm_squared();
+        let shortest = l.min(m) - squared.sqrt();
+        let left = 0.5 * squared / shortest;
+        if shortest > 0.0 && left <= limits.tolerance {
+            let moved = at - start;
+            let correction = moved.x.abs().max(moved.y.abs());
+            return Some((at, Found { worst: left, n_steps, correction, side }));
+        }
+    }
+    None
 }

@@ -56,6 +56,8 @@ pub(super) struct Workspace {
     pub trial: Rows,
     /// The unknown points before a step.
     pub before: Vec<Point>,
+    /// The unknown points where a motion was expected to take them.
+    pub expected: Vec<Point>,
     /// The derivative of the energy.
     pub slope: Vec<f64>,
     /// The step in the weighted unknowns.
@@ -73,10 +75,20 @@ impl Workspace {
             rows: Rows::default(),
             trial: Rows::default(),
             before: Vec::new(),
+            expected: Vec::new(),
             slope: vec![0.0; n],
             step: vec![0.0; n],
             matrix: None,
         }
+    }
+
+    /// How far the farthest unknown point is from where it was expected.
+    pub fn correction(&self, x: &[Point]) -> f64 {
+        let points = self.equations.points().iter().map(|&p| x[p as usize]);
+        points.zip(&self.expected).fold(0.0, |most, (at, expected)| {
+            let d = at - *expected;
+            most.max(d.x.abs()).max(d.y.abs())
+        })
     }
 
     /// Evaluates the rows at a pose.

@@ -26,8 +26,8 @@ pub(super) struct Block {
     pub first: u32,
     /// See `first`.
     pub end: u32,
-    /// Whether one constraint says outright where the point is.
-    pub is_assignment: bool,
+    /// What of the constraints is known beforehand.
+    pub form: Form,
     /// Whether the constraints leave it no freedom.
     pub is_determined: bool,
     /// On which side of the singular pose it was last accepted: the sign of the angle between
@@ -35,6 +35,17 @@ pub(super) struct Block {
     pub side: f64,
     /// The same for the pose that is tried.
     pub next_side: f64,
+}
+
+/// The forms of a block that are solved faster than by adding up rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Any constraints.
+    Any,
+    /// One constraint says outright where the point is.
+    Assignment,
+    /// Two bars of fixed lengths, to these two points.
+    Dyad([PointIdx; 2]),
 }
 
 /// Points that are to be found together.
@@ -61,8 +72,7 @@ impl Plan {
             }
             let ready = search.take(p);
             plan.push(p, &ready, true);
-            let is_assignment = ready.len() == 1 && is_linear(&constraints[ready[0] as usize]);
-            plan.blocks.last_mut().expect("just pushed").is_assignment = is_assignment;
+            plan.blocks.last_mut().expect("just pushed").form = form(constraints, &ready, p);
             queue.extend(search.learn(constraints, p));
         }
         for part in search.rest(constraints, n_free) {
@@ -79,8 +89,8 @@ impl Plan {
         let first = self.constraints.len() as u32;
         self.constraints.extend(constraints);
         let end = self.constraints.len() as u32;
-        let (side, next_side, is_assignment) = (0.0, 0.0, false);
-        let block = Block { point, first, end, is_assignment, is_determined, side, next_side };
+        let (side, next_side, form) = (0.0, 0.0, Form::Any);
+        let block = Block { point, first, end, form, is_determined, side, next_side };
         self.blocks.push(block);
     }
 
@@ -188,6 +198,24 @@ fn distinct(constraint: &Constraint) -> impl Iterator<Item = PointIdx> + '_ {
     points.iter().enumerate().filter(|(k, p)| !points[..*k].contains(p)).map(|(_, p)| *p)
 }
 
+/// The form of the block of `p` with these constraints.
+fn form(constraints: &[Constraint], which: &[u32], p: PointIdx) -> Form {
+    let other_end = |c: u32| match &constraints[c as usize] {
+        Constraint::Length(bar) if bar.bounds.is_equality() => {
+            bar.points.into_iter().find(|&q| q != p)
+        }
+        _ => None,
+    };
+    match *which {
+        [one] if is_linear(&constraints[one as usize]) => Form::Assignment,
+        [one, two] => match (other_end(one), other_end(two)) {
+            (Some(a), Some(b)) => Form::Dyad([a, b]),
+            _ => Form::Any,
+        },
+        _ => Form::Any,
+    }
+}
+
 /// How many equations of a constraint bind at every pose, for any one of its points.
 pub(super) fn n_firm_rows(constraint: &Constraint) -> usize {
     match constraint {
@@ -239,8 +267,8 @@ mod tests {
     fn a_four_bar_is_an_assignment_and_a_dyad() {
         let motor = Motor::new([2, 0], 1.0, 0.0, 1.0).into();
         let plan = Plan::new(&[bar(0, 1), bar(1, 3), motor], 2, 4);
-        let order: Vec<_> = plan.blocks.iter().map(|b| (b.point, b.is_assignment)).collect();
-        assert_eq!(order, [(0, true), (1, false)]);
+        let order: Vec<_> = plan.blocks.iter().map(|b| (b.point, b.form)).collect();
+        assert_eq!(order, [(0, Form::Assignment), (1, Form::Dyad([0, 3]))]);
         assert!(plan.is_complete());
     }
 

@@ -47,7 +47,7 @@ pub fn operate<T: Real>(
             let what = if a.value() == 0.0 {
                 "0 to a negative power"
             } else {
-                "a negative number to a broken power"
+                "a negative number to a power that is not whole"
             };
             Diagnostic::error("this power has no value").at(span, what)
         })?),

@@ -1,5 +1,7 @@
 //! Edits of a world as data, each with the edit that takes it back.
 
+use std::collections::BTreeMap;
+
 use super::trace::Tail;
 use super::{
     Clock, ConstraintId, Entity, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord,
@@ -33,10 +35,34 @@ pub enum Edit {
     Ghost(Option<Box<Ghost>>),
     /// Sets where `reset` puts a point.
     Start(PointId, Point),
-    /// Sets the states that `reset` brings back.
-    StartStates(Vec<(ConstraintId, Vec<f64>)>),
+    /// Sets the state that `reset` brings back to a constraint.
+    StartState(ConstraintId, Option<Vec<f64>>),
+    /// Sets all states that `reset` brings back.
+    StartStates(BTreeMap<ConstraintId, Vec<f64>>),
     /// Sets all that running changes.
     Motion(Box<Motion>),
+}
+
+impl Edit {
+    /// Whether it changes what there is, and not only where it is, when, or how it is shown.
+    const fn is_structural(&self) -> bool {
+        match self {
+            Self::Point(..)
+            | Self::Freeze(..)
+            | Self::Weight(..)
+            | Self::Constraint(..)
+            | Self::Switch(..)
+            | Self::Parameter(..) => true,
+            Self::Move(..)
+            | Self::Clock(_)
+            | Self::Trace(..)
+            | Self::Ghost(_)
+            | Self::Start(..)
+            | Self::StartState(..)
+            | Self::StartStates(_)
+            | Self::Motion(_) => false,
+        }
+    }
 }
 
 impl World {
@@ -44,12 +70,13 @@ impl World {
     ///
     /// Names must be free and handles alive: whoever makes the edit has asked.
     pub fn apply(&mut self, edit: Edit) -> Edit {
+        self.revision += u64::from(edit.is_structural());
         match edit {
             Edit::Point(id, record) => Edit::Point(id, self.swap_point(id, record)),
             Edit::Move(id, at) => {
                 debug_assert!(at.is_finite(), "a position is finite");
                 self.touched.moved.push(id);
-                self.live.is_stale = true;
+                self.live.note_change();
                 Edit::Move(id, std::mem::replace(&mut self.points.at[id.idx()], at))
             }
             Edit::Freeze(id, frozen) => {
@@ -63,7 +90,7 @@ impl World {
             Edit::Constraint(id, record) => Edit::Constraint(id, self.swap_constraint(id, record)),
             Edit::Switch(id, on) => {
                 self.touched.constraints.push(id);
-                self.live.is_dirty = true;
+                self.live.note_switch();
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
             }
@@ -71,7 +98,7 @@ impl World {
                 Edit::Parameter(id, self.swap_parameter(id, parameter))
             }
             Edit::Clock(clock) => {
-                self.live.is_stale = true;
+                self.live.note_change();
                 Edit::Clock(std::mem::replace(&mut self.clock, clock))
             }
             Edit::Trace(idx, Some(trace)) => {
@@ -87,6 +114,13 @@ impl World {
             Edit::Start(id, at) => {
                 Edit::Start(id, std::mem::replace(&mut self.points.start[id.idx()], at))
             }
+            Edit::StartState(id, state) => Edit::StartState(
+                id,
+                match state {
+                    Some(state) => self.start_states.insert(id, state),
+                    None => self.start_states.remove(&id),
+                },
+            ),
             Edit::StartStates(states) => {
                 Edit::StartStates(std::mem::replace(&mut self.start_states, states))
             }
@@ -119,44 +153,25 @@ impl World {
         record: Option<Box<Record>>,
     ) -> Option<Box<Record>> {
         self.touched.constraints.push(id);
-        if let Some(record) = &record {
-            self.n_constraints += 1;
-            self.names_swap(
-                self.constraints.get(id.idx()).map(|r| r.name.clone()),
-                &record.name,
-                id,
-            );
-            self.link_constraint(id, record);
+        let old = self.constraints.get(id.idx());
+        self.live.note_constraint(id, old, record.as_deref());
+        match (old, &record) {
+            (None, Some(new)) => {
+                self.n_constraints += 1;
+                self.names.insert(new.name.clone(), Entity::Constraint(id));
+            }
+            (Some(old), None) => {
+                self.n_constraints -= 1;
+                self.names.remove(&old.name);
+            }
+            (Some(old), Some(new)) => debug_assert_eq!(old.name, new.name, "a name stays"),
+            (None, None) => {}
         }
-        let is_deleted = record.is_none();
         let old = self.constraints.swap(id.idx(), record.map(|record| *record));
         if old.is_none() {
             self.note_start_state(id);
         }
-        if let Some(old) = &old {
-            self.n_constraints -= 1;
-            self.unlink_constraint(id, old);
-            if is_deleted {
-                self.names.remove(&old.name);
-            }
-        }
         old.map(Box::new)
-    }
-
-    /// Keeps the name of a constraint that is changed in place, gives a new one its name.
-    fn names_swap(
-        &mut self,
-        old: Option<std::rc::Rc<str>>,
-        new: &std::rc::Rc<str>,
-        id: ConstraintId,
-    ) {
-        if old.as_ref() == Some(new) {
-            return;
-        }
-        if let Some(old) = old {
-            self.names.remove(&old);
-        }
-        self.names.insert(new.clone(), Entity::Constraint(id));
     }
 
     fn swap_parameter(
@@ -164,22 +179,19 @@ impl World {
         id: ParameterId,
         parameter: Option<Box<Parameter>>,
     ) -> Option<Box<Parameter>> {
-        let was = self.parameters.get(id.idx()).map(|p| (p.name.clone(), p.depends.is_live()));
-        let is_live = parameter.as_ref().is_some_and(|p| p.depends.is_live());
-        self.live.is_dirty |= is_live || was.as_ref().is_some_and(|(_, live)| *live);
-        match (&was, &parameter) {
+        let old = self.parameters.get(id.idx());
+        self.live.note_parameter(
+            id,
+            old.map(|p| (&p.formula, p.depends)),
+            parameter.as_ref().map(|p| (&p.formula, p.depends)),
+            id.idx() >= self.parameters.n_handles(),
+        );
+        match (old, &parameter) {
             (None, Some(new)) => self.names.insert(new.name.clone(), Entity::Parameter(id)),
-            (Some((name, _)), None) => self.names.remove(name),
+            (Some(old), None) => self.names.remove(&old.name),
             _ => {}
         }
-        if let Some(new) = &parameter {
-            self.live.link_parameter(id, &new.formula);
-        }
-        let old = self.parameters.swap(id.idx(), parameter.map(|p| *p));
-        if let Some(old) = &old {
-            self.live.unlink_parameter(id, &old.formula);
-        }
-        old.map(Box::new)
+        self.parameters.swap(id.idx(), parameter.map(|p| *p)).map(Box::new)
     }
 
     /// Empties the world; gives the edits that bring everything back, last first.
@@ -193,7 +205,7 @@ impl World {
         parameters.reverse();
         edits.extend(parameters);
         edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));
-        edits.push(Edit::StartStates(Vec::new()));
+        edits.push(Edit::StartStates(BTreeMap::new()));
         edits.push(Edit::Clock(Clock::default()));
         edits
     }

@@ -1,176 +1,223 @@
-//! Live expressions: what depends on what, and bringing values up to date in that order.
+//! Live expressions: what depends on what, and the order in which values are brought up to date.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::records::Dependent;
-use super::{
-    ConstraintId, Depends, Edit, Environment, Formula, Mention, Parameter, ParameterId, PointId,
-    Record, Value, World,
-};
-use crate::constraint::{Field, Jet, Kind, Place, Real, Relation, Vector};
+use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
+use crate::constraint::Kind;
 use crate::diag::Diagnostic;
 
 /// What was worked out about live expressions; a scene without any keeps nothing here.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Live {
-    /// For each parameter that is used, its users.
-    dependents: HashMap<ParameterId, Vec<Dependent>>,
+    /// By parameter, its users.
+    dependents: Vec<Vec<Dependent>>,
     /// Live parameters, each after those it mentions.
     order: Vec<ParameterId>,
+    /// Why live parameters have no value now.
+    failures: BTreeMap<ParameterId, Diagnostic>,
     /// Constraints with a value that time or points drive, in order of creation.
     driven: Vec<ConstraintId>,
     /// Those among them that points drive.
     measured: Vec<ConstraintId>,
     /// Motors that are switched on.
-    pub motors: Vec<ConstraintId>,
-    /// Whether the lists above have to be made anew.
-    pub is_dirty: bool,
+    motors: Vec<ConstraintId>,
+    /// Whether `order` has to be made anew.
+    is_order_dirty: bool,
+    /// Whether the lists of constraints have to be made anew.
+    are_lists_dirty: bool,
     /// Whether time or points changed since the live parameters were evaluated.
-    pub is_stale: bool,
+    is_stale: bool,
 }
 
 impl Live {
-    pub fn link_parameter(&mut self, id: ParameterId, formula: &Formula) {
-        link(&mut self.dependents, formula, Dependent::Parameter(id));
+    /// Time or points changed.
+    pub fn note_change(&mut self) {
+        self.is_stale = true;
     }
 
-    pub fn unlink_parameter(&mut self, id: ParameterId, formula: &Formula) {
-        unlink(&mut self.dependents, formula, Dependent::Parameter(id));
+    /// A constraint was switched.
+    pub fn note_switch(&mut self) {
+        self.are_lists_dirty = true;
     }
-}
 
-fn link(dependents: &mut HashMap<ParameterId, Vec<Dependent>>, formula: &Formula, user: Dependent) {
-    formula.mentions(&mut |mention| {
-        if let Mention::Parameter(used) = mention {
-            dependents.entry(used).or_default().push(user);
+    /// Live parameters, each after those it mentions.
+    pub fn order(&self) -> &[ParameterId] {
+        &self.order
+    }
+
+    /// Constraints with a value that time or points drive.
+    pub fn driven(&self) -> &[ConstraintId] {
+        &self.driven
+    }
+
+    /// Constraints with a value that points drive.
+    pub fn measured(&self) -> &[ConstraintId] {
+        &self.measured
+    }
+
+    /// Motors that are switched on.
+    pub fn motors(&self) -> &[ConstraintId] {
+        &self.motors
+    }
+
+    /// Why a live parameter has no value now.
+    pub fn failure(&self, id: ParameterId) -> Option<&Diagnostic> {
+        self.failures.get(&id)
+    }
+
+    /// The first reason why a live parameter has no value now.
+    pub fn first_failure(&self) -> Option<&Diagnostic> {
+        self.failures.first_key_value().map(|(_, why)| why)
+    }
+
+    /// Notes why a live parameter has no value now.
+    pub fn fail(&mut self, id: ParameterId, why: Diagnostic) {
+        self.failures.insert(id, why);
+    }
+
+    /// Forgets why parameters had no values.
+    pub fn forget_failures(&mut self) {
+        self.failures.clear();
+    }
+
+    /// Whether live parameters are to be evaluated anew; they count as evaluated from here on.
+    pub fn take_stale(&mut self) -> bool {
+        std::mem::take(&mut self.is_stale)
+    }
+
+    /// Who uses a parameter.
+    pub fn dependents(&self, id: ParameterId) -> &[Dependent] {
+        self.dependents.get(id.idx()).map_or(&[], Vec::as_slice)
+    }
+
+    /// A parameter was made, changed or deleted. One that was there before may come back with
+    /// the value of another time; `is_new` says that it was not.
+    pub fn note_parameter(
+        &mut self,
+        id: ParameterId,
+        old: Option<(&Formula, Depends)>,
+        new: Option<(&Formula, Depends)>,
+        is_new: bool,
+    ) {
+        let is_live = |of: Option<(&Formula, Depends)>| of.is_some_and(|(_, d)| d.is_live());
+        self.is_stale |= !is_new && (is_live(old) || is_live(new));
+        if let Some((formula, _)) = new {
+            self.link(formula, Dependent::Parameter(id));
         }
-    });
-}
-
-fn unlink(
-    dependents: &mut HashMap<ParameterId, Vec<Dependent>>,
-    formula: &Formula,
-    user: Dependent,
-) {
-    formula.mentions(&mut |mention| {
-        if let Mention::Parameter(used) = mention
-            && let Some(users) = dependents.get_mut(&used)
-            && let Some(k) = users.iter().rposition(|u| *u == user)
-        {
-            // The order of users means nothing; keep it all the same, for reproducible work.
-            users.remove(k);
-            if users.is_empty() {
-                dependents.remove(&used);
+        if let Some((formula, _)) = old {
+            self.unlink(formula, Dependent::Parameter(id));
+        }
+        match (old, new) {
+            // It mentions only what was there before it, so it may stand last.
+            (None, Some((_, depends))) if depends.is_live() => self.order.push(id),
+            (Some((was, a)), Some((is, b))) => {
+                let is_like_before = a.is_live() == b.is_live() && was.is_same(is);
+                self.is_order_dirty |= (a.is_live() || b.is_live()) && !is_like_before;
+                self.are_lists_dirty |= a != b;
             }
-        }
-    });
-}
-
-/// Velocities and accelerations of all points, by handle.
-#[derive(Debug, Clone, Default)]
-pub struct Rates {
-    /// Rates of change, per time unit.
-    pub velocity: Vec<Vector>,
-    /// Second derivatives, per time unit squared.
-    pub acceleration: Vec<Vector>,
-}
-
-/// A world as formulas see it, with rates where they were computed.
-struct Here<'a> {
-    world: &'a World,
-    rates: Option<&'a Rates>,
-    /// Values of parameters that depend on rates.
-    values: HashMap<ParameterId, Value>,
-}
-
-impl Environment<f64> for Here<'_> {
-    fn parameter(&self, id: ParameterId) -> Result<Value, Diagnostic> {
-        let parameter = self.world.parameter(id).expect("a mentioned parameter lives");
-        match parameter.value.or_else(|| self.values.get(&id).copied()) {
-            Some(value) => Ok(value),
-            // It needs rates and there are none: its own formula says so, at the right place.
-            None => parameter.formula.evaluate(self),
+            (Some((_, depends)), None) => self.is_order_dirty |= depends.is_live(),
+            _ => {}
         }
     }
 
-    fn position(&self, id: PointId) -> Place<f64> {
-        let p = self.world.points.at(id);
-        Place { x: p.x, y: p.y }
-    }
-
-    fn time(&self) -> f64 {
-        self.world.clock.time()
-    }
-
-    fn rates(&self, id: PointId) -> Option<(Place<f64>, Place<f64>)> {
-        let rates = self.rates?;
-        let (v, a) = (rates.velocity[id.idx()], rates.acceleration[id.idx()]);
-        Some((Place { x: v.x, y: v.y }, Place { x: a.x, y: a.y }))
-    }
-}
-
-/// A world in motion as formulas see it: everything with its derivatives in time.
-struct Moving<'a> {
-    world: &'a World,
-    rates: &'a Rates,
-    values: HashMap<ParameterId, Value<Jet>>,
-}
-
-impl Environment<Jet> for Moving<'_> {
-    fn parameter(&self, id: ParameterId) -> Result<Value<Jet>, Diagnostic> {
-        if let Some(value) = self.values.get(&id) {
-            return Ok(*value);
+    /// A constraint was made, changed or deleted.
+    pub fn note_constraint(
+        &mut self,
+        id: ConstraintId,
+        old: Option<&Record>,
+        new: Option<&Record>,
+    ) {
+        for (_, formula) in new.iter().flat_map(|record| &record.drivers) {
+            self.link(formula, Dependent::Constraint(id));
         }
-        let parameter = self.world.parameter(id).expect("a mentioned parameter lives");
-        match parameter.value {
-            Some(Value::Number(n)) => Ok(Value::Number(Jet::constant(n))),
-            Some(Value::Vector(v)) => {
-                Ok(Value::Vector(Place { x: Jet::constant(v.x), y: Jet::constant(v.y) }))
+        for (_, formula) in old.iter().flat_map(|record| &record.drivers) {
+            self.unlink(formula, Dependent::Constraint(id));
+        }
+        let is_listed = |record: &Record| !record.drivers.is_empty() || is_motor(record);
+        self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
+    }
+
+    fn link(&mut self, formula: &Formula, user: Dependent) {
+        formula.mentions(&mut |mention| {
+            if let Mention::Parameter(used) = mention {
+                if used.idx() >= self.dependents.len() {
+                    self.dependents.resize_with(used.idx() + 1, Vec::new);
+                }
+                self.dependents[used.idx()].push(user);
             }
-            None => parameter.formula.evaluate(self),
-        }
+        });
     }
 
-    fn position(&self, id: PointId) -> Place<Jet> {
-        let p = self.world.points.at(id);
-        let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
-        let (v, a) = (at(&self.rates.velocity), at(&self.rates.acceleration));
-        Place { x: Jet::new(p.x, v.x, a.x), y: Jet::new(p.y, v.y, a.y) }
+    fn unlink(&mut self, formula: &Formula, user: Dependent) {
+        formula.mentions(&mut |mention| {
+            if let Mention::Parameter(used) = mention
+                && let Some(users) = self.dependents.get_mut(used.idx())
+                && let Some(k) = users.iter().rposition(|u| *u == user)
+            {
+                // The order of users means nothing: what follows from them is sorted.
+                users.swap_remove(k);
+            }
+        });
     }
+}
 
-    fn time(&self) -> Jet {
-        Jet::new(self.world.clock.time(), 1.0, 0.0)
-    }
-
-    fn rates(&self, _id: PointId) -> Option<(Place<Jet>, Place<Jet>)> {
-        None
-    }
+fn is_motor(record: &Record) -> bool {
+    record.constraint.kind() == Kind::Motor
 }
 
 impl World {
-    /// The value of an expression, live parameters brought up to date first.
-    ///
-    /// # Errors
-    /// Where it has none; velocities have none without `rates`.
-    pub fn evaluate(
-        &mut self,
-        formula: &Formula,
-        rates: Option<&Rates>,
-    ) -> Result<Value, Diagnostic> {
-        if formula.depends().on_parameters {
-            self.refresh_parameters()?;
+    /// Brings the order of live parameters up to date.
+    pub(super) fn sort_parameters(&mut self) {
+        if !std::mem::take(&mut self.live.is_order_dirty) {
+            return;
         }
-        let mut here = Here { world: self, rates, values: HashMap::new() };
-        if rates.is_some() {
-            for &id in &self.live.order {
-                let parameter = self.parameter(id).expect("a listed parameter lives");
-                if parameter.depends.on_rates {
-                    let value = parameter.formula.evaluate(&here)?;
-                    here.values.insert(id, value);
+        let mut order: Vec<ParameterId> = Vec::new();
+        let mut is_seen = vec![false; self.parameters.n_handles()];
+        let is_live = |id: ParameterId| self.parameter(id).is_some_and(|p| p.depends.is_live());
+        for (root, _) in self.parameters().filter(|(_, p)| p.depends.is_live()) {
+            let mut stack = vec![(root, false)];
+            while let Some((id, is_expanded)) = stack.pop() {
+                if is_expanded {
+                    order.push(id);
+                } else if !std::mem::replace(&mut is_seen[id.idx()], true) {
+                    stack.push((id, true));
+                    let parameter = self.parameter(id).expect("a mentioned parameter lives");
+                    parameter.formula.mentions(&mut |mention| {
+                        if let Mention::Parameter(used) = mention
+                            && is_live(used)
+                        {
+                            stack.push((used, false));
+                        }
+                    });
                 }
             }
         }
-        formula.evaluate(&here)
+        self.live.order = order;
+    }
+
+    /// Brings the lists of driven constraints and motors up to date.
+    pub(super) fn sort_constraints(&mut self) {
+        if !std::mem::take(&mut self.live.are_lists_dirty) {
+            return;
+        }
+        let (mut driven, mut measured, mut motors) = (Vec::new(), Vec::new(), Vec::new());
+        for (id, record) in self.constraints() {
+            if record.is_on && is_motor(record) {
+                motors.push(id);
+            }
+            let formulas = record.drivers.iter().map(|(_, formula)| self.depends(formula));
+            let depends = formulas.fold(Depends::default(), Depends::or);
+            if depends.is_live() {
+                driven.push(id);
+            }
+            if depends.on_points {
+                measured.push(id);
+            }
+        }
+        self.live.driven = driven;
+        self.live.measured = measured;
+        self.live.motors = motors;
     }
 
     /// What can change a formula, its parameters' own formulas included.
@@ -188,307 +235,38 @@ impl World {
         depends
     }
 
-    /// Whether parameter `id` would be mentioned, at any depth, by `formula`: a cycle.
-    pub fn would_cycle(&self, id: ParameterId, formula: &Formula) -> bool {
+    /// How parameter `id` would come to depend on itself through `formula`: the parameters on
+    /// the way, itself last. None where it would not.
+    pub fn cycle(&self, id: ParameterId, formula: &Formula) -> Option<Vec<ParameterId>> {
         let mut pending: Vec<ParameterId> = Vec::new();
-        let mut is_seen = vec![false; self.parameters.n_handles()];
-        let mut found = false;
-        let mut look = |formula: &Formula, pending: &mut Vec<ParameterId>| {
+        // Through which parameter each was reached; itself, where by the formula.
+        let mut reached: BTreeMap<ParameterId, ParameterId> = BTreeMap::new();
+        let mut look = |formula: &Formula, from, pending: &mut Vec<ParameterId>| {
             formula.mentions(&mut |mention| {
                 if let Mention::Parameter(used) = mention {
-                    found |= used == id;
-                    if !std::mem::replace(&mut is_seen[used.idx()], true) {
+                    reached.entry(used).or_insert_with(|| {
                         pending.push(used);
-                    }
+                        from
+                    });
                 }
             });
         };
-        look(formula, &mut pending);
+        look(formula, id, &mut pending);
         while let Some(used) = pending.pop() {
+            if used == id {
+                break;
+            }
             if let Some(parameter) = self.parameter(used) {
-                look(&parameter.formula, &mut pending);
+                look(&parameter.formula, used, &mut pending);
             }
         }
-        found
+        let mut path = vec![id];
+        let mut at = *reached.get(&id)?;
+        while at != id {
+            path.push(at);
+            at = reached[&at];
+        }
+        path.reverse();
+        Some(path)
     }
-
-    /// Changes a parameter and everything that depends on it; what takes it back is added to
-    /// `undo` edit by edit.
-    ///
-    /// # Errors
-    /// Where the new value, or one that depends on it, cannot be had. The caller takes back
-    /// what `undo` lists.
-    pub fn set_parameter(
-        &mut self,
-        id: ParameterId,
-        name: std::rc::Rc<str>,
-        formula: Formula,
-        undo: &mut Vec<Edit>,
-    ) -> Result<(), Diagnostic> {
-        let depends = self.depends(&formula);
-        let value = if depends.on_rates { None } else { Some(self.evaluate(&formula, None)?) };
-        let record = Parameter { name, formula, value, depends };
-        undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
-        self.update_dependents(id, undo)
-    }
-
-    fn update_dependents(
-        &mut self,
-        id: ParameterId,
-        undo: &mut Vec<Edit>,
-    ) -> Result<(), Diagnostic> {
-        if !self.live.dependents.contains_key(&id) {
-            return Ok(());
-        }
-        let (parameters, constraints) = self.affected(id);
-        for id in parameters {
-            let mut record = self.parameter(id).expect("a listed parameter lives").clone();
-            record.depends = self.depends(&record.formula);
-            record.value = if record.depends.on_rates {
-                None
-            } else {
-                Some(self.evaluate(&record.formula, None)?)
-            };
-            undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
-        }
-        for id in constraints {
-            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
-            self.drive(&mut record)?;
-            undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
-        }
-        Ok(())
-    }
-
-    /// Parameters that depend on one, each after those it mentions, and the constraints.
-    fn affected(&self, id: ParameterId) -> (Vec<ParameterId>, Vec<ConstraintId>) {
-        let mut finished: Vec<ParameterId> = Vec::new();
-        let mut constraints: Vec<ConstraintId> = Vec::new();
-        let mut is_seen = vec![false; self.parameters.n_handles()];
-        // Depth first: a parameter is finished after all its dependents, so that the reverse
-        // order is the order of evaluation.
-        let mut stack = vec![(id, 0)];
-        while let Some((at, next)) = stack.pop() {
-            let users = self.live.dependents.get(&at).map_or(&[][..], Vec::as_slice);
-            match users.get(next) {
-                None => finished.push(at),
-                Some(user) => {
-                    stack.push((at, next + 1));
-                    match *user {
-                        Dependent::Constraint(c) => constraints.push(c),
-                        Dependent::Parameter(p) => {
-                            if !std::mem::replace(&mut is_seen[p.idx()], true) {
-                                stack.push((p, 0));
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        finished.pop();
-        finished.reverse();
-        constraints.sort_unstable();
-        constraints.dedup();
-        (finished, constraints)
-    }
-
-    /// Puts the present values of its live expressions into a constraint.
-    ///
-    /// # Errors
-    /// Where an expression has no value.
-    pub fn drive(&mut self, record: &mut Record) -> Result<(), Diagnostic> {
-        for k in 0..record.drivers.len() {
-            let (field, formula) = record.drivers[k].clone();
-            let value = match (field, self.evaluate(&formula, None)?) {
-                (Field::X, Value::Vector(v)) => v.x,
-                (Field::Y, Value::Vector(v)) => v.y,
-                (_, value) => value.number(),
-            };
-            record.constraint.set(field, value);
-        }
-        Ok(())
-    }
-
-    /// Evaluates live parameters and driven constraints anew.
-    pub(super) fn refresh(&mut self) -> Result<(), Diagnostic> {
-        self.live.is_stale = true;
-        self.refresh_parameters()?;
-        for k in 0..self.live.driven.len() {
-            self.refresh_constraint(self.live.driven[k])?;
-        }
-        Ok(())
-    }
-
-    /// Evaluates live parameters anew if time or points changed. Constraints keep their
-    /// values: looking at a parameter never changes a run.
-    fn refresh_parameters(&mut self) -> Result<(), Diagnostic> {
-        if self.live.is_dirty {
-            self.sort_live();
-        }
-        if self.live.is_stale {
-            for k in 0..self.live.order.len() {
-                self.refresh_parameter(self.live.order[k])?;
-            }
-            self.live.is_stale = false;
-        }
-        Ok(())
-    }
-
-    fn refresh_parameter(&mut self, id: ParameterId) -> Result<(), Diagnostic> {
-        let parameter = self.parameter(id).expect("a listed parameter lives");
-        if parameter.depends.on_rates {
-            return Ok(());
-        }
-        let here = Here { world: self, rates: None, values: HashMap::new() };
-        let value = parameter.formula.evaluate(&here)?;
-        self.parameters.get_mut(id.idx()).expect("a listed parameter lives").value = Some(value);
-        Ok(())
-    }
-
-    /// Gives the largest change of a value of the constraint.
-    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<f64, Diagnostic> {
-        let mut change = 0.0_f64;
-        let record = self.constraint(id).expect("a listed constraint lives");
-        for k in 0..record.drivers.len() {
-            let (field, value) = {
-                let here = Here { world: self, rates: None, values: HashMap::new() };
-                let (field, formula) = &self.constraint(id).expect("it lives").drivers[k];
-                let value = match (*field, formula.evaluate(&here)?) {
-                    (Field::X, Value::Vector(v)) => v.x,
-                    (Field::Y, Value::Vector(v)) => v.y,
-                    (_, value) => value.number(),
-                };
-                (*field, value)
-            };
-            let constraint = self.constraint_state_mut(id);
-            if let Some(old) = constraint.get(field) {
-                change = change.max((value - old).abs());
-            }
-            constraint.set(field, value);
-        }
-        if change > 0.0 {
-            self.touched.values.push(id);
-        }
-        Ok(change)
-    }
-
-    /// Whether some constraint's value is measured on the pose itself, so that a frame has to
-    /// be solved until both agree.
-    pub fn is_measured(&mut self) -> bool {
-        if self.live.is_dirty {
-            self.sort_live();
-        }
-        !self.live.measured.is_empty()
-    }
-
-    /// Evaluates anew what is measured on the pose; gives the largest change of a value.
-    ///
-    /// # Errors
-    /// Where an expression has no value in this pose.
-    pub fn refresh_measured(&mut self) -> Result<f64, Diagnostic> {
-        self.live.is_stale = true;
-        self.refresh_parameters()?;
-        let mut change = 0.0_f64;
-        for k in 0..self.live.measured.len() {
-            change = change.max(self.refresh_constraint(self.live.measured[k])?);
-        }
-        Ok(change)
-    }
-
-    /// The values that time and points drive, with their derivatives in time, given the
-    /// rates of the points. Motors turn with their speed besides.
-    ///
-    /// # Errors
-    /// Where an expression has no value now.
-    pub fn field_rates(
-        &mut self,
-        rates: &Rates,
-    ) -> Result<Vec<(ConstraintId, Field, Jet)>, Diagnostic> {
-        self.refresh_parameters()?;
-        let mut moving = Moving { world: self, rates, values: HashMap::new() };
-        for &id in &self.live.order {
-            let parameter = self.parameter(id).expect("a listed parameter lives");
-            if !parameter.depends.on_rates {
-                let value = parameter.formula.evaluate(&moving)?;
-                moving.values.insert(id, value);
-            }
-        }
-        let mut all = Vec::new();
-        for &id in &self.live.driven {
-            for (field, formula) in &self.constraint(id).expect("a listed constraint lives").drivers
-            {
-                let jet = match (*field, formula.evaluate(&moving)?) {
-                    (Field::X, Value::Vector(v)) => v.x,
-                    (Field::Y, Value::Vector(v)) => v.y,
-                    (_, value) => value.number(),
-                };
-                all.push((id, *field, jet));
-            }
-        }
-        Ok(all)
-    }
-
-    /// Works out which parameters and constraints are live, and the order to evaluate them.
-    fn sort_live(&mut self) {
-        self.live.is_dirty = false;
-        let mut order: Vec<ParameterId> = Vec::new();
-        let mut is_seen = vec![false; self.parameters.n_handles()];
-        for (root, _) in self.parameters().filter(|(_, p)| p.depends.is_live()) {
-            let mut stack = vec![(root, false)];
-            while let Some((id, is_expanded)) = stack.pop() {
-                if is_expanded {
-                    order.push(id);
-                } else if !std::mem::replace(&mut is_seen[id.idx()], true) {
-                    stack.push((id, true));
-                    let parameter = self.parameter(id).expect("a mentioned parameter lives");
-                    parameter.formula.mentions(&mut |mention| {
-                        if let Mention::Parameter(used) = mention
-                            && self.parameter(used).is_some_and(|p| p.depends.is_live())
-                        {
-                            stack.push((used, false));
-                        }
-                    });
-                }
-            }
-        }
-        self.live.order = order;
-        let mut driven = Vec::new();
-        let mut measured = Vec::new();
-        let mut motors = Vec::new();
-        for (id, record) in self.constraints() {
-            if record.is_on && is_motor(record) {
-                motors.push(id);
-            }
-            let depends = record
-                .drivers
-                .iter()
-                .fold(Depends::default(), |all, (_, formula)| all.or(self.depends(formula)));
-            if depends.is_live() {
-                driven.push(id);
-            }
-            if depends.on_points {
-                measured.push(id);
-            }
-        }
-        self.live.driven = driven;
-        self.live.measured = measured;
-        self.live.motors = motors;
-    }
-
-    pub(super) fn link_constraint(&mut self, id: ConstraintId, record: &Record) {
-        for (_, formula) in &record.drivers {
-            link(&mut self.live.dependents, formula, Dependent::Constraint(id));
-        }
-        self.live.is_dirty |= !record.drivers.is_empty() || is_motor(record);
-    }
-
-    pub(super) fn unlink_constraint(&mut self, id: ConstraintId, record: &Record) {
-        for (_, formula) in &record.drivers {
-            unlink(&mut self.live.dependents, formula, Dependent::Constraint(id));
-        }
-        self.live.is_dirty |= !record.drivers.is_empty() || is_motor(record);
-    }
-}
-
-fn is_motor(record: &Record) -> bool {
-    record.constraint.kind() == Kind::Motor
 }

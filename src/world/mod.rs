@@ -6,6 +6,8 @@
 mod arithmetic;
 mod clock;
 mod edit;
+mod environments;
+mod evaluate;
 mod formula;
 mod function;
 mod id;
@@ -21,10 +23,10 @@ mod users;
 pub use arithmetic::{call, operate};
 pub use clock::Clock;
 pub use edit::Edit;
+pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
-pub use live::Rates;
 pub use motion::Motion;
 pub use names::Names;
 pub use points::{PointRecord, Points};
@@ -32,6 +34,8 @@ pub use records::{Parameter, Record};
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use users::User;
+
+use std::collections::BTreeMap;
 
 use crate::constraint::{Constraint, Point};
 use records::Table;
@@ -46,11 +50,12 @@ pub struct World {
     names: Names,
     clock: Clock,
     /// The state of motors and wheels when the clock left 0, or at birth if made later.
-    start_states: Vec<(ConstraintId, Vec<f64>)>,
+    start_states: BTreeMap<ConstraintId, Vec<f64>>,
     traces: Vec<Trace>,
     ghosts: Vec<Ghost>,
     live: live::Live,
     touched: Touched,
+    revision: u64,
 }
 
 impl World {
@@ -117,6 +122,12 @@ impl World {
         &self.clock
     }
 
+    /// Counts the edits that changed what there is: while it stays the same, a motion can be
+    /// gone back to.
+    pub const fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// The traces, in the order they were asked for.
     pub fn traces(&self) -> &[Trace] {
         &self.traces
@@ -152,7 +163,7 @@ impl World {
     pub fn set_position(&mut self, id: PointId, at: Point) {
         if at.is_finite() {
             self.points.at[id.idx()] = at;
-            self.live.is_stale = true;
+            self.live.note_change();
         }
     }
 

@@ -1,9 +1,10 @@
 //! Time going on: what a frame advances, and all that running changes as one piece of data.
 
+use std::collections::BTreeMap;
+
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
-use crate::constraint::Point;
-use crate::constraint::Relation;
+use crate::constraint::{Constraint, Point, Relation};
 use crate::diag::Diagnostic;
 
 /// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.
@@ -12,9 +13,11 @@ use crate::diag::Diagnostic;
 pub struct Motion {
     at: Vec<Point>,
     start: Vec<Point>,
-    start_states: Vec<(ConstraintId, Vec<f64>)>,
+    start_states: BTreeMap<ConstraintId, Vec<f64>>,
     clock: Clock,
-    states: Vec<(ConstraintId, Vec<f64>)>,
+    states: BTreeMap<ConstraintId, Vec<f64>>,
+    /// Constraints with live values, which a frame sets: whole.
+    driven: Vec<(ConstraintId, Constraint)>,
     traces: Vec<Tail<Sample>>,
     ghosts: Tail<Ghost>,
 }
@@ -22,7 +25,10 @@ pub struct Motion {
 impl Motion {
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.at) + size_of_val(&*self.start) + 80 * self.states.len()
+        size_of_val(&*self.at)
+            + size_of_val(&*self.start)
+            + size_of_val(&*self.driven)
+            + 80 * self.states.len()
     }
 }
 
@@ -36,18 +42,30 @@ impl World {
             start_states: self.start_states.clone(),
             clock: self.clock,
             states: self.states(),
+            driven: self.driven(),
             traces,
             ghosts,
         }
     }
 
     /// The states of all constraints that running changes.
-    fn states(&self) -> Vec<(ConstraintId, Vec<f64>)> {
+    fn states(&self) -> BTreeMap<ConstraintId, Vec<f64>> {
         self.constraints().filter_map(|(id, r)| Some((id, r.constraint.state()?))).collect()
     }
 
+    /// All constraints with live values, whole.
+    fn driven(&self) -> Vec<(ConstraintId, Constraint)> {
+        let driven = self.constraints().filter(|(_, r)| !r.drivers.is_empty());
+        driven.map(|(id, r)| (id, r.constraint.clone())).collect()
+    }
+
     pub(super) fn swap_motion(&mut self, motion: Motion) -> Motion {
-        let states = self.states();
+        let (states, driven) = (self.states(), self.driven());
+        for (id, constraint) in motion.driven {
+            if let Some(record) = self.constraints.get_mut(id.idx()) {
+                record.constraint = constraint;
+            }
+        }
         for (id, state) in &motion.states {
             self.restore_state(*id, state);
         }
@@ -62,13 +80,12 @@ impl World {
             start_states: std::mem::replace(&mut self.start_states, motion.start_states),
             clock: std::mem::replace(&mut self.clock, motion.clock),
             states,
+            driven,
             traces,
             ghosts: motion.ghosts.swap(&mut self.ghosts),
         };
         self.touched.all = true;
-        // These expressions had values at this time and place before.
-        let had_values = self.refresh();
-        debug_assert!(had_values.is_ok(), "a pose that was left can be returned to");
+        self.live.note_change();
         old
     }
 
@@ -79,7 +96,8 @@ impl World {
     }
 
     /// The motion that brings back the start: time 0, every point where it stood when the
-    /// clock left 0, empty traces and no ghosts.
+    /// clock left 0, empty traces and no ghosts. Live values are those of now: call
+    /// [`World::refresh`] after.
     pub fn start(&self) -> Motion {
         let mut motion = self.motion();
         if self.clock.frame > 0 {
@@ -105,15 +123,12 @@ impl World {
         self.clock.tick();
         self.refresh()?;
         let dt = self.clock.dt;
-        let motors = std::mem::take(&mut self.live.motors);
-        for &id in &motors {
-            if let Some(record) = self.constraints.get_mut(id.idx()) {
-                if record.constraint.advance(dt) {
-                    self.touched.values.push(id);
-                }
+        for k in 0..self.live.motors().len() {
+            let id = self.live.motors()[k];
+            if self.constraint_state_mut(id).advance(dt) {
+                self.touched.values.push(id);
             }
         }
-        self.live.motors = motors;
         Ok(())
     }
 
@@ -136,15 +151,15 @@ impl World {
     /// What `reset` brings back to a constraint that is made while the clock is running.
     pub(super) fn note_start_state(&mut self, id: ConstraintId) {
         if self.clock.frame > 0
-            && self.start_states.iter().all(|(other, _)| *other != id)
+            && !self.start_states.contains_key(&id)
             && let Some(state) = self.constraints.get(id.idx()).and_then(|r| r.constraint.state())
         {
-            self.start_states.push((id, state));
+            self.start_states.insert(id, state);
         }
     }
 
     /// The states that `reset` brings back.
-    pub fn start_states(&self) -> &[(ConstraintId, Vec<f64>)] {
+    pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
     }
 }

@@ -1,18 +1,19 @@
 //! The one namespace of points, constraints and parameters.
 
-use std::collections::HashMap;
 use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
 
 use super::Entity;
 
 /// Who has which name.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
-    of: HashMap<Rc<str>, Entity>,
+    of: FxHashMap<Rc<str>, Entity>,
     /// How many names begin with this prefix and a dot: an instance of a definition.
-    instances: HashMap<Rc<str>, u32>,
+    instances: FxHashMap<Rc<str>, u32>,
     /// Under `prefix` + word, a number below which every numbered name is taken.
-    numbered: HashMap<Box<str>, u32>,
+    numbered: FxHashMap<Box<str>, u32>,
 }
 
 impl Names {

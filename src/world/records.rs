@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use super::{ConstraintId, Depends, Formula, ParameterId, Value};
-use crate::constraint::{Constraint, Field};
+use crate::constraint::{Bounds, Constraint, Field, Relation};
+use crate::diag::{Diagnostic, format_number};
 
 /// A constraint with its name and what drives its values.
 #[derive(Debug, Clone)]
@@ -24,6 +25,48 @@ impl Record {
     /// The expression behind a value, if it is live.
     pub fn driver(&self, field: Field) -> Option<&Formula> {
         self.drivers.iter().find(|(f, _)| *f == field).map(|(_, formula)| formula)
+    }
+
+    /// What is wrong with the values that its live expressions gave it: no pose could have
+    /// such a length, such an interval, such wheels.
+    pub fn flaw(&self) -> Option<Diagnostic> {
+        let now = |field, what: &str| {
+            let problem = Diagnostic::error(format!("{what} in `{}`", self.name));
+            let value = self.constraint.get(field).map_or_else(String::new, format_number);
+            match self.driver(field) {
+                Some(formula) => problem.at(formula.span(), format!("this is now {value}")),
+                None => problem,
+            }
+        };
+        if let Some(bounds) = self.bounds()
+            && bounds.lo > bounds.hi
+        {
+            let end = if self.driver(Field::Lo).is_some() { Field::Lo } else { Field::Hi };
+            let ends = format!("{}..{}", format_number(bounds.lo), format_number(bounds.hi));
+            return Some(now(end, "an empty range").note(format!("the range is {ends}")));
+        }
+        match &self.constraint {
+            Constraint::Length(c) if c.bounds.hi < 0.0 => Some(now(Field::Hi, "a negative length")),
+            Constraint::Motor(c) if c.get(Field::Radius).is_some_and(|r| r < 0.0) => {
+                Some(now(Field::Radius, "a negative radius"))
+            }
+            c @ (Constraint::Cog(_) | Constraint::CogVelocity(_))
+                if c.get(Field::Ratio) == Some(0.0) =>
+            {
+                Some(now(Field::Ratio, "a ratio of 0"))
+            }
+            _ => None,
+        }
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        match &self.constraint {
+            Constraint::Length(c) => Some(c.bounds),
+            Constraint::Equal(c) => Some(c.bounds),
+            Constraint::Distance(c) => Some(c.bounds),
+            Constraint::Orientation(c) => Some(c.bounds),
+            _ => None,
+        }
     }
 }
 

@@ -3,8 +3,9 @@
 use super::Draw;
 use super::bar::Span;
 use crate::constraint::{Point, PointIdx};
-use crate::render::figure::{Layer, Path};
+use crate::render::figure::Layer;
 use crate::render::ink::Ink;
+use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// Two segments of one direction.

@@ -3,8 +3,9 @@
 use super::Draw;
 use super::bar::Span;
 use crate::constraint::PointIdx;
-use crate::render::figure::{Layer, Path};
+use crate::render::figure::Layer;
 use crate::render::ink::Ink;
+use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// A line that is measured and not made of anything.

@@ -3,9 +3,10 @@
 use super::Draw;
 use super::bar::{Span, arrow_head, outlined};
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::figure::{Figure, Layer, Path, Placement};
+use crate::render::figure::{Figure, Layer, Placement};
 use crate::render::ink::Ink;
 use crate::render::page::Extent;
+use crate::render::path::Path;
 use crate::render::style::{Class, MOTOR};
 use std::f64::consts::FRAC_PI_2;
 

@@ -2,9 +2,10 @@
 
 use super::Draw;
 use crate::constraint::{Point, PointIdx};
-use crate::render::figure::{Layer, Path, Placement};
+use crate::render::figure::{Layer, Placement};
 use crate::render::ink::Ink;
 use crate::render::page::Extent;
+use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// A target and the point that belongs there.

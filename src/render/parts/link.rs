@@ -3,8 +3,9 @@
 use super::Draw;
 use super::bar::Span;
 use crate::constraint::{Point, PointIdx};
-use crate::render::figure::{Layer, Path, Placement};
+use crate::render::figure::{Layer, Placement};
 use crate::render::ink::Ink;
+use crate::render::path::Path;
 use crate::render::style::{Class, JOINT};
 
 /// A thin bar through two points with a pin on it.

@@ -1,7 +1,7 @@
 //! The outlines of teeth, on a circle and on a line.
 
 use crate::constraint::{Point, Vector};
-use crate::render::figure::Path;
+use crate::render::path::Path;
 use std::f64::consts::TAU;
 
 /// Half of a tooth's width at its tip, its pitch line and its root, as parts of the pitch,

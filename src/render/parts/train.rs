@@ -5,10 +5,11 @@ use std::f64::consts::{PI, TAU};
 use super::bar::Span;
 use super::{Draw, teeth};
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::figure::{Layer, Path, Placement};
+use crate::render::figure::{Layer, Placement};
 use crate::render::groups::Groups;
 use crate::render::ink::Ink;
 use crate::render::page::Extent;
+use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// From tooth to tooth, px, where there is room for it.
@@ -176,7 +177,7 @@ impl Train {
 
     /// How many teeth each wheel has, such that all are of one size and the numbers are in
     /// the ratios asked for or as near as whole numbers come; none where they would be a blur.
-    fn n_teeth(&self, radii: &[f64], pitch: f64) -> Option<Vec<f64>> {
+    fn n_teeth(radii: &[f64], pitch: f64) -> Option<Vec<f64>> {
         let largest = radii.iter().copied().fold(0.0, f64::max);
         let smallest = radii.iter().copied().fold(f64::INFINITY, f64::min);
         if largest.is_nan() || largest <= 0.0 || smallest <= 0.0 {
@@ -205,7 +206,7 @@ impl Train {
     /// The wheels on the page, teeth in gaps; none where pitch circles are drawn instead.
     fn rims(&self, ink: &Ink, radii: &[f64]) -> Option<Vec<Rim>> {
         let px: Vec<f64> = radii.iter().map(|&r| ink.page.length(r)).collect();
-        let n_teeth = self.n_teeth(&px, ink.size(PITCH))?;
+        let n_teeth = Self::n_teeth(&px, ink.size(PITCH))?;
         let mut rims: Vec<Rim> = (0..self.wheels.len())
             .map(|k| {
                 let centre = ink.px(self.wheels[k].centre);

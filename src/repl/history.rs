@@ -1,0 +1,36 @@
+//! The lines typed so far, kept across sessions.
+
+use std::path::{Path, PathBuf};
+
+use super::editor::LineEditor;
+
+/// Lines kept; a line editor reads all of them when it starts.
+pub const MOST_LINES: usize = 10_000;
+
+/// Where the history is kept across sessions.
+pub fn file() -> Option<PathBuf> {
+    let state = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);
+    let home = || std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".local/state"));
+    let folder = state.filter(|path| path.is_absolute()).or_else(home)?.join("linkwork");
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder.join("history"))
+}
+
+/// Brings back the lines of earlier sessions.
+pub fn recall(editor: &mut LineEditor, file: Option<&Path>) {
+    if let Some(file) = file {
+        // There is none at the first start.
+        drop(editor.load_history(file));
+    }
+}
+
+/// Keeps a line, and on disk at once, so that a crash loses nothing.
+pub fn keep(editor: &mut LineEditor, line: &str, file: Option<&Path>) {
+    if !line.trim().is_empty()
+        && matches!(editor.add_history_entry(line), Ok(true))
+        && let Some(file) = file
+    {
+        // A history that cannot be kept is no reason to stop.
+        drop(editor.append_history(file));
+    }
+}

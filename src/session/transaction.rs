@@ -1,0 +1,166 @@
+//! A command is a transaction: what it changed can be taken back, and done again.
+
+use super::Session;
+use super::journal::{Change, Entry, Part};
+use super::recorder::Recorder;
+use crate::solve::Memory;
+use crate::world::Edit;
+
+impl Session {
+    /// Makes a reversible change; gives the change that takes it back.
+    fn apply(&mut self, change: Change) -> Change {
+        match change {
+            Change::World(edit) => Change::World(self.world.apply(edit)),
+            Change::Preferences(new) => {
+                Change::Preferences(Box::new(std::mem::replace(&mut self.preferences, *new)))
+            }
+            Change::Definition(name, Some(new)) => {
+                let old = self.definitions.insert(name.clone(), new);
+                Change::Definition(name, old)
+            }
+            Change::Definition(name, None) => {
+                let old = self.definitions.remove(&name);
+                Change::Definition(name, old)
+            }
+            Change::Memory(memory) => {
+                let old = self.solver.memory();
+                self.solver.set_memory(*memory);
+                Change::Memory(Box::new(old))
+            }
+            Change::Recorder(idx, Some(recorder)) => {
+                self.recorders.insert(idx, *recorder);
+                Change::Recorder(idx, None)
+            }
+            Change::Recorder(idx, None) => {
+                Change::Recorder(idx, Some(Box::new(self.recorders.remove(idx))))
+            }
+            Change::Sample(series, value) => self.swap_sample(series, value),
+            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
+            Change::Reels(reels) => Change::Reels(
+                self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
+            ),
+        }
+    }
+
+    /// Makes a change that belongs to the command under way.
+    pub(super) fn change(&mut self, change: Change) {
+        let inverse = self.apply(change);
+        self.journal.current.push(inverse);
+    }
+
+    /// Makes an edit of the world that belongs to the command under way.
+    pub(super) fn edit(&mut self, edit: Edit) {
+        let inverse = self.world.apply(edit);
+        self.keep(inverse);
+    }
+
+    /// Keeps the inverse of an edit that was made, unless what takes back an earlier edit of
+    /// the same command takes this one back as well: a loop of a million rounds that turns one
+    /// knob is taken back by one edit.
+    pub(super) fn keep(&mut self, inverse: Edit) {
+        let part = match &inverse {
+            Edit::Move(..)
+            | Edit::Start(..)
+            | Edit::Clock(_)
+            | Edit::StartState(..)
+            | Edit::StartStates(_)
+            | Edit::Ghost(None)
+                if self.journal.has_motion =>
+            {
+                return;
+            }
+            Edit::Move(id, _) => Some(Part::Position(*id)),
+            Edit::Freeze(id, _) => Some(Part::Freedom(*id)),
+            Edit::Weight(id, _) => Some(Part::Weight(*id)),
+            Edit::Clock(_) => Some(Part::Clock),
+            Edit::Motion(_) => Some(Part::Motion),
+            Edit::Switch(id, _) => Some(Part::Switch(*id)),
+            Edit::Constraint(id, Some(_)) if self.world.constraint(*id).is_some() => {
+                Some(Part::Constraint(*id))
+            }
+            Edit::Parameter(id, Some(_)) if self.world.parameter(*id).is_some() => {
+                Some(Part::Parameter(*id))
+            }
+            _ => None,
+        };
+        if part.is_none_or(|part| self.journal.covered.insert(part)) {
+            self.journal.current.push(Change::World(inverse));
+        }
+    }
+
+    /// Sets what the solver remembers, as part of the command under way.
+    pub(super) fn set_memory(&mut self, memory: Memory) {
+        if self.journal.has_motion || !self.journal.covered.insert(Part::Memory) {
+            self.solver.set_memory(memory);
+        } else {
+            self.change(Change::Memory(Box::new(memory)));
+        }
+    }
+
+    /// Keeps all that running changes, before the command under way lets time pass or the
+    /// solver move points. Once a command is enough.
+    pub(super) fn begin_motion(&mut self) {
+        if std::mem::replace(&mut self.journal.has_motion, true) {
+            return;
+        }
+        self.journal.covered.clear();
+        let reels = self.recorders.iter().map(Recorder::mark).collect();
+        self.attend();
+        let motion = Box::new(self.world.motion());
+        self.journal.current.push(Change::Memory(Box::new(self.solver.memory())));
+        self.journal.current.push(Change::World(Edit::Motion(motion)));
+        self.journal.current.push(Change::Reels(reels));
+    }
+
+    /// Lets the solver take in what was edited, so that what it remembers is of the world as
+    /// it is.
+    pub(super) fn attend(&mut self) {
+        let Self { solver, world, preferences, .. } = self;
+        solver.attend(world, &preferences.solve);
+    }
+
+    /// Takes back what the command under way did.
+    pub(super) fn roll_back(&mut self) {
+        self.outbox.clear();
+        self.run = None;
+        self.laps.give_up();
+        self.scopes.truncate(1);
+        self.depth = 0;
+        self.n_rounds = 1.0;
+        self.included.clear();
+        let scope = self.scopes.last_mut().expect("the outermost scope is never left");
+        scope.bindings.clear();
+        for change in self.journal.take_current().into_iter().rev() {
+            self.apply(change);
+        }
+    }
+
+    /// Takes back one command, or does it again: gives what was taken back.
+    fn invert(&mut self, entry: Entry) -> Entry {
+        self.attend();
+        let changes = entry.changes.into_iter().rev().map(|change| self.apply(change)).collect();
+        Entry { label: entry.label, changes }
+    }
+
+    /// Takes back up to `n` commands; gives how many there were.
+    pub(super) fn undo(&mut self, n: usize) -> usize {
+        for done in 0..n {
+            let Some(entry) = self.journal.pop_done() else { return done };
+            let inverse = self.invert(entry);
+            self.note(format!("undid `{}`", inverse.label));
+            self.journal.push_undone(inverse);
+        }
+        n
+    }
+
+    /// Does up to `n` commands again; gives how many there were.
+    pub(super) fn redo(&mut self, n: usize) -> usize {
+        for done in 0..n {
+            let Some(entry) = self.journal.pop_undone() else { return done };
+            let inverse = self.invert(entry);
+            self.note(format!("did `{}` again", inverse.label));
+            self.journal.keep(inverse);
+        }
+        n
+    }
+}

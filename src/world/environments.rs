@@ -1,0 +1,126 @@
+//! What formulas see of a world: values now, or values with their derivatives in time.
+
+use std::collections::BTreeMap;
+
+use super::{Environment, ParameterId, PointId, Value, World};
+use crate::constraint::{Jet, Place, Real, Vector};
+use crate::diag::Diagnostic;
+
+/// Velocities and accelerations of all points, by handle.
+#[derive(Debug, Clone, Default)]
+pub struct Rates {
+    /// Rates of change, per time unit.
+    pub velocity: Vec<Vector>,
+    /// Second derivatives, per time unit squared.
+    pub acceleration: Vec<Vector>,
+}
+
+/// A world as formulas see it, with rates where they were computed.
+pub(super) struct Here<'a> {
+    world: &'a World,
+    rates: Option<&'a Rates>,
+    /// What parameters that depend on rates came to.
+    values: BTreeMap<ParameterId, Result<Value, Diagnostic>>,
+}
+
+impl<'a> Here<'a> {
+    /// The world as it stands, live parameters being up to date. Without `rates` what
+    /// mentions a velocity has no value.
+    pub fn new(world: &'a World, rates: Option<&'a Rates>) -> Self {
+        let mut here = Self { world, rates, values: BTreeMap::new() };
+        if rates.is_some() {
+            for &id in world.live.order() {
+                let parameter = world.parameter(id).expect("a listed parameter lives");
+                if parameter.depends.on_rates {
+                    let value = parameter.formula.evaluate(&here);
+                    here.values.insert(id, value);
+                }
+            }
+        }
+        here
+    }
+}
+
+impl Environment<f64> for Here<'_> {
+    fn parameter(&self, id: ParameterId) -> Result<Value, Diagnostic> {
+        let parameter = self.world.parameter(id).expect("a mentioned parameter lives");
+        if let Some(value) = parameter.value {
+            return Ok(value);
+        }
+        if let Some(value) = self.values.get(&id) {
+            return value.clone();
+        }
+        Err(self.world.live.failure(id).cloned().unwrap_or_else(|| {
+            Diagnostic::error(format!("`{}` follows from a velocity", parameter.name))
+                .at(parameter.formula.span(), "a velocity cannot be had here")
+                .help("use it in `print`, `assert`, or a parameter that these use")
+        }))
+    }
+
+    fn position(&self, id: PointId) -> Place<f64> {
+        let p = self.world.points.at(id);
+        Place { x: p.x, y: p.y }
+    }
+
+    fn time(&self) -> f64 {
+        self.world.clock.time()
+    }
+
+    fn rates(&self, id: PointId) -> Option<(Place<f64>, Place<f64>)> {
+        let rates = self.rates?;
+        let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
+        let (v, a) = (at(&rates.velocity), at(&rates.acceleration));
+        Some((Place { x: v.x, y: v.y }, Place { x: a.x, y: a.y }))
+    }
+}
+
+/// A world in motion as formulas see it: everything with its derivatives in time.
+pub(super) struct Moving<'a> {
+    world: &'a World,
+    rates: &'a Rates,
+    values: BTreeMap<ParameterId, Result<Value<Jet>, Diagnostic>>,
+}
+
+impl<'a> Moving<'a> {
+    /// The world as it stands, live parameters being up to date, with the rates of its points.
+    pub fn new(world: &'a World, rates: &'a Rates) -> Self {
+        let mut moving = Self { world, rates, values: BTreeMap::new() };
+        for &id in world.live.order() {
+            let parameter = world.parameter(id).expect("a listed parameter lives");
+            if !parameter.depends.on_rates {
+                let value = parameter.formula.evaluate(&moving);
+                moving.values.insert(id, value);
+            }
+        }
+        moving
+    }
+}
+
+impl Environment<Jet> for Moving<'_> {
+    fn parameter(&self, id: ParameterId) -> Result<Value<Jet>, Diagnostic> {
+        if let Some(value) = self.values.get(&id) {
+            return value.clone();
+        }
+        Ok(match Here::new(self.world, None).parameter(id)? {
+            Value::Number(n) => Value::Number(Jet::constant(n)),
+            Value::Vector(v) => {
+                Value::Vector(Place { x: Jet::constant(v.x), y: Jet::constant(v.y) })
+            }
+        })
+    }
+
+    fn position(&self, id: PointId) -> Place<Jet> {
+        let p = self.world.points.at(id);
+        let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
+        let (v, a) = (at(&self.rates.velocity), at(&self.rates.acceleration));
+        Place { x: Jet::new(p.x, v.x, a.x), y: Jet::new(p.y, v.y, a.y) }
+    }
+
+    fn time(&self) -> Jet {
+        Jet::new(self.world.clock.time(), 1.0, 0.0)
+    }
+
+    fn rates(&self, _id: PointId) -> Option<(Place<Jet>, Place<Jet>)> {
+        None
+    }
+}

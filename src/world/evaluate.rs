@@ -1,0 +1,222 @@
+//! Evaluating live expressions: when looked at, when a parameter changes, and frame by frame.
+
+use super::environments::{Here, Moving};
+use super::records::Dependent;
+use super::{ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, Value, World};
+use crate::constraint::{Field, Jet, Real, Relation};
+use crate::diag::Diagnostic;
+
+impl World {
+    /// The value of an expression, live parameters brought up to date first.
+    ///
+    /// # Errors
+    /// Where it has none; velocities have none without `rates`.
+    pub fn evaluate(
+        &mut self,
+        formula: &Formula,
+        rates: Option<&Rates>,
+    ) -> Result<Value, Diagnostic> {
+        if formula.depends().on_parameters {
+            self.refresh_parameters();
+        }
+        formula.evaluate(&Here::new(self, rates))
+    }
+
+    /// Changes a parameter and everything that depends on it; what takes it back is added to
+    /// `undo` edit by edit.
+    ///
+    /// # Errors
+    /// Where the new value, or one that depends on it, cannot be had. The caller takes back
+    /// what `undo` lists.
+    pub fn set_parameter(
+        &mut self,
+        id: ParameterId,
+        name: std::rc::Rc<str>,
+        formula: Formula,
+        undo: &mut Vec<Edit>,
+    ) -> Result<(), Diagnostic> {
+        let depends = self.depends(&formula);
+        let value = if depends.on_rates { None } else { Some(self.evaluate(&formula, None)?) };
+        let record = Parameter { name, formula, value, depends };
+        undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
+        if self.live.dependents(id).is_empty() {
+            return Ok(());
+        }
+        self.refresh_parameters();
+        let (parameters, constraints) = self.affected(id);
+        for id in parameters {
+            let mut record = self.parameter(id).expect("a listed parameter lives").clone();
+            record.depends = self.depends(&record.formula);
+            record.value = if record.depends.on_rates {
+                None
+            } else {
+                Some(record.formula.evaluate(&Here::new(self, None))?)
+            };
+            undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
+        }
+        for id in constraints {
+            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
+            self.drive(&mut record)?;
+            undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
+        }
+        Ok(())
+    }
+
+    /// Parameters that depend on one, each after those it mentions, and the constraints.
+    fn affected(&self, id: ParameterId) -> (Vec<ParameterId>, Vec<ConstraintId>) {
+        let mut finished: Vec<ParameterId> = Vec::new();
+        let mut constraints: Vec<ConstraintId> = Vec::new();
+        let mut is_seen = vec![false; self.parameters.n_handles()];
+        // Depth first: a parameter is finished after all its dependents, so that the reverse
+        // order is the order of evaluation.
+        let mut stack = vec![(id, 0)];
+        while let Some((at, next)) = stack.pop() {
+            match self.live.dependents(at).get(next) {
+                None => finished.push(at),
+                Some(user) => {
+                    stack.push((at, next + 1));
+                    match *user {
+                        Dependent::Constraint(c) => constraints.push(c),
+                        Dependent::Parameter(p) => {
+                            if !std::mem::replace(&mut is_seen[p.idx()], true) {
+                                stack.push((p, 0));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        finished.pop();
+        finished.reverse();
+        constraints.sort_unstable();
+        constraints.dedup();
+        (finished, constraints)
+    }
+
+    /// Puts the present values of its live expressions into a constraint.
+    fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
+        for (field, formula) in &record.drivers {
+            let value = formula.evaluate(&Here::new(self, None))?;
+            record.constraint.set(*field, coordinate(*field, value));
+        }
+        record.flaw().map_or(Ok(()), Err)
+    }
+
+    /// Evaluates live parameters and driven constraints anew, for the time and the pose as
+    /// they are now.
+    ///
+    /// # Errors
+    /// Where an expression has no value, or one that its constraint cannot have.
+    pub fn refresh(&mut self) -> Result<(), Diagnostic> {
+        self.live.note_change();
+        self.refresh_parameters();
+        if let Some(why) = self.live.first_failure() {
+            return Err(why.clone());
+        }
+        self.sort_constraints();
+        for k in 0..self.live.driven().len() {
+            self.refresh_constraint(self.live.driven()[k])?;
+        }
+        Ok(())
+    }
+
+    /// Evaluates live parameters anew if time or points changed; one that has no value now
+    /// fails who mentions it. Constraints keep their values: looking at a parameter never
+    /// changes a run.
+    pub(super) fn refresh_parameters(&mut self) {
+        self.sort_parameters();
+        if !self.live.take_stale() {
+            return;
+        }
+        self.live.forget_failures();
+        for k in 0..self.live.order().len() {
+            let id = self.live.order()[k];
+            let parameter = self.parameter(id).expect("a listed parameter lives");
+            if parameter.depends.on_rates {
+                continue;
+            }
+            let value = parameter.formula.evaluate(&Here::new(self, None));
+            let parameter = self.parameters.get_mut(id.idx()).expect("a listed parameter lives");
+            parameter.value = value.as_ref().ok().copied();
+            if let Err(why) = value {
+                self.live.fail(id, why);
+            }
+        }
+    }
+
+    /// Gives the largest change of a value of the constraint.
+    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<f64, Diagnostic> {
+        let mut change = 0.0_f64;
+        let n_drivers = self.constraint(id).expect("a listed constraint lives").drivers.len();
+        for k in 0..n_drivers {
+            let (field, formula) = &self.constraint(id).expect("it lives").drivers[k];
+            let field = *field;
+            let value = coordinate(field, formula.evaluate(&Here::new(self, None))?);
+            let constraint = self.constraint_state_mut(id);
+            if let Some(old) = constraint.get(field) {
+                change = change.max((value - old).abs());
+            }
+            constraint.set(field, value);
+        }
+        if change > 0.0 {
+            self.touched.values.push(id);
+            if let Some(flaw) = self.constraint(id).expect("it lives").flaw() {
+                return Err(flaw);
+            }
+        }
+        Ok(change)
+    }
+
+    /// Whether some constraint's value is measured on the pose itself, so that a frame has to
+    /// be solved until both agree.
+    pub fn is_measured(&mut self) -> bool {
+        self.sort_constraints();
+        !self.live.measured().is_empty()
+    }
+
+    /// Evaluates anew what is measured on the pose; gives the largest change of a value.
+    ///
+    /// # Errors
+    /// Where an expression has no value in this pose.
+    pub fn refresh_measured(&mut self) -> Result<f64, Diagnostic> {
+        self.live.note_change();
+        self.refresh_parameters();
+        self.sort_constraints();
+        let mut change = 0.0_f64;
+        for k in 0..self.live.measured().len() {
+            change = change.max(self.refresh_constraint(self.live.measured()[k])?);
+        }
+        Ok(change)
+    }
+
+    /// The values that time and points drive, with their derivatives in time, given the
+    /// rates of the points. Motors turn with their speed besides.
+    ///
+    /// # Errors
+    /// Where an expression has no value now.
+    pub fn field_rates(
+        &mut self,
+        rates: &Rates,
+    ) -> Result<Vec<(ConstraintId, Field, Jet)>, Diagnostic> {
+        self.refresh_parameters();
+        self.sort_constraints();
+        let moving = Moving::new(self, rates);
+        let mut all = Vec::new();
+        for &id in self.live.driven() {
+            let record = self.constraint(id).expect("a listed constraint lives");
+            for (field, formula) in &record.drivers {
+                all.push((id, *field, coordinate(*field, formula.evaluate(&moving)?)));
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// The number that drives a field: the value, or the coordinate of it that the field is.
+fn coordinate<T: Real>(field: Field, value: Value<T>) -> T {
+    match (field, value) {
+        (Field::X, Value::Vector(v)) => v.x,
+        (Field::Y, Value::Vector(v)) => v.y,
+        (_, value) => value.number(),
+    }
+}
