@@ -125,13 +125,7 @@ fn growth(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat).sample_size(10);
     for n in [10, 100, 1000, 10000] {
         let end = format!("p[{n}]");
-        dragging(
-            &mut group,
-            BenchmarkId::new("w5a", n),
-            set_up(CHAIN, Some(n)),
-            &end,
-            (0.1, 0.05),
-        );
+        dragging(&mut group, BenchmarkId::new("w5a", n), set_up(CHAIN, Some(n)), &end, (0.1, 0.05));
     }
     for n in [4, 8, 16, 32, 64] {
         let session = set_up(TRUSS, Some(n));
@@ -155,7 +149,8 @@ fn relaxation(c: &mut Criterion) {
     ] {
         let mut session = set_up(script, Some(n));
         // Off its solution, or there would be nothing to do.
-        let off = if name == "chain" { "move p[0] to p[0] - (1, 1)" } else { "move p[0][0] to (-1, -1)" };
+        let off =
+            if name == "chain" { "move p[0] to p[0] - (1, 1)" } else { "move p[0][0] to (-1, -1)" };
         execute(&mut session, off);
         execute(&mut session, "set method relaxation");
         group.throughput(Throughput::Elements(session.world().n_constraints() as u64));
@@ -194,9 +189,7 @@ fn statement(c: &mut Criterion) {
     let lines: String = (0..n).map(|i| format!("point q[{i}] = ({i}, 0)\n")).collect();
     group.bench_function("point on a line of its own", |b| {
         b.iter_custom(|times| {
-            (0..times)
-                .map(|_| timed(&mut Session::new(Box::new(Nowhere)), &lines))
-                .sum()
+            (0..times).map(|_| timed(&mut Session::new(Box::new(Nowhere)), &lines)).sum()
         });
     });
     group.finish();

@@ -1,9 +1,10 @@
 //! What a frame does, counted by the solver itself: nothing that the scene does not call for.
 //! `benches/counting.py` counts instructions of the whole program for the same claims.
 
+use linkwork::constraint::Point;
 use linkwork::session::{Nowhere, Session};
 use linkwork::solve::{Budget, Counters, Settings, Solver};
-use linkwork::world::World;
+use linkwork::world::{Edit, Entity, World};
 
 /// Frames for what is new to come to rest, and frames that are counted.
 const FIRST: usize = 5;
@@ -35,7 +36,7 @@ fn pass(world: &mut World, solver: &mut Solver) -> Counters {
 fn work(script: &str) -> Counters {
     let mut world = world(script);
     let mut solver = Solver::new();
-    (0..FIRST).for_each(|_| drop(pass(&mut world, &mut solver)));
+    (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
     let mut all = Counters::default();
     (0..COUNTED).for_each(|_| all.add(&pass(&mut world, &mut solver)));
     all
@@ -106,40 +107,69 @@ fn four_bars(n: usize, still: &str) -> String {
 #[test]
 fn one_driven_mechanism_of_many_is_the_work_of_one() {
     let alone = work(&four_bars(1, ""));
-    for still in [
-        "freeze B[i]",
-        "motor A[i] B[i] radius 1 speed 0",
-        "length A[i] B[i] = 1",
-    ] {
+    for still in ["freeze B[i]", "motor A[i] B[i] radius 1 speed 0", "length A[i] B[i] = 1"] {
         assert_eq!(alone, work(&four_bars(10_000, still)), "{still}");
     }
 }
 
 #[test]
 fn dragging_one_of_many_is_the_work_of_one() {
-    let drag = |n| {
+    let drag = |n: usize| {
         let mut world = world(&four_bars(n, "freeze B[i]"));
         let mut solver = Solver::new();
+        let settings = Settings::default();
+        (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
+        let Some(Entity::Point(d)) = world.names().get("D[1]") else { panic!("no point") };
         let mut all = Counters::default();
-        (0..FIRST).for_each(|_| drop(pass(&mut world, &mut solver)));
-        for _ in 0..COUNTED {
+        for k in 1..=COUNTED {
+            solver.attend(&mut world, &settings);
+            world.apply(Edit::Move(d, Point::new(4.0 + 0.01 * k as f64, 6.0)));
             all.add(&pass(&mut world, &mut solver));
         }
         all
     };
-    assert_eq!(drag(1), drag(100));
+    assert_eq!(drag(1), drag(1000));
+}
+
+/// Scenes that call for one effect more than a four-bar does.
+const EFFECTS: [(&str, &str); 6] = [
+    ("wheel angles", "point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1"),
+    (
+        "wheel angles",
+        "point G = (-9, -1) frozen, H = (9, -1) frozen, W = (6, 0), R = (6, -1)
+                      length W R = 1\nrack W R on G H",
+    ),
+    ("inequalities", "point E = (9, 9) frozen, F = (9, 8)\nlength E F <= 5"),
+    ("traces", "trace C"),
+    ("ghosts", "expose every 10"),
+    ("derivatives", "let v = norm(velocity(C))"),
+];
+
+#[test]
+fn what_no_statement_calls_for_has_no_memory() {
+    let effects = |with: &str| {
+        let mut session = Session::new(Box::new(Nowhere));
+        let source = session.add_source("work", &format!("{FOUR_BAR}{with}\nstep 30"), None);
+        session.execute_all(source).expect("a script that works");
+        session.effects_on().expect("values at every time").rows
+    };
+    let without = effects("");
+    for (name, with) in EFFECTS {
+        let off = without.iter().find(|row| row.name == name).expect("a known effect");
+        assert!(!off.is_on && off.n_bytes == 0, "{name}");
+        for row in effects(with) {
+            let is_on = row.name == name || without.iter().any(|r| r.name == row.name && r.is_on);
+            assert_eq!(row.is_on, is_on, "{}, asked for: {with}", row.name);
+            assert!(row.is_on || row.n_bytes == 0, "{}, asked for: {with}", row.name);
+        }
+    }
 }
 
 #[test]
 fn no_wheels_no_evaluations_of_wheels() {
     assert_eq!(work(FOUR_BAR).wheel_evaluations, 0);
-    let cog = format!("{FOUR_BAR}point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1\n");
-    assert!(work(&cog).wheel_evaluations > 0);
-    let rack = format!(
-        "{FOUR_BAR}point G = (-9, -1) frozen, H = (9, -1) frozen, W = (6, 0), R = (6, -1)
-         length W R = 1\nrack W R on G H\n"
-    );
-    assert!(work(&rack).wheel_evaluations > 0 || work(&rack).islands_visited > 0);
+    let all = [EFFECTS[2].1, EFFECTS[3].1, EFFECTS[4].1, EFFECTS[5].1].join("\n");
+    assert_eq!(work(&format!("{FOUR_BAR}{all}")).wheel_evaluations, 0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A program that runs beside this one and times itself: a line in, a line out.
 //!
 //! It is sent the scene as one line of JSON and answers `ready`, or why not; then `run FROM N`,
-//! which it answers by the seconds it took and the frames it did not solve, and `pose`, which it
+//! which it answers by the seconds of the processor it took and the frames it did not solve, and `pose`, which it
 //! answers by all coordinates.
 
 use serde_json::{Value, json};
@@ -41,6 +41,11 @@ fn scene(work: &Work) -> Value {
     })
 }
 
+/// Why a program has no more to say, in a few words.
+fn reason(answer: &str) -> String {
+    if answer.contains("OOM") { "out of memory" } else { "broke down" }.to_owned()
+}
+
 impl Beside {
     /// Starts a program, given with its arguments, on a work.
     pub fn start(command: &str, work: &Work) -> Result<Self, String> {
@@ -65,7 +70,7 @@ impl Beside {
         let mut beside = Self { child, to, from };
         match beside.ask(&scene(work).to_string())?.as_str() {
             "ready" => Ok(beside),
-            why => Err(why.to_owned()),
+            why => Err(reason(why)),
         }
     }
 
@@ -78,7 +83,7 @@ impl Beside {
 impl Peer for Beside {
     fn run(&mut self, from: usize, n: usize) -> Result<Run, String> {
         let answer = self.ask(&format!("run {from} {n}"))?;
-        let broken = || format!("answered `{answer}`");
+        let broken = || reason(&answer);
         let (seconds, failed) = answer.split_once(' ').ok_or_else(broken)?;
         Ok(Run {
             seconds: seconds.parse().map_err(|_| broken())?,

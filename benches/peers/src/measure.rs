@@ -10,6 +10,8 @@ use crate::work::{Place, Relation, Work};
 const ROUNDS: (usize, usize) = (5, 41);
 /// Seconds spent timing one work, once the least rounds are done.
 const TIMING: f64 = 4.0;
+/// What is shorter than this is not timed well.
+const SHORTEST: f64 = 5e-4;
 /// A peer that can stop between frames gets no more seconds than this in a round.
 const ROUND: f64 = 0.3;
 /// Nor in the pass that looks at every frame.
@@ -18,7 +20,7 @@ const LOOKING: f64 = 15.0;
 /// What came of one peer on one work.
 #[derive(Debug, Clone, Default)]
 pub struct Outcome {
-    /// Median time of a frame, microseconds.
+    /// Median time of the processor for a frame, microseconds.
     pub micros: f64,
     /// That against linkwork, round by round: the median.
     pub ratio: f64,
@@ -110,7 +112,12 @@ pub fn compare<'a>(
             Err(why) => drop(found.insert(name, Err(why))),
             Ok((peer, (outcome, seconds, k))) => {
                 let most = (ROUND / seconds).max(1.0) as usize;
-                let n = if peer.needs_whole_blocks() { work.block } else { work.block.min(most) };
+                let least = (SHORTEST / seconds.max(1e-9)) as usize;
+                let n = if peer.needs_whole_blocks() {
+                    work.block
+                } else {
+                    work.block.max(least).min(most)
+                };
                 runners.push(Runner { name, peer, outcome, k, n, times: Vec::new() });
             }
         }

@@ -1,9 +1,9 @@
 //! linkwork as its user runs it: statements given to a session, default settings, no output.
 
+use cpu_time::ProcessTime;
 use linkwork::lang::ast::Statement;
 use linkwork::session::{Nowhere, Session};
 use linkwork::world::{Entity, PointId};
-use std::time::Instant;
 
 use crate::peer::{Peer, Run};
 use crate::work::{Place, Work};
@@ -79,7 +79,7 @@ impl Peer for Ours<'_> {
             let [x, y] = self.work.target(about, from + n);
             format!("drag {} to ({x:?}, {y:?}) over {n}", self.work.names[p])
         };
-        let begun = Instant::now();
+        let begun = ProcessTime::now();
         execute(&mut self.session, &text)?;
         let seconds = begun.elapsed().as_secs_f64();
         let n_failed = self.session.last_run().map_or(n, |run| run.n_missed as usize);

@@ -1,12 +1,13 @@
 //! What every peer can do.
 
-use std::time::Instant;
+use cpu_time::ProcessTime;
 
 use crate::work::Place;
 
 /// How a number of frames went.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Run {
+    /// Time of the processor, of all threads.
     pub seconds: f64,
     /// Frames of which the peer itself says that it did not solve them.
     pub n_failed: usize,
@@ -25,7 +26,7 @@ pub trait Peer {
     /// # Errors
     /// The peer broke down.
     fn run(&mut self, from: usize, n: usize) -> Result<Run, String> {
-        let begun = Instant::now();
+        let begun = ProcessTime::now();
         let n_failed = (from + 1..=from + n).filter(|&k| !self.frame(k)).count();
         Ok(Run { seconds: begun.elapsed().as_secs_f64(), n_failed })
     }
