@@ -24,6 +24,10 @@ pub enum Change {
     Memory(Rc<Memory>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
+    /// Appends a value to a series, or takes the last one away.
+    Sample(Arc<str>, Option<f64>),
+    /// Sets all series.
+    Series(super::series::SeriesList),
     /// Sets what the recorders have taken.
     Reels(Vec<Reel>),
 }

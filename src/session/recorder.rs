@@ -74,7 +74,12 @@ impl Recorder {
         }
         self.shots.push(match self.format {
             Format::Frames | Format::Movie => {
-                Shot::Scene(Box::new(Scene::new(world)), clock.time())
+                // A scene shares with the one before it what did not change.
+                let scene = match self.shots.last() {
+                    Some(Shot::Scene(last, _)) => last.next(world),
+                    _ => Scene::new(world),
+                };
+                Shot::Scene(Box::new(scene), clock.time())
             }
             Format::Table => {
                 let points = world.points();
@@ -85,9 +90,13 @@ impl Recorder {
         });
     }
 
-    /// How many frames it has taken.
-    pub const fn n_shots(&self) -> usize {
-        self.shots.len()
+    /// Roughly how many bytes its frames take.
+    pub fn n_bytes(&self) -> usize {
+        let of = |shot: &Shot| match shot {
+            Shot::Scene(..) => size_of::<Scene>(),
+            Shot::Row(_, row) => size_of_val(&**row),
+        };
+        self.shots.iter().map(|shot| size_of::<Shot>() + of(shot)).sum()
     }
 
     /// The scenes taken, each with its time.

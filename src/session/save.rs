@@ -180,6 +180,10 @@ impl Session {
             });
             restore(script, what::GHOST, None, places.flatten().collect());
         }
+        for (series, values) in &self.series {
+            let series = super::describe::quoted(series);
+            line(script, Command::Sample { series, values: numbers(values) });
+        }
         if let Some(every) = self.preferences.expose_every {
             line(script, Command::Expose(Expose::Every(literal(every as f64))));
         }

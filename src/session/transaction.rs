@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
+use super::Session;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use super::Session;
 use crate::solve::Memory;
 use crate::world::Edit;
 
@@ -36,6 +36,8 @@ impl Session {
             Change::Recorder(idx, None) => {
                 Change::Recorder(idx, Some(Box::new(self.recorders.remove(idx))))
             }
+            Change::Sample(series, value) => self.swap_sample(series, value),
+            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),
@@ -143,6 +145,8 @@ impl Session {
     /// Takes back what the command under way did.
     pub(super) fn roll_back(&mut self) {
         self.outbox.clear();
+        self.run = None;
+        self.laps.give_up();
         self.scopes.truncate(1);
         self.depth = 0;
         self.n_rounds = 1.0;

@@ -10,6 +10,7 @@ pub mod mobility;
 
 // What the methods work on.
 mod ends;
+mod footprint;
 mod history;
 mod island;
 mod memory;
@@ -39,6 +40,7 @@ mod settings;
 mod solver;
 mod status;
 
+pub use footprint::{Effect, is_inequality, is_wheel};
 pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;

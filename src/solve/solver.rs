@@ -106,8 +106,11 @@ impl Solver {
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
         let mut memory = self.pending.clone();
-        for (_, island) in self.topology.iter() {
-            memory.insert(island);
+        // What was brought back counts, not what was there before.
+        if !self.is_stale {
+            for (_, island) in self.topology.iter() {
+                memory.insert(island);
+            }
         }
         memory
     }
@@ -172,6 +175,10 @@ impl Solver {
     /// How far a constraint is from being satisfied, length units.
     pub fn violation(&self, world: &World, id: ConstraintId) -> f64 {
         world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
+    }
+
+    pub(super) fn islands(&self) -> impl Iterator<Item = &Island> {
+        self.topology.iter().map(|(_, island)| island)
     }
 
     /// The islands there are, and how many of them the next frame will visit.

@@ -190,6 +190,25 @@ record "motion.svg"
 record stop"#,
     },
     Entry {
+        keyword: "sample",
+        section: Section::Pictures,
+        usage: "sample SERIES = VALUE, ...",
+        summary: "append values to a named series, to be plotted",
+        help: "The name of the series stands in quotes. `plot` draws all series.",
+        example: r#"sample "relaxation" = distance(A, B) - 5
+relax 1
+sample "relaxation" = distance(A, B) - 5"#,
+    },
+    Entry {
+        keyword: "plot",
+        section: Section::Pictures,
+        usage: "plot FILE [log] [title TEXT] [x TEXT] [y TEXT]",
+        summary: "write all series as a line chart against the number of the sample",
+        help: "The first sample of a series has number 0. With `log` equal ratios are equally high,
+and values that are not above 0 are left out.",
+        example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error""#,
+    },
+    Entry {
         keyword: "for",
         section: Section::Building,
         usage: "for NAME in FROM..TO { ... }",
