@@ -14,7 +14,7 @@ use super::{
 };
 use crate::constraint::{Constraint, Relation, Vector};
 use crate::diag::Diagnostic;
-use crate::world::{ConstraintId, PointId, Rates, World};
+use crate::world::{ConstraintId, PointId, Rates, Touched, World};
 
 /// Rounds until rates and what is measured on them agree. Each gains the digits by which the
 /// measured value is the weaker cause.
@@ -245,7 +245,7 @@ impl Solver {
         if std::mem::take(&mut self.is_stale) {
             // What is remembered is what counts: forget the rest.
             self.topology = Topology::default();
-            touched.all = true;
+            touched = Touched::everything();
         }
         if touched.is_empty() {
             return Vec::new();
