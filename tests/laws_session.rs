@@ -158,8 +158,20 @@ fn saved_goes_on(before: &[String], after: &[String]) {
     }
 }
 
+/// As many cases as a test run has time for; `PROPTEST_CASES` asks for more.
+fn config() -> ProptestConfig {
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64);
+    let failure_persistence = None;
+    ProptestConfig {
+        cases,
+        failure_persistence,
+        max_shrink_iters: 2_000,
+        ..ProptestConfig::default()
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 600, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn undo_takes_back_and_redo_brings_back_to_the_bit(statements in statements(16)) {

@@ -83,8 +83,6 @@ pub struct Journal {
     pub has_motion: bool,
     /// Whether `current` holds what the solver remembered.
     pub has_memory: bool,
-    /// Whether the command means to change what the solver remembers.
-    pub sets_memory: bool,
     /// What `current` takes back already; anew once it holds all that running changes.
     pub covered: BTreeSet<Part>,
     /// The last of `done` that the solver has not taken in, so that none of them says what it
@@ -98,13 +96,9 @@ pub struct Journal {
 impl Journal {
     /// Ends the command under way; what was undone before can no longer be redone.
     pub fn commit(&mut self, label: &str) {
-        // Looking may have the solver take in edits of earlier commands: that is no change.
-        let n_looks = usize::from(self.has_memory && !self.sets_memory);
         let changes = self.take_current();
-        if changes.len() > n_looks {
+        if !changes.is_empty() {
             self.undone.clear();
-            let is_seen = changes.iter().any(|change| matches!(change, Change::Memory(_)));
-            self.n_unseen = if is_seen { 0 } else { self.n_unseen + 1 };
             self.keep(Entry { label: label.to_owned(), changes });
         }
     }
@@ -126,13 +120,14 @@ impl Journal {
     pub fn take_current(&mut self) -> Vec<Change> {
         self.has_motion = false;
         self.has_memory = false;
-        self.sets_memory = false;
         self.covered.clear();
         std::mem::take(&mut self.current)
     }
 
     /// Keeps a command as the last one done.
     pub fn keep(&mut self, entry: Entry) {
+        let is_seen = entry.changes.iter().any(|change| matches!(change, Change::Memory(_)));
+        self.n_unseen = if is_seen { 0 } else { self.n_unseen + 1 };
         let n_bytes = entry.changes.iter().map(Change::n_bytes).sum();
         self.n_bytes += n_bytes;
         self.done.push_back((entry, n_bytes));
@@ -147,6 +142,7 @@ impl Journal {
     /// The last command done.
     pub fn pop_done(&mut self) -> Option<Entry> {
         let (entry, n_bytes) = self.done.pop_back()?;
+        self.n_unseen = self.n_unseen.saturating_sub(1);
         self.n_bytes -= n_bytes;
         Some(entry)
     }

@@ -65,6 +65,8 @@ pub struct Session {
     host: Box<dyn Host>,
     world: World,
     solver: Solver,
+    /// Whether the solver has yet to take in what it was told to remember.
+    is_behind: bool,
     preferences: Preferences,
     definitions: BTreeMap<Arc<str>, Arc<Definition>>,
     recorders: Vec<Recorder>,
@@ -110,6 +112,7 @@ impl Session {
             host,
             world: World::new(),
             solver: Solver::new(),
+            is_behind: false,
             preferences: Preferences::default(),
             definitions: BTreeMap::new(),
             recorders: Vec::new(),

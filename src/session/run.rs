@@ -227,6 +227,8 @@ impl Session {
             }
             left -= chunk;
         }
+        // From here on the method that is set counts again; that is part of this command.
+        self.attend();
         if let Some(rho) = lowered {
             let given = format_number(self.preferences.solve.rho);
             self.note(format!(

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use super::Session;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use crate::solve::Memory;
-use crate::world::Edit;
+use crate::solve::{Memory, Settings, Solver};
+use crate::world::{Edit, World};
 
 impl Session {
     /// Makes a reversible change; gives the change that takes it back.
@@ -27,6 +27,7 @@ impl Session {
             Change::Memory(memory) => {
                 let old = Rc::new(self.solver.memory());
                 self.solver.set_memory(Memory::clone(&memory));
+                self.is_behind = true;
                 Change::Memory(old)
             }
             Change::Recorder(idx, Some(recorder)) => {
@@ -93,8 +94,8 @@ impl Session {
     /// Sets what the solver remembers, as part of the command under way.
     pub(super) fn set_memory(&mut self, memory: Memory) {
         self.note_memory();
-        self.journal.sets_memory = true;
         self.solver.set_memory(memory);
+        self.is_behind = true;
     }
 
     /// Keeps all that running changes, before the command under way lets time pass or the
@@ -131,15 +132,26 @@ impl Session {
     /// Lets the solver take in what was edited, as part of the command under way.
     pub(super) fn attend(&mut self) {
         self.note_memory();
-        self.take_in();
-    }
-
-    /// Lets the solver take in what was edited, so that what it remembers is of the world as
-    /// it is.
-    pub(super) fn take_in(&mut self) {
-        self.note_unseen();
+        self.is_behind = false;
         let Self { solver, world, preferences, .. } = self;
         solver.attend(world, &preferences.solve);
+    }
+
+    /// Asks the solver something. What it has to take in for that, it forgets again, so that
+    /// looking changes nothing of what comes after.
+    pub(super) fn look<T>(
+        &mut self,
+        ask: impl FnOnce(&mut Solver, &mut World, &Settings) -> T,
+    ) -> T {
+        let Self { solver, world, preferences, .. } = self;
+        let is_behind = self.is_behind || !world.is_untouched();
+        let memory = is_behind.then(|| solver.memory());
+        let answer = ask(solver, world, &preferences.solve);
+        if let Some(memory) = memory {
+            solver.set_memory(memory);
+            self.is_behind = true;
+        }
+        answer
     }
 
     /// Takes back what the command under way did.
@@ -167,7 +179,6 @@ impl Session {
     /// Takes back up to `n` commands; gives how many there were.
     pub(super) fn undo(&mut self, n: usize) -> usize {
         for done in 0..n {
-            self.take_in();
             let Some(entry) = self.journal.pop_done() else { return done };
             let inverse = self.invert(entry);
             self.note(format!("undid `{}`", inverse.label));
@@ -179,7 +190,6 @@ impl Session {
     /// Does up to `n` commands again; gives how many there were.
     pub(super) fn redo(&mut self, n: usize) -> usize {
         for done in 0..n {
-            self.take_in();
             let Some(entry) = self.journal.pop_undone() else { return done };
             let inverse = self.invert(entry);
             self.note(format!("did `{}` again", inverse.label));

@@ -11,7 +11,7 @@ use super::topology::{Home, Topology};
 use super::visit::{Task, begin, check, solve, turn_back, write_back};
 use crate::constraint::Vector;
 use crate::diag::Diagnostic;
-use crate::world::{ConstraintId, PointId, Rates, World};
+use crate::world::{ConstraintId, PointId, Rates, Touched, World};
 
 /// Rounds until rates and what is measured on them agree. Each gains the digits by which the
 /// measured value is the weaker cause.
@@ -90,8 +90,11 @@ impl Solver {
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
         let mut memory = self.pending.clone();
-        for (_, island) in self.topology.iter() {
-            memory.insert(island);
+        // What was brought back counts, not what was there before.
+        if !self.is_stale {
+            for (_, island) in self.topology.iter() {
+                memory.insert(island);
+            }
         }
         memory
     }
@@ -226,7 +229,7 @@ impl Solver {
         if std::mem::take(&mut self.is_stale) {
             // What is remembered is what counts: forget the rest.
             self.topology = Topology::default();
-            touched.all = true;
+            touched = Touched::everything();
         }
         if touched.is_empty() {
             return Vec::new();

@@ -125,7 +125,7 @@ impl Seat {
     }
 
     /// The script that makes the world as it is: the same text, the same world.
-    pub fn world(&mut self) -> String {
+    pub fn world(&self) -> String {
         self.session.to_script()
     }
 }
