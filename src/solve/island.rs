@@ -173,8 +173,9 @@ impl Island {
             remembered: OnceLock::new(),
             spectrum: None,
         };
-        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
-            island.degree[block.point as usize] = 3;
+        for block in &island.plan.blocks {
+            // A single point with freedom left is as easily found from where it is.
+            island.degree[block.point as usize] = if block.is_determined { 3 } else { 0 };
         }
         island.update_sides();
         island
