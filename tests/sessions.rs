@@ -11,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use desk::{Seat, check_golden};
+use linkwork::lang::is_incomplete;
 
 #[test]
 fn sessions_go_as_written() {
@@ -40,22 +41,16 @@ fn check(file: &Path) {
     check_golden(file, &got);
 }
 
-/// What is typed in a session, piece by piece: lines that follow each other without an answer
-/// are one piece.
+/// What is typed in a session: line by line, but for lines that hold a statement open.
 fn typed(golden: &str) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
-    let mut is_typed = false;
     for line in golden.lines() {
-        let Some(text) = line.strip_prefix('>') else {
-            is_typed = false;
-            continue;
-        };
+        let Some(text) = line.strip_prefix('>') else { continue };
         let text = text.strip_prefix(' ').unwrap_or(text);
-        match pieces.last_mut().filter(|_| is_typed) {
+        match pieces.last_mut().filter(|last| is_incomplete(last)) {
             Some(last) => write!(last, "\n{text}").expect("writing to a string"),
             None => pieces.push(text.to_owned()),
         }
-        is_typed = true;
     }
     pieces
 }

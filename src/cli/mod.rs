@@ -1,6 +1,8 @@
 //! The command line: arguments, exit statuses, files, signals.
 
+mod accuracy;
 mod args;
+mod bar;
 mod files;
 pub(crate) mod interrupt;
 pub(crate) mod obey;
@@ -16,6 +18,7 @@ pub fn run() -> ExitCode {
     interrupt::listen();
     let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
+        Some(args::Command::Accuracy(wish)) => accuracy::accuracy(&wish),
         None => run::session(&args.session),
     };
     talk::flush();

@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn a_positive_speed_turns_to_the_left() {
         let mut motor = Motor::new([0, 1], 2.0, 0.0, TAU);
-        (0..15).for_each(|_| drop(motor.advance(1.0 / 60.0)));
+        (0..15).for_each(|_| _ = motor.advance(1.0 / 60.0));
         assert!((motor.target() - Vector::new(0.0, 2.0)).norm() < 1e-15);
     }
 
@@ -186,7 +186,7 @@ mod tests {
         let mut motor = Motor::new([0, 1], 1.0, FRAC_PI_2, TAU);
         let start = motor.target();
         for _ in 0..1000 {
-            (0..360).for_each(|_| drop(motor.advance(1.0 / 360.0)));
+            (0..360).for_each(|_| _ = motor.advance(1.0 / 360.0));
             assert_eq!(motor.target(), start);
         }
         assert_eq!(motor.total(), FRAC_PI_2 + 1000.0 * TAU);

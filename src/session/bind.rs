@@ -252,6 +252,7 @@ impl Session {
     }
 
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
+        self.note_memory();
         self.solver.rates(&mut self.world, &self.preferences.solve)
     }
 
@@ -380,9 +381,9 @@ fn binary(
             };
             let sign = operator.sign();
             let problem = Diagnostic::error(format!("`{sign}` does not go between {sorts}"))
-            .at(expr.span, "")
-            .also(sides[0].span, format!("a {}", a.noun()))
-            .also(sides[1].span, format!("a {}", b.noun()));
+                .at(expr.span, "")
+                .also(sides[0].span, format!("a {}", a.noun()))
+                .also(sides[1].span, format!("a {}", b.noun()));
             return Err(match (operator, a, b) {
                 (Operator::Multiply, Vector, Vector) => {
                     problem.help("`dot(v, w)` and `cross(v, w)` multiply vectors")

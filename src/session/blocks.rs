@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::journal::Change;
-use super::perform::format_count;
 use super::limits::{DEEPEST_NESTING, MOST_STATEMENTS};
+use super::perform::format_count;
 use super::scope::{Bound, Meaning, Scope};
 use super::{Diagnostic, Flow, Session};
 use crate::diag::{Kind, Span};

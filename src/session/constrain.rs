@@ -2,8 +2,8 @@
 
 use super::{Diagnostic, Session};
 use crate::constraint::{
-    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence, Field, Glider,
-    Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
+    Field, Glider, Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
 use crate::diag::Span;
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};

@@ -10,7 +10,7 @@ use crate::constraint::{
 use crate::diag::{SourceId, Span, format_number};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
-    Name, Node as Syntax, Pair, Range, Relation,
+    Name, Node as Syntax, Pair, Range, Relation, Text,
 };
 use crate::world::{ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record};
 
@@ -36,6 +36,11 @@ pub(super) fn literal(value: f64) -> Expr {
 
 pub(super) fn vector(x: f64, y: f64) -> Expr {
     expr(Syntax::Vector(Box::new([literal(x), literal(y)])))
+}
+
+/// A string with this content.
+pub(super) fn quoted(text: &str) -> Text {
+    Text { value: Arc::from(text), span: NOWHERE }
 }
 
 /// The text of a command.

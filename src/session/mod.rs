@@ -4,6 +4,7 @@
 //! edits, lets the solver work, and hands what is to be printed or written to a [`Host`].
 //! It never touches a terminal, and never leaves half an edit behind.
 
+mod accuracy;
 mod analysis;
 mod bind;
 mod blocks;
@@ -12,19 +13,24 @@ mod constrain;
 mod delete;
 mod describe;
 mod diagnose;
+mod effects;
+mod fingerprint;
 mod host;
 mod journal;
+mod laps;
 mod limits;
 mod look;
 mod outside;
 mod perform;
 mod pictures;
 mod points;
+mod receipt;
 mod recorder;
 mod restore;
 mod run;
 mod save;
 mod scope;
+mod series;
 mod settings;
 mod transaction;
 
@@ -32,10 +38,12 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+pub use accuracy::Telling;
 pub use diagnose::Check;
+pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
-pub use run::Summary;
+pub use receipt::{Summary, Way};
 pub use settings::Preferences;
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
@@ -43,9 +51,11 @@ use crate::lang::ast::{Definition, Statement};
 use crate::solve::Solver;
 use crate::world::World;
 use journal::Journal;
+use laps::Laps;
 use outside::Override;
 use recorder::Recorder;
 use scope::Scope;
+use series::SeriesList;
 
 /// A world with everything that a user can say to it.
 pub struct Session {
@@ -73,6 +83,10 @@ pub struct Session {
     /// Files to be written when the command under way has succeeded.
     outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     last_run: Option<Summary>,
+    /// What the command under way has run so far.
+    run: Option<Summary>,
+    laps: Laps,
+    series: SeriesList,
 }
 
 /// How a statement ended.
@@ -107,6 +121,9 @@ impl Session {
             overrides: BTreeMap::new(),
             outbox: Vec::new(),
             last_run: None,
+            run: None,
+            laps: Laps::default(),
+            series: SeriesList::new(),
         }
     }
 
@@ -157,6 +174,8 @@ impl Session {
         });
         match result {
             Ok(flow) => {
+                self.end_laps();
+                self.give_receipt();
                 let label = self.label(statement.span);
                 self.journal.commit(&label);
                 Ok(flow)

@@ -90,6 +90,15 @@ impl Recorder {
         });
     }
 
+    /// Roughly how many bytes its frames take.
+    pub fn n_bytes(&self) -> usize {
+        let of = |shot: &Shot| match shot {
+            Shot::Scene(..) => size_of::<Scene>(),
+            Shot::Row(_, row) => size_of_val(&**row),
+        };
+        self.shots.iter().map(|shot| size_of::<Shot>() + of(shot)).sum()
+    }
+
     /// The scenes taken, each with its time.
     pub fn scenes(&self) -> impl Iterator<Item = (&Scene, f64)> {
         self.shots.iter().filter_map(|shot| match shot {

@@ -37,13 +37,15 @@ pub(super) mod what {
 impl Session {
     pub(super) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
         let file = self.output_file(path)?;
+        self.note_memory();
         let text = self.to_script();
         self.hand_over(file, text.into_bytes(), path.span);
         Ok(())
     }
 
     /// The script that makes this world, its settings and its state.
-    pub fn to_script(&self) -> String {
+    pub fn to_script(&mut self) -> String {
+        self.take_in();
         let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
@@ -177,6 +179,10 @@ impl Session {
                 Some([literal(k as f64), vector(at.x, at.y)])
             });
             restore(script, what::GHOST, None, places.flatten().collect());
+        }
+        for (series, values) in &self.series {
+            let series = super::describe::quoted(series);
+            line(script, Command::Sample { series, values: numbers(values) });
         }
         if let Some(every) = self.preferences.expose_every {
             line(script, Command::Expose(Expose::Every(literal(every as f64))));

@@ -293,7 +293,12 @@ impl Session {
         let prefix = &self.scope().prefix;
         let index = |name: &str| -> Option<i64> {
             let name = name.strip_prefix(prefix.as_str()).unwrap_or(name);
-            name.strip_prefix(stem)?.strip_prefix('[')?.strip_suffix(end)?.strip_suffix(']')?.parse().ok()
+            name.strip_prefix(stem)?
+                .strip_prefix('[')?
+                .strip_suffix(end)?
+                .strip_suffix(']')?
+                .parse()
+                .ok()
         };
         let indices = || self.world.names().iter().filter_map(|(name, _)| index(name));
         let name = |index: i64| format!("{stem}[{index}]{end}");

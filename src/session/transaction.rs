@@ -1,8 +1,10 @@
 //! A command is a transaction: what it changed can be taken back, and done again.
 
+use std::rc::Rc;
+
+use super::Session;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use super::Session;
 use crate::solve::Memory;
 use crate::world::Edit;
 
@@ -23,9 +25,9 @@ impl Session {
                 Change::Definition(name, old)
             }
             Change::Memory(memory) => {
-                let old = self.solver.memory();
-                self.solver.set_memory(*memory);
-                Change::Memory(Box::new(old))
+                let old = Rc::new(self.solver.memory());
+                self.solver.set_memory(Memory::clone(&memory));
+                Change::Memory(old)
             }
             Change::Recorder(idx, Some(recorder)) => {
                 self.recorders.insert(idx, *recorder);
@@ -34,6 +36,8 @@ impl Session {
             Change::Recorder(idx, None) => {
                 Change::Recorder(idx, Some(Box::new(self.recorders.remove(idx))))
             }
+            Change::Sample(series, value) => self.swap_sample(series, value),
+            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),
@@ -88,11 +92,9 @@ impl Session {
 
     /// Sets what the solver remembers, as part of the command under way.
     pub(super) fn set_memory(&mut self, memory: Memory) {
-        if self.journal.has_motion || !self.journal.covered.insert(Part::Memory) {
-            self.solver.set_memory(memory);
-        } else {
-            self.change(Change::Memory(Box::new(memory)));
-        }
+        self.note_memory();
+        self.journal.sets_memory = true;
+        self.solver.set_memory(memory);
     }
 
     /// Keeps all that running changes, before the command under way lets time pass or the
@@ -103,15 +105,48 @@ impl Session {
         }
         self.journal.covered.clear();
         let reels = self.recorders.iter().map(Recorder::mark).collect();
+        self.attend();
         let motion = Box::new(self.world.motion());
-        self.journal.current.push(Change::Memory(Box::new(self.solver.memory())));
         self.journal.current.push(Change::World(Edit::Motion(motion)));
         self.journal.current.push(Change::Reels(reels));
+    }
+
+    /// Keeps what the solver remembers, before the command under way has it take in an edit.
+    pub(super) fn note_memory(&mut self) {
+        if !std::mem::replace(&mut self.journal.has_memory, true) {
+            self.note_unseen();
+            let memory = Rc::new(self.solver.memory());
+            self.journal.current.push(Change::Memory(memory));
+        }
+    }
+
+    /// Commands that the solver has not seen yet are taken back to what it remembers now.
+    fn note_unseen(&mut self) {
+        if self.journal.has_unseen() {
+            let memory = Rc::new(self.solver.memory());
+            self.journal.see(|| Change::Memory(memory.clone()));
+        }
+    }
+
+    /// Lets the solver take in what was edited, as part of the command under way.
+    pub(super) fn attend(&mut self) {
+        self.note_memory();
+        self.take_in();
+    }
+
+    /// Lets the solver take in what was edited, so that what it remembers is of the world as
+    /// it is.
+    pub(super) fn take_in(&mut self) {
+        self.note_unseen();
+        let Self { solver, world, preferences, .. } = self;
+        solver.attend(world, &preferences.solve);
     }
 
     /// Takes back what the command under way did.
     pub(super) fn roll_back(&mut self) {
         self.outbox.clear();
+        self.run = None;
+        self.laps.give_up();
         self.scopes.truncate(1);
         self.depth = 0;
         self.n_rounds = 1.0;
@@ -132,6 +167,7 @@ impl Session {
     /// Takes back up to `n` commands; gives how many there were.
     pub(super) fn undo(&mut self, n: usize) -> usize {
         for done in 0..n {
+            self.take_in();
             let Some(entry) = self.journal.pop_done() else { return done };
             let inverse = self.invert(entry);
             self.note(format!("undid `{}`", inverse.label));
@@ -143,6 +179,7 @@ impl Session {
     /// Does up to `n` commands again; gives how many there were.
     pub(super) fn redo(&mut self, n: usize) -> usize {
         for done in 0..n {
+            self.take_in();
             let Some(entry) = self.journal.pop_undone() else { return done };
             let inverse = self.invert(entry);
             self.note(format!("did `{}` again", inverse.label));

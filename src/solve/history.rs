@@ -18,6 +18,11 @@ pub(super) struct History {
 }
 
 impl History {
+    /// The bytes it keeps.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&*self.poses)
+    }
+
     /// How many poses before the present one are known.
     pub fn n_past(&self) -> usize {
         self.n_past

@@ -10,6 +10,7 @@ pub mod mobility;
 
 // What the methods work on.
 mod ends;
+mod footprint;
 mod fingerprint;
 mod history;
 mod island;
@@ -42,6 +43,7 @@ mod solver;
 mod status;
 mod visit;
 
+pub use footprint::{Effect, is_inequality, is_wheel};
 pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;

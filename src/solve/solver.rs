@@ -157,6 +157,10 @@ impl Solver {
         world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
     }
 
+    pub(super) fn islands(&self) -> impl Iterator<Item = &Island> {
+        self.topology.iter().map(|(_, island)| island)
+    }
+
     /// The islands there are, and how many of them the next frame will visit.
     pub fn n_islands(&self) -> (usize, usize) {
         (self.topology.iter().count(), self.awake.len())
@@ -256,7 +260,12 @@ impl Solver {
                 self.wake(k);
             }
             let topology = &self.topology;
-            self.awake.retain(|&k| topology.get(k).is_some());
+            // An island that takes the place of one that was awake is to be woken again.
+            let is_awake = &mut self.is_awake;
+            self.awake.retain(|&k| {
+                is_awake[k as usize] = topology.get(k).is_some();
+                is_awake[k as usize]
+            });
             self.unsolved.retain(|&k| topology.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = topology.checked().collect();

@@ -124,4 +124,3 @@ impl Environment<Jet> for Moving<'_> {
         None
     }
 }
-

@@ -2,9 +2,7 @@
 
 use super::environments::{Here, Moving};
 use super::records::Dependent;
-use super::{
-    ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, Value, World,
-};
+use super::{ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, Value, World};
 use crate::constraint::{Field, Jet, Real, Relation};
 use crate::diag::Diagnostic;
 

@@ -122,7 +122,12 @@ impl Live {
     }
 
     /// A constraint was made, changed or deleted.
-    pub fn note_constraint(&mut self, id: ConstraintId, old: Option<&Record>, new: Option<&Record>) {
+    pub fn note_constraint(
+        &mut self,
+        id: ConstraintId,
+        old: Option<&Record>,
+        new: Option<&Record>,
+    ) {
         for (_, formula) in new.iter().flat_map(|record| &record.drivers) {
             self.link(formula, Dependent::Constraint(id));
         }

@@ -23,10 +23,10 @@ mod users;
 pub use arithmetic::{call, operate};
 pub use clock::Clock;
 pub use edit::Edit;
+pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
-pub use environments::Rates;
 pub use motion::Motion;
 pub use names::Names;
 pub use points::{PointRecord, Points};
@@ -55,6 +55,7 @@ pub struct World {
     ghosts: Vec<Ghost>,
     live: live::Live,
     touched: Touched,
+    revision: u64,
 }
 
 impl World {
@@ -119,6 +120,12 @@ impl World {
     /// The clock.
     pub const fn clock(&self) -> &Clock {
         &self.clock
+    }
+
+    /// Counts the edits that changed what there is: while it stays the same, a motion can be
+    /// gone back to.
+    pub const fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// The traces, in the order they were asked for.
