@@ -54,12 +54,15 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && attempt.is_safe(motion_since(island, island.history.origin()), limits)
+        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
+            || island.has_velocities())
     {
         return accept(island, attempt);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
-    if let Some(attempt) = follow::frame(island, limits, work) {
+    if !island.has_velocities()
+        && let Some(attempt) = follow::frame(island, limits, work)
+    {
         return accept(island, attempt);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());

@@ -319,6 +319,13 @@ impl Island {
         self.begin_velocities();
     }
 
+    /// Whether displacements in a frame stand for velocities here: its length matters then, and
+    /// a frame in smaller steps would be another motion.
+    pub fn has_velocities(&self) -> bool {
+        let mut stateful = self.stateful.iter().map(|&c| &self.constraints[c as usize]);
+        stateful.any(|constraint| matches!(constraint, Constraint::CogVelocity(_)))
+    }
+
     /// The next displacements, which stand for velocities, begin at this pose.
     pub fn begin_velocities(&mut self) {
         for &c in &self.stateful {
