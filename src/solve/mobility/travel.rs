@@ -70,7 +70,7 @@ impl<'a> Mechanism<'a> {
         let sources = scene.neighbours(motor);
         let constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
-        let mut held: Vec<_> = constraints.iter().flat_map(|c| c.points()).copied().collect();
+        let mut held: Vec<_> = constraints.iter().flat_map(Relation::points).copied().collect();
         held.sort_unstable();
         held.dedup();
         // What moves says how large it is: the ends of a rail may be far away.
@@ -164,7 +164,7 @@ impl<'a> Mechanism<'a> {
             rows.rows.iter().for_each(|row| row.add_to(-row.f, &mut y));
             Projector::of(&rows).solve_damped(DAMPING, &mut y);
             way += norm(&y);
-            if !(way <= reach) {
+            if way.is_nan() || way > reach {
                 return None;
             }
             self.displace(stand, 1.0, &y);
@@ -213,7 +213,8 @@ impl<'a> Mechanism<'a> {
             }
         };
         let length = norm(&tangent);
-        if !(length > 1e-3) && direction.is_some() || length == 0.0 || n_freedoms == 0 {
+        let is_short = length.is_nan() || length <= 1e-3;
+        if is_short && direction.is_some() || length == 0.0 || n_freedoms == 0 {
             return None;
         }
         tangent.iter_mut().for_each(|t| *t /= length);
