@@ -59,7 +59,10 @@ fn lossy(bytes: &[u8]) -> std::borrow::Cow<'_, str> {
 
 /// The pictures a script says it draws.
 fn pictures(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter_map(|line| line.strip_prefix("svg \"")?.strip_suffix('"'))
+    text.lines().filter_map(|line| {
+        let path = line.strip_prefix("svg \"").or_else(|| line.strip_prefix("plot \""))?;
+        path.split('"').next()
+    })
 }
 
 /// What is wrong with a script, if anything.

@@ -299,7 +299,7 @@ fn pictures_say_where_they_come_from() {
     assert!(early[2].starts_with("scene: ") && early[2].len() == 7 + 16);
     assert_eq!(early[2], late[2], "the hash is of the scene, not of its state");
     assert_ne!(early[2], picture("change crank radius 1.1; step 3;")[2]);
-    assert_eq!(picture("step 3 within 1e-6;")[0], "tolerance: 0.000001");
+    assert_eq!(picture("step 3 within 1e-6;")[0], "tolerance: 1e-6");
 }
 
 #[test]

@@ -252,7 +252,7 @@ impl Session {
     }
 
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
-        self.solver.rates(&mut self.world, &self.preferences.solve)
+        self.look(|solver, world, settings| solver.rates(world, settings))
     }
 
     fn bind_call(

@@ -11,11 +11,11 @@ use crate::constraint::Point;
 
 /// A correction of the expected pose larger than this part of the motion means that the
 /// motion was not understood; measured on mechanisms at 1 to 60 degrees a frame.
-const SURPRISE: f64 = 0.3;
+pub(super) const SURPRISE: f64 = 0.3;
 /// The same for points with freedom left, against the size.
 const FREE_SURPRISE: f64 = 0.02;
 /// A motion that is smaller than this part of the size is not worth a second look.
-const NO_MOTION: f64 = 1e-6;
+pub(super) const NO_MOTION: f64 = 1e-6;
 
 /// Squares of singular values below this count as freedom: in the middle of the range in
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
@@ -45,40 +45,67 @@ impl Attempt {
 /// Solves a frame: the values of the constraints and the frozen points are those at its end.
 pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
     if island.status != Status::Converged || island.inputs.is_disturbed {
-        return struggle::settle(island, limits, work);
+        return settle(island, limits, work);
     }
     let n_free = island.n_free;
     island.history.begin(&island.x[..n_free]);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
-        distrust(island, work);
+        restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && attempt.is_safe(motion_since(island, island.history.origin()), limits)
+        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
+            || island.has_velocities())
+        && island.watch.turned_over(&island.x).is_none()
     {
         return accept(island, attempt);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
-    if let Some(attempt) = follow::frame(island, limits, work) {
+    let sides = island.sides();
+    if !island.has_velocities()
+        && let Some(attempt) = follow::frame(island, limits, work)
+    {
         return accept(island, attempt);
     }
+    island.turned_over = None;
+    island.set_sides(sides);
     island.x[..n_free].copy_from_slice(island.history.origin());
-    struggle::settle(island, limits, work)
+    settle(island, limits, work)
 }
 
-/// Takes back the expected places of parts with freedom left that are worse than those they
-/// come from: nothing but their own past tells such points where to go.
-fn distrust(island: &mut Island, work: &mut Counters) {
+/// Solves a frame that does not follow from the one before, and notes what changed sides.
+fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    // What a user put elsewhere, or edited, may lie on any side.
+    let is_watched = !(island.is_new || island.is_edited || island.inputs.is_disturbed);
+    let sides = is_watched.then(|| island.sides());
+    let outcome = struggle::settle(island, limits, work);
+    if let Some(sides) = sides
+        && outcome.is_converged()
+    {
+        island.turned_over = island.changed_since(&sides);
+    }
+    outcome
+}
+
+/// Keeps of the expected places of parts with freedom left only what the constraints ask for:
+/// where they leave a choice, points stay where they are, whatever their past. Takes back what
+/// is no better than the places they come from.
+fn restrain(island: &mut Island, limits: &Limits, work: &mut Counters) {
     let mut rooms = std::mem::take(&mut island.part_rooms);
     for room in &mut rooms {
         room.equations.gather(&island.x, &mut room.expected);
-        room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
-        for &p in room.equations.points() {
-            island.x[p as usize] = island.history.origin()[p as usize];
-        }
-        room.trial.evaluate(&room.equations, &island.constraints, &island.x, work);
-        if room.rows.energy < room.trial.energy {
-            room.equations.scatter(&room.expected, &mut island.x);
+        let points = room.equations.points().iter();
+        let origin: Vec<Point> = points.map(|&p| island.history.origin()[p as usize]).collect();
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        room.equations.scatter(&origin, pose.x);
+        room.evaluate(&pose, work);
+        let energy = room.rows.energy;
+        room.equations.scatter(&room.expected, pose.x);
+        room.evaluate(&pose, work);
+        if room.rows.energy >= energy
+            || !newton::restrain(room, &mut pose, &origin, energy, limits, work)
+        {
+            room.equations.scatter(&origin, pose.x);
         }
     }
     island.part_rooms = rooms;
@@ -114,7 +141,9 @@ pub(super) fn attempt(
         let found = block::find(block, which, constraints, x, is_predicted, limits, work)?;
         sum.worst = sum.worst.max(found.worst);
         sum.n_iterations = sum.n_iterations.max(found.n_steps);
-        sum.correction = sum.correction.max(found.correction);
+        if block.is_determined || found.correction > FREE_SURPRISE * limits.size {
+            sum.correction = sum.correction.max(found.correction);
+        }
         sum.has_flipped |= found.side * block.side < 0.0;
         block.next_side = found.side;
     }

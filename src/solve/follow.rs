@@ -1,7 +1,7 @@
 //! A frame in smaller steps: what drives the island is interpolated between the last frame
 //! and the present one, and each step is expected from those before it.
 
-use super::auto::{Attempt, attempt, motion_since};
+use super::auto::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use super::ends::Ends;
 use super::island::Island;
 use super::method::Limits;
@@ -42,7 +42,9 @@ impl Track {
             (0..n_nodes).map(|degree| lagrange(&self.nodes, degree, t)).collect();
         let (_, here) = &self.nodes[self.nodes.len() - 1];
         for (k, to) in free.iter_mut().enumerate() {
-            let weights = &weights[(degree[k] as usize).min(n_nodes - 1)];
+            // What has freedom left has no motion of its own to go on with.
+            let degree = if degree[k] > 1 { degree[k] as usize } else { 0 };
+            let weights = &weights[degree.min(n_nodes - 1)];
             let mut d = Vector::ZERO;
             for (weight, (_, pose)) in weights.iter().zip(self.nodes.iter().rev()) {
                 d += (pose[k] - here[k]) * *weight;
@@ -102,6 +104,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         };
         n_iterations += step.n_iterations;
         t = to;
+        if step.correction > SURPRISE * motion && motion > NO_MOTION * limits.size {
+            island.note_turning_over();
+        }
         island.keep_sides();
         if t < 1.0 {
             island.accept_pose();

@@ -1,6 +1,5 @@
 //! The ladder: every method with the settings that are tried.
 
-use crate::diag::format_number;
 use crate::solve::{Method, Settings};
 
 /// A method with one setting.
@@ -71,7 +70,7 @@ impl Rung {
     pub fn statements(&self) -> [String; 2] {
         let setting = match self.step {
             Step::Iterations(n) => format!("set iterations {n}"),
-            Step::Tolerance(tolerance) => format!("set tolerance {}", format_number(tolerance)),
+            Step::Tolerance(tolerance) => format!("set tolerance {tolerance:e}"),
         };
         [format!("set method {}", self.method.word()), setting]
     }
@@ -95,6 +94,6 @@ mod tests {
         assert_eq!(text(&ladder[0]), "auto 1e-2");
         assert_eq!(text(&ladder[10]), "auto 1e-12");
         assert_eq!(text(&ladder[11]), "relaxation 1");
-        assert_eq!(ladder[3].statements(), ["set method auto", "set tolerance 0.00001"]);
+        assert_eq!(ladder[3].statements(), ["set method auto", "set tolerance 1e-5"]);
     }
 }

@@ -153,9 +153,15 @@ impl World {
         ParameterId::new(self.parameters.n_handles())
     }
 
+    /// Whether nothing changed since it was last asked what did.
+    pub fn is_untouched(&self) -> bool {
+        self.touched.is_empty()
+    }
+
     /// What changed since this was last asked for.
     pub fn take_touched(&mut self) -> Touched {
-        std::mem::take(&mut self.touched)
+        let touched = std::mem::take(&mut self.touched);
+        if touched.all { Touched::everything() } else { touched }
     }
 
     /// Puts a point where the solver found it. A position that is not finite is refused and
