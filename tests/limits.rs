@@ -33,6 +33,7 @@ fn reaching(a: f64, d: f64, e: f64) -> f64 {
     ((a * a + d * d - e * e) / (2.0 * a * d)).acos().to_degrees()
 }
 
+#[track_caller]
 /// Both ends are dead points at these angles, degrees.
 fn check_ends(talking: &Talking, lower: f64, upper: f64) {
     let Reach::Between(End::DeadPoint(from), End::DeadPoint(to)) =
@@ -44,6 +45,7 @@ fn check_ends(talking: &Talking, lower: f64, upper: f64) {
     assert!(errors.iter().all(|e| e.abs() < 1e-9), "{errors:?}: {lower} {upper}");
 }
 
+#[track_caller]
 fn check_full(talking: &Talking, change_points: &[f64]) {
     let found = range(&talking.session, "crank");
     assert_eq!(found.reach, Reach::Full(1), "{found:?}");
@@ -77,8 +79,8 @@ fn non_grashof_linkages_swing_symmetrically() {
     // Stretched at both ends.
     let upper = reaching(3.0, 4.0, 5.0);
     check_ends(&four_bar(3.0, 2.5, 2.5, 4.0, 40.0), -upper, upper);
-    let upper = reaching(4.0, 3.0, 2.2 + 3.5);
-    check_ends(&four_bar(4.0, 2.2, 3.5, 3.0, 50.0), -upper, upper);
+    let upper = reaching(4.0, 3.0, 2.8 + 3.5);
+    check_ends(&four_bar(4.0, 2.8, 3.5, 3.0, 50.0), -upper, upper);
     // Folded at both ends.
     let lower = reaching(2.0, 2.5, 4.4 - 1.5);
     check_ends(&four_bar(2.0, 4.4, 1.5, 2.5, 180.0), lower, 360.0 - lower);
@@ -87,7 +89,11 @@ fn non_grashof_linkages_swing_symmetrically() {
 #[test]
 fn linkages_that_fold_flat_turn_fully_through_their_change_points() {
     check_full(&four_bar(1.0, 4.0, 1.0, 4.0, 50.0), &[0.0, 180.0]);
-    check_full(&four_bar(2.0, 3.0, 3.0, 4.0, 50.0), &[180.0]);
+    // Through a single one it comes out folded the other way, and back the next time.
+    let found = range(&four_bar(2.0, 3.0, 3.0, 4.0, 50.0).session, "crank");
+    assert_eq!(found.reach, Reach::Full(2), "{found:?}");
+    assert_eq!(found.change_points.len(), 2);
+    assert!((found.change_points[0] - std::f64::consts::PI).abs() < 1e-8, "{found:?}");
 }
 
 #[test]
@@ -212,7 +218,7 @@ fn limits_says_what_it_cannot_tell() {
     );
     assert_eq!(loose.ask("limits crank"), ["crank turns fully"]);
     let mut broken = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
-    broken.run("change length2 = 0.1\nsolve");
+    broken.run("change length2 = 20\nsolve");
     let told = broken.ask("limits crank");
     assert_eq!(told, ["it cannot be told how far crank turns: the constraints do not hold now"]);
     let mut off = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
@@ -226,12 +232,14 @@ fn limits_says_what_it_cannot_tell() {
 #[test]
 fn a_jansen_leg_turns_fully() {
     let script = include_str!("../scripts/hard/jansen.link");
-    let mut talking = Talking::after(&format!("{script}\nsolve"));
-    let told = talking.ask("limits motor1");
-    assert_eq!(told, ["motor1 turns fully"]);
+    let mut talking = Talking::after(&format!(
+        "{script}\npoint O = (0, 0) frozen\nuse jansen(O, 1) as leg\nsolve"
+    ));
+    let told = talking.ask("limits leg.crank");
+    assert_eq!(told, ["leg.crank turns fully"]);
 }
 
-/// A rocker that meets its dead point at 86.41 degrees, a degree a frame.
+/// A rocker that meets its dead point at 90 degrees, a degree a frame.
 fn run_into(policy: &str) -> Talking {
     let mut talking = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
     talking.run(&format!("set dt 1/360\nset dead-points {policy}"));
@@ -248,22 +256,22 @@ fn a_held_motor_says_where_its_dead_point_is_once_and_picks_up_again() {
     let at = reaching(3.0, 4.0, 5.0);
     let at = format!("{}", (at * 1e9).round() / 1e9);
     let expected = format!(
-        "crank meets a dead point at {at} deg in frame 47; the best fit is held until it can go on"
+        "crank meets a dead point at {at} deg in frame 51; the best fit is held until it can go on"
     );
     assert_eq!(met, [&expected], "{told:?}");
     // The dead points lie at +-86.4: it comes in again from the other side.
-    talking.run("step 153\nstep 10 within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
+    talking.run("step 160\nstep 10 within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
 }
 
 #[test]
 fn a_run_may_end_at_the_last_good_frame() {
     let mut talking = run_into("stop");
     talking.run("trace C\nstep 60");
-    assert_eq!(talking.session.world().clock().frame, 46);
-    assert_eq!(talking.session.world().traces()[0].samples.len(), 46);
+    assert_eq!(talking.session.world().clock().frame, 50);
+    assert_eq!(talking.session.world().traces()[0].samples.len(), 50);
     let told = talking.talk.told();
-    assert!(told[0].ends_with("deg: stopped after 46 of 60 frames"), "{told:?}");
-    talking.run("assert distance(C, D) = 2.5 within 1e-9\nassert angle(A, B) = 86deg within 1e-9");
+    assert!(told[0].ends_with("deg: stopped after 50 of 60 frames"), "{told:?}");
+    talking.run("assert distance(C, D) = 2.5 within 1e-9\nassert angle(A, B) = 90deg within 1e-9");
     talking.run("step 3\nundo 2\nassert angle(A, B) = 40deg within 1e-9");
 }
 
@@ -272,8 +280,8 @@ fn a_motor_may_turn_back() {
     let mut talking = run_into("reverse");
     talking.run("step 60");
     let told = talking.talk.told();
-    assert!(told.len() == 1 && told[0].ends_with("in frame 47; it turns back"), "{told:?}");
-    talking.run("assert angle(A, B) = 72deg within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
+    assert!(told.len() == 1 && told[0].ends_with("in frame 51; it turns back"), "{told:?}");
+    talking.run("assert angle(A, B) = 80deg within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
     let kept = talking.session.to_script();
     assert!(kept.contains("set dead-points reverse"), "{kept}");
     let mut again = Talking::after(&kept);
@@ -315,7 +323,8 @@ fn a_jump_to_the_other_branch_is_not_silent() {
          drag B to (-2, -0.1) over 1",
     );
     let told = talking.talk.told();
-    let is_over = talking.session.world().points().column()[2].y < 0.0;
+    // The line AB has turned round, C has not.
+    let is_over = talking.session.world().points().column()[2].y > 0.0;
     assert_eq!(told.iter().any(|t| t.contains("may have changed branch")), is_over, "{told:?}");
     talking.run("drag B to (2, 0) over 1\ndrag B to (-2, -0.1) over 100");
 }

@@ -252,7 +252,7 @@ impl Session {
     }
 
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
-        self.look(|solver, world, settings| solver.rates(world, settings))
+        self.look(crate::solve::Solver::rates)
     }
 
     fn bind_call(

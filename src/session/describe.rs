@@ -44,7 +44,7 @@ pub(super) fn quoted(text: &str) -> Text {
 }
 
 /// The text of a command.
-pub(super) fn text_of(command: Command) -> String {
+pub(super) fn text_of(command: &Command) -> String {
     command.to_string()
 }
 
@@ -186,14 +186,14 @@ impl Session {
     }
 
     pub(super) fn constraint_text(&self, record: &Record) -> String {
-        text_of(self.constraint_statement(record))
+        text_of(&self.constraint_statement(record))
     }
 
     pub(super) fn parameter_text(&self, id: ParameterId) -> String {
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         let value = self.unbind(&parameter.formula);
         let binding = crate::lang::ast::Binding { name: named(&parameter.name), value };
-        text_of(Command::Let(vec![binding]))
+        text_of(&Command::Let(vec![binding]))
     }
 
     /// What else there is to know of a constraint.

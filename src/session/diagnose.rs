@@ -281,7 +281,7 @@ impl Session {
         let bounds =
             Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
         let parts = vec![ChangePart::Relation(self.relation(&record, bounds, is_angle))];
-        let command = text_of(Command::Change { name: super::describe::named(&name), parts });
+        let command = text_of(&Command::Change { name: super::describe::named(&name), parts });
         // A radian counts as the length of what hangs together.
         let effort = if is_angle { change.abs() * subject.size() } else { change.abs() };
         Some(Mend { text, command, record, effort })

@@ -6,7 +6,7 @@ use crate::constraint::{Kind, geometry::wrap};
 use crate::diag::format_number;
 use crate::lang::ast::Name;
 use crate::solve::mobility::{End, Range, Reach, range};
-use crate::world::{ConstraintId, Entity};
+use crate::world::{ConstraintId, Entity, Formula, Mention};
 
 /// An angle in degrees, to 1e-9.
 pub(super) fn degrees(radians: f64) -> String {
@@ -100,7 +100,9 @@ impl Session {
             _ => change_points,
         };
         angles.sort_by(f64::total_cmp);
-        let mut angles: Vec<String> = angles.into_iter().map(degrees).collect();
+        // They are known to some 1e-8.
+        let rounded = |angle: f64| ((angle.to_degrees() * 1e6).round() / 1e6).to_radians();
+        let mut angles: Vec<String> = angles.into_iter().map(rounded).map(degrees).collect();
         angles.dedup();
         match angles.len() {
             0 => text,
@@ -109,12 +111,26 @@ impl Session {
         }
     }
 
-    /// A constraint whose value is an expression over points, if there is one.
+    /// A constraint whose value is an expression over points that move, if there is one.
     fn measured(&self) -> Option<&str> {
         let measured = self.world.constraints().find(|(_, record)| {
-            let formulas = record.drivers.iter().map(|(_, formula)| formula);
-            record.is_on && formulas.map(|f| self.world.depends(f)).any(|d| d.on_points)
+            let mut formulas = record.drivers.iter().map(|(_, formula)| formula);
+            record.is_on && formulas.any(|formula| self.is_measured(formula))
         });
         measured.map(|(_, record)| &*record.name)
+    }
+
+    /// Whether a point that can move is mentioned, at any depth.
+    fn is_measured(&self, formula: &Formula) -> bool {
+        let mut is_measured = false;
+        formula.mentions(&mut |mention| {
+            is_measured |= match mention {
+                Mention::Point(id) => !self.world.points().is_frozen(id),
+                Mention::Parameter(id) => {
+                    self.world.parameter(id).is_some_and(|p| self.is_measured(&p.formula))
+                }
+            };
+        });
+        is_measured
     }
 }

@@ -198,8 +198,9 @@ pub(super) fn ordinals(world: &World) -> Vec<PointId> {
     world.points().ids().collect()
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
 fn line(script: &mut String, command: Command) {
-    script.push_str(&text_of(command));
+    script.push_str(&text_of(&command));
     script.push('\n');
 }
 

@@ -180,8 +180,9 @@ impl Island {
             remembered: OnceLock::new(),
             spectrum: None,
         };
-        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
-            island.degree[block.point as usize] = 3;
+        for block in &island.plan.blocks {
+            // A single point with freedom left is as easily found from where it is.
+            island.degree[block.point as usize] = if block.is_determined { 3 } else { 0 };
         }
         island.update_sides();
         island
@@ -324,6 +325,13 @@ impl Island {
             self.constraints[c as usize].accept(&self.x);
         }
         self.begin_velocities();
+    }
+
+    /// Whether displacements in a frame stand for velocities here: its length matters then, and
+    /// a frame in smaller steps would be another motion.
+    pub fn has_velocities(&self) -> bool {
+        let mut stateful = self.stateful.iter().map(|&c| &self.constraints[c as usize]);
+        stateful.any(|constraint| matches!(constraint, Constraint::CogVelocity(_)))
     }
 
     /// The next displacements, which stand for velocities, begin at this pose.

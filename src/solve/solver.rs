@@ -101,8 +101,7 @@ impl Solver {
 
     /// Brings back what was remembered, for a world that is as it was then.
     pub fn set_memory(&mut self, memory: Memory) {
-        self.pending = memory;
-        self.is_stale = true;
+        *self = Self { pending: memory, settings: self.settings, is_stale: true, ..Self::new() };
     }
 
     /// Whether what was remembered waits for [`Solver::attend`].
@@ -187,6 +186,11 @@ impl Solver {
                 }
             }
         }
+        if task == Task::Settle
+            && let Some(tolerance) = budget.tolerance
+        {
+            self.doubt(|island| island.residual > tolerance);
+        }
         let visit = std::mem::take(&mut self.awake);
         for &k in &visit {
             self.is_awake[k as usize] = false;
@@ -201,12 +205,17 @@ impl Solver {
             }
             self.visit(k, world, settings, budget, task, &mut report);
         }
+        let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
         for &violation in self.unsatisfiable.values() {
-            report.include(Status::Unsatisfiable, 0, violation);
+            let is_met = violation <= tolerance;
+            let status = if is_met { Status::Converged } else { Status::Unsatisfiable };
+            report.include(status, 0, violation);
         }
         for &k in &self.unsolved {
             if let Some(island) = self.topology.get(k) {
-                report.include(island.status, 0, island.residual);
+                let is_met = island.residual <= tolerance;
+                let status = if is_met { Status::Converged } else { island.status };
+                report.include(status, 0, island.residual);
             }
         }
         report
@@ -223,7 +232,7 @@ impl Solver {
         if let Some(before) = self.settings.replace(*settings)
             && (before.method, before.tolerance) != (settings.method, settings.tolerance)
         {
-            self.doubt_all();
+            self.doubt(|_| true);
         }
         let mut touched = world.take_touched();
         if std::mem::take(&mut self.is_stale) {
@@ -303,13 +312,15 @@ impl Solver {
     }
 
     /// What counted as solved may not any more.
-    fn doubt_all(&mut self) {
+    fn doubt(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
         let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
         for k in all {
-            if let Some(island) = self.topology.get_mut(k) {
+            if let Some(island) = self.topology.get_mut(k)
+                && is_doubtful(island)
+            {
                 island.status = Status::Stalled;
+                self.wake(k);
             }
-            self.wake(k);
         }
     }
 

@@ -152,20 +152,17 @@ impl Study {
         };
         let n_rounds = self.rows.iter().map(|row| row.n_rounds);
         let (least, most) = (n_rounds.clone().min(), n_rounds.max());
-        let rounds = match (least, most) {
-            (Some(a), Some(b)) if a == b => format!("{a} rounds"),
-            (Some(a), Some(b)) => format!("{a} to {b} rounds"),
-            _ => "no rounds".to_owned(),
-        };
         let mut spreads: Vec<f64> = self.rows.iter().map(|row| row.spread).collect();
         spreads.sort_by(f64::total_cmp);
         let spread = spreads.get(spreads.len() / 2).copied().unwrap_or(0.0);
-        format!(
-            "{what}, {} settings, {rounds}, times good to about {} %, {} s in all",
-            self.rows.len(),
-            rounded(100.0 * spread),
-            rounded(self.seconds)
-        )
+        let good = format!("times good to about {} %", rounded(100.0 * spread));
+        let times = match (least, most) {
+            (Some(1), Some(1)) => "each timed once".to_owned(),
+            (Some(a), Some(b)) if a == b => format!("{a} rounds, {good}"),
+            (Some(a), Some(b)) => format!("{a} to {b} rounds, {good}"),
+            _ => "none timed".to_owned(),
+        };
+        format!("{what}, {} settings, {times}, {} s in all", self.rows.len(), rounded(self.seconds))
     }
 }
 

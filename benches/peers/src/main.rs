@@ -24,7 +24,7 @@ use work::Work;
 pub const OURS: &str = "linkwork";
 /// A larger scene of a kind is not begun by a peer that took longer than this for a frame of
 /// the one before.
-const TOO_LONG: f64 = 0.5e6;
+const TOO_LONG: f64 = 0.1e6;
 
 /// What came of every peer on every work.
 pub type Results = BTreeMap<(String, String), Result<Outcome, String>>;

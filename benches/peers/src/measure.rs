@@ -7,15 +7,15 @@ use crate::peer::Peer;
 use crate::work::{Place, Relation, Work};
 
 /// Rounds of timing: at least and at most.
-const ROUNDS: (usize, usize) = (5, 41);
+const ROUNDS: (usize, usize) = (5, 31);
 /// Seconds spent timing one work, once the least rounds are done.
-const TIMING: f64 = 4.0;
+const TIMING: f64 = 2.0;
 /// What is shorter than this is not timed well.
 const SHORTEST: f64 = 5e-4;
 /// A peer that can stop between frames gets no more seconds than this in a round.
-const ROUND: f64 = 0.3;
+const ROUND: f64 = 0.15;
 /// Nor in the pass that looks at every frame.
-const LOOKING: f64 = 15.0;
+const LOOKING: f64 = 4.0;
 
 /// What came of one peer on one work.
 #[derive(Debug, Clone, Default)]

@@ -24,8 +24,10 @@ impl End {
     /// The angle against the x axis, radians, whole turns included.
     pub const fn angle(self) -> f64 {
         match self {
-            Self::DeadPoint(angle) | Self::Stop(angle, _) => angle,
-            Self::Lost(angle) | Self::Endless(angle) => angle,
+            Self::DeadPoint(angle)
+            | Self::Stop(angle, _)
+            | Self::Lost(angle)
+            | Self::Endless(angle) => angle,
         }
     }
 }
@@ -66,9 +68,11 @@ const SHARPEST_BEND: f64 = 0.1;
 const LONGEST_CORRECTION: f64 = 0.05;
 /// Steps shorter than this part of the size get nowhere: something stops the motion.
 const SHORTEST_STEP: f64 = 1e-13;
-/// Branches nearer than this part of the size count as crossing: the squares of singular values
+/// Branches nearer than this, in radians of the motor, count as crossing: the squares of singular values
 /// below 1e-5 are rounding. A four-bar off by 1e-8 from one that folds flat keeps them apart.
 const CROSSING: f64 = 1e-4;
+/// Crossings are looked for only where rows are as nearly dependent as that.
+const NEARLY_SINGULAR: f64 = 1e-2;
 /// The step, as a part of the size, that leads across a change point.
 const LEAP: f64 = 1e-3;
 /// Turns after which it is given up to wait for the first pose to come again.
@@ -169,8 +173,8 @@ struct Tour<'a> {
     way: f64,
     /// The step to be tried next.
     h: f64,
-    /// Distances to the pose before along the motion, with turn and regularity there.
-    trail: Vec<(f64, f64, f64)>,
+    /// Turn and regularity at the poses before this one.
+    trail: Vec<(f64, f64)>,
     n_turns: u32,
     change_points: Vec<f64>,
 }
@@ -221,7 +225,7 @@ impl<'a> Tour<'a> {
             if let Some(home) = self.passes_home(h, &next) {
                 return home;
             }
-            self.trail.push((h, self.node.stand.turn, self.node.regularity));
+            self.trail.push((self.node.stand.turn, self.node.regularity));
             if is_leap {
                 self.trail.clear();
                 self.h = LEAP * size;
@@ -254,16 +258,18 @@ impl<'a> Tour<'a> {
 
     /// Notes a change point that lies right ahead; whether there is one.
     fn note_change_point(&mut self) -> bool {
-        let &[.., (h, turn, before)] = &self.trail[..] else { return false };
-        let here = self.node.regularity;
-        if here >= before || self.node.n_freedoms > 1 {
+        let &[.., (turn0, g0), (turn1, g1)] = &self.trail[..] else { return false };
+        let (turn2, g2) = (self.node.stand.turn, self.node.regularity);
+        if g2 >= g1 || g1 >= g0 || g2 > NEARLY_SINGULAR || self.node.n_freedoms > 1 {
             return false;
         }
-        let ahead = here * h / (before - here);
-        if ahead > CROSSING * self.mechanism.size {
+        if (turn2 - turn1).abs() * g2 / (g1 - g2) > CROSSING {
             return false;
         }
-        self.change_points.push(self.node.stand.turn + (self.node.stand.turn - turn) * ahead / h);
+        // The turn as a function of what goes to 0, at 0.
+        let term = |t: f64, g: f64, a: f64, b: f64| t * a * b / ((g - a) * (g - b));
+        let at = term(turn0, g0, g1, g2) + term(turn1, g1, g0, g2) + term(turn2, g2, g0, g1);
+        self.change_points.push(at);
         true
     }
 
@@ -271,10 +277,9 @@ impl<'a> Tour<'a> {
     fn distance_to_crossing(&self, next: &Node, h: f64) -> f64 {
         let (here, there) = (self.node.regularity, next.regularity);
         if there >= here {
-            f64::INFINITY
-        } else {
-            (0.5 * there * h / (here - there)).max(0.4 * CROSSING * self.mechanism.size)
+            return f64::INFINITY;
         }
+        (0.5 * there * h / (here - there)).max(0.4 * CROSSING * self.mechanism.size)
     }
 
     /// The turn at which the motion folds back within a step of `h`.

@@ -11,7 +11,7 @@ const MOST_STEPS: usize = 12;
 /// singular, and above what rounding makes of 0.
 const DAMPING: f64 = 1e-12;
 /// Distances up to this part of the size are none, if Newton steps gain nothing any more.
-const NOTHING: f64 = 1e-12;
+const NOTHING: f64 = 1e-13;
 /// Newton steps that leave less than this part of the size are enough.
 const EXACT: f64 = 1e-14;
 
@@ -70,16 +70,20 @@ impl<'a> Mechanism<'a> {
         let sources = scene.neighbours(motor);
         let constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
-        let mut held: Vec<_> = constraints.iter().flat_map(|c| c.points()).copied().collect();
+        let mut held: Vec<_> = constraints.iter().flat_map(Relation::points).copied().collect();
         held.sort_unstable();
         held.dedup();
+        // What moves says how large it is: the ends of a rail may be far away.
+        let driven = scene.constraints[motor].points();
+        let moved = held.iter().filter(|p| moves(p) || driven.contains(p));
         let extent = |of: fn(&Point) -> f64| {
-            let values = held.iter().map(|&p| of(&scene.x[p as usize]));
+            let values = moved.clone().map(|&p| of(&scene.x[p as usize]));
             let ends = |(lo, hi): (f64, f64), v: f64| (lo.min(v), hi.max(v));
             let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), ends);
             hi - lo
         };
-        let size = extent(|p| p.x).max(extent(|p| p.y));
+        let radius = scene.constraints[motor].get(Field::Radius).unwrap_or(0.0).abs();
+        let size = extent(|p| p.x).max(extent(|p| p.y)).max(radius);
         let size = if size > 0.0 { size } else { 1.0 };
         let farthest = held.iter().map(|&p| scene.x[p as usize].to_vector().norm());
         let rounding = 8.0 * f64::EPSILON * farthest.fold(0.0, f64::max);
@@ -160,7 +164,7 @@ impl<'a> Mechanism<'a> {
             rows.rows.iter().for_each(|row| row.add_to(-row.f, &mut y));
             Projector::of(&rows).solve_damped(DAMPING, &mut y);
             way += norm(&y);
-            if !(way <= reach) {
+            if way.is_nan() || way > reach {
                 return None;
             }
             self.displace(stand, 1.0, &y);
@@ -209,7 +213,8 @@ impl<'a> Mechanism<'a> {
             }
         };
         let length = norm(&tangent);
-        if !(length > 1e-3) && direction.is_some() || length == 0.0 || n_freedoms == 0 {
+        let is_short = length.is_nan() || length <= 1e-3;
+        if is_short && direction.is_some() || length == 0.0 || n_freedoms == 0 {
             return None;
         }
         tangent.iter_mut().for_each(|t| *t /= length);
@@ -270,7 +275,7 @@ fn regularity(projector: &mut Projector, tangent: &[f64]) -> f64 {
     let mut probe: Vec<f64> = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
     across(&mut probe);
     let mut y = probe.clone();
-    projector.solve_damped(DAMPING, &mut y);
+    projector.solve_damped(1e-2 * DAMPING, &mut y);
     across(&mut y);
     let product: f64 = y.iter().zip(&probe).map(|(a, b)| a * b).sum();
     if product > 0.0 { norm(&probe) / product.sqrt() } else { f64::INFINITY }
