@@ -27,6 +27,26 @@ pub enum Command {
     /// Tell what accuracy costs in time on a script's own motion: a table, `accuracy.csv` and
     /// `accuracy.svg`.
     Accuracy(Study),
+    /// Run a script and examine what is there at its end: freedoms, redundant and conflicting
+    /// constraints, singular poses. Exit status 1 if something conflicts.
+    Check(Examination),
+    /// Run a script and tell which effects its scene has switched on at the end, why, and what
+    /// each costs.
+    Effects(Examination),
+}
+
+/// A script to be examined.
+#[derive(Debug, Args)]
+pub struct Examination {
+    /// The script; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Print the findings as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub outside: Outside,
 }
 
 /// A script to study.

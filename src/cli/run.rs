@@ -106,7 +106,8 @@ fn read_stdin() -> io::Result<String> {
     String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
 }
 
-fn begin(outside: &Outside) -> Session {
+/// An empty session.
+pub(super) fn begin(outside: &Outside) -> Session {
     let mut session = Session::new(Box::new(Process::new(outside)));
     for (name, value) in &outside.set {
         session.override_parameter(name, *value);

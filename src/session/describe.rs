@@ -62,7 +62,8 @@ impl Session {
         record.driver(field).map_or_else(|| literal(value), |formula| self.unbind(formula))
     }
 
-    fn relation(&self, record: &Record, bounds: Bounds, is_angle: bool) -> Relation {
+    /// What its statement asks of the measured value of a constraint.
+    pub(super) fn relation(&self, record: &Record, bounds: Bounds, is_angle: bool) -> Relation {
         let (lo, hi) = (record.driver(Field::Lo), record.driver(Field::Hi));
         let is_one = match (lo, hi) {
             (None, None) => bounds.is_equality(),

@@ -1,14 +1,16 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
-use super::run::format_rounded;
+use super::describe::text_of;
+use super::run::{format_digits, format_rounded};
+use super::subject::{Subject, listed};
 use super::{Diagnostic, Session};
-use crate::constraint::{Constraint, Kind};
-use crate::lang::ast::Name;
+use crate::constraint::{Bounds, Constraint, Field, Kind, Period, Relation as _};
+use crate::lang::ast::{ChangePart, Command, Name};
+use crate::solve::Status;
 use crate::solve::mobility::{
-    Analysis, Conflict, Directions, Pose, Repair, Scene, analyse, conflict_with, freedom,
+    Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
 };
-use crate::solve::{Budget, Report, Solver, Status};
-use crate::world::{ConstraintId, Entity, PointId, World};
+use crate::world::{ConstraintId, Edit, Entity, PointId};
 
 /// What `check` finds, with names.
 #[derive(Debug, Clone)]
@@ -20,7 +22,7 @@ pub struct Check {
     /// Sets of constraints that cannot all hold, each with its residual, length units.
     pub conflicting: Vec<(Vec<String>, f64)>,
     /// Constraints of frozen points only that do not hold.
-    pub unsatisfiable: Vec<String>,
+    pub unsatisfiable: Vec<Unsatisfiable>,
     /// What the pose is.
     pub pose: Pose,
     /// How solving this pose ended.
@@ -29,6 +31,17 @@ pub struct Check {
     pub residual: f64,
     /// The smallest singular value over the largest, where it says that small errors grow.
     pub near_singular: Option<f64>,
+}
+
+/// A constraint of frozen points only that does not hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unsatisfiable {
+    /// Its name.
+    pub constraint: String,
+    /// Its points.
+    pub frozen: Vec<String>,
+    /// How far it is from holding, length units.
+    pub residual: f64,
 }
 
 impl Check {
@@ -60,20 +73,21 @@ impl Check {
             let residual = format_rounded(*residual);
             lines.push(format!("conflicting: {}, off by {residual}", names.join(", ")));
         }
-        for name in &self.unsatisfiable {
-            lines.push(format!("unsatisfiable: {name}, all its points are frozen"));
+        for Unsatisfiable { constraint, frozen, residual } in &self.unsatisfiable {
+            let (frozen, residual) = (listed(frozen, "and"), format_rounded(*residual));
+            lines.push(format!(
+                "unsatisfiable: {constraint}, off by {residual}: {frozen} are frozen"
+            ));
         }
-        lines.push(match self.pose {
-            Pose::Regular => match self.near_singular {
-                None => "pose: regular".to_owned(),
-                Some(ratio) => format!(
-                    "pose: nearly singular, small errors grow {}-fold",
-                    format_rounded(1.0 / ratio)
-                ),
-            },
-            Pose::MobileSingular => "pose: singular but mobile, by its proportions".to_owned(),
-            Pose::ChangePoint => "pose: a change point, several motions meet here".to_owned(),
-            Pose::Locked => "pose: locked, a dead point".to_owned(),
+        lines.push(match (self.pose, self.near_singular) {
+            (Pose::Regular, None) => "pose: regular".to_owned(),
+            (Pose::Regular, Some(ratio)) => {
+                let growth = format_rounded(1.0 / ratio);
+                format!("pose: nearly singular, small errors grow {growth}-fold")
+            }
+            (Pose::MobileSingular, _) => "pose: singular, and truly mobile".to_owned(),
+            (Pose::ChangePoint, _) => "pose: a change point, where motions cross".to_owned(),
+            (Pose::Locked, _) => "pose: locked, mobile at the first instant only".to_owned(),
         });
         let status = self.status.phrase();
         lines.push(format!("status: {status}, residual {}", format_rounded(self.residual)));
@@ -81,51 +95,11 @@ impl Check {
     }
 }
 
-/// A settled copy of the world, as the analysis takes it.
-struct Subject {
-    world: World,
-    report: Report,
-    ids: Vec<ConstraintId>,
-    constraints: Vec<Constraint>,
-    w: Vec<f64>,
-    size: f64,
-}
-
-impl Subject {
-    fn with<T>(&self, ask: impl FnOnce(&Scene) -> T) -> T {
-        let constraints: Vec<&Constraint> = self.constraints.iter().collect();
-        ask(&Scene { constraints: &constraints, x: self.world.points().column(), w: &self.w })
-    }
-
-    fn name(&self, place: usize) -> String {
-        self.world.name_of(Entity::Constraint(self.ids[place])).to_owned()
-    }
-
-    fn names(&self, places: &[usize]) -> Vec<String> {
-        places.iter().map(|&k| self.name(k)).collect()
-    }
-}
-
 impl Session {
-    /// The world at rest at the present time, without touching it.
-    fn subject(&self) -> Subject {
-        let mut world = self.world.clone();
-        let mut solver = Solver::new();
-        let report = solver.settle(&mut world, &self.preferences.solve, &Budget::default());
-        let on = world.constraints().filter(|(_, record)| record.is_on);
-        let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
-        let points = world.points();
-        let w = (0..points.column().len())
-            .map(|k| PointId::new(k))
-            .map(|id| if points.is_alive(id) { points.inverse_mass(id) } else { 0.0 })
-            .collect();
-        Subject { world, report, ids, constraints, w, size: solver.size() }
-    }
-
     /// What there is to know about the mechanism at rest at the present time.
     pub fn examine(&self) -> Check {
         let subject = self.subject();
-        let found = subject.with(|scene| analyse(scene, self.slack(&subject)));
+        let found = subject.with(|scene| analyse(scene, subject.slack));
         let Analysis { degrees_of_freedom, redundant, conflicts, unsatisfiable, .. } = &found;
         let near_singular = found
             .singular_values
@@ -141,7 +115,14 @@ impl Session {
                 .iter()
                 .map(|c| (subject.names(&c.constraints), c.residual))
                 .collect(),
-            unsatisfiable: subject.names(unsatisfiable),
+            unsatisfiable: unsatisfiable
+                .iter()
+                .map(|&k| Unsatisfiable {
+                    constraint: subject.name(k),
+                    frozen: self.points_of(&subject, k),
+                    residual: subject.violation(k),
+                })
+                .collect(),
             pose: found.pose,
             status: subject.report.status,
             residual: subject.report.residual,
@@ -149,10 +130,12 @@ impl Session {
         }
     }
 
-    /// The distance up to which a constraint counts as satisfied here. Wider than the
-    /// tolerance: what is told apart is sound from contradictory, not exact from nearly so.
-    fn slack(&self, subject: &Subject) -> f64 {
-        self.preferences.solve.tolerance.max(1e-9) * subject.size
+    /// The names of a constraint's points, each once.
+    fn points_of(&self, subject: &Subject, place: usize) -> Vec<String> {
+        let mut points = subject.parts.constraints[place].points().to_vec();
+        points.sort_unstable();
+        points.dedup();
+        points.iter().map(|&p| self.world.points().name(PointId(p)).to_owned()).collect()
     }
 
     pub(super) fn check(&mut self) {
@@ -178,85 +161,139 @@ impl Session {
     fn why_constraint(&self, id: ConstraintId) -> Vec<String> {
         let name = self.world.name_of(Entity::Constraint(id));
         if self.world.constraint(id).is_some_and(|record| !record.is_on) {
-            return vec![format!("{name} is off")];
+            return vec![format!("{name} is switched off")];
         }
         let subject = self.subject();
-        let slack = self.slack(&subject);
-        let place = subject.ids.iter().position(|&other| other == id).expect("it is on");
-        let violation = self.violation_of(&subject, place);
+        let slack = subject.slack;
+        let place = subject.parts.place(id).expect("it is on");
+        let violation = subject.violation(place);
+        let off = format!("{name} is off by {}", format_rounded(violation));
         let found = subject.with(|scene| analyse(scene, slack));
         if found.unsatisfiable.contains(&place) {
+            let points = self.points_of(&subject, place);
+            let mut ways = self.repairs_of_frozen(&subject, place);
+            ways.push(format!("thaw {}", listed(&points, "or")));
+            ways.push(format!("drop {name}"));
             return vec![
-                format!(
-                    "{name} holds frozen points only and is off by {}",
-                    format_rounded(violation)
-                ),
-                format!("thaw one of its points, change it, or drop {name}"),
+                format!("{off}: all its points are frozen"),
+                format!("{}, or {}", ways[..ways.len() - 1].join(", "), ways[ways.len() - 1]),
             ];
         }
         if violation <= slack {
-            let mut lines =
-                vec![format!("{name} is satisfied, residual {}", format_rounded(violation))];
+            let mut lines = vec![format!("{name} is satisfied")];
             for r in found.redundant.iter().filter(|r| r.constraint == place) {
-                let others = subject.names(&r.depends_on).join(", ");
-                lines.push(format!("it is redundant: {others} imply it"));
+                let others = listed(&subject.names(&r.depends_on), "and");
+                let verb = if r.depends_on.len() == 1 { "implies" } else { "imply" };
+                lines.push(format!("it is redundant: {others} {verb} it"));
             }
             return lines;
         }
-        let mut lines = vec![format!("{name} is off by {}", format_rounded(violation))];
         match subject.with(|scene| conflict_with(scene, place, slack)) {
-            Some(conflict) => lines.extend(self.describe_conflict(&subject, &conflict, name)),
-            None if subject.report.status == Status::Stalled => {
-                lines.push("the pose is not at rest; `solve` goes on".to_owned());
+            Some(conflict) => {
+                let others = subject.names(&conflict.constraints);
+                let others: Vec<_> = others.into_iter().filter(|other| other != name).collect();
+                let why = match &others[..] {
+                    [] => "it cannot hold at all".to_owned(),
+                    others => format!("it cannot hold together with {}", listed(others, "and")),
+                };
+                let mut lines = vec![format!("{off}: {why}")];
+                lines.extend(self.ways_out(&subject, &conflict));
+                lines
             }
-            None => lines.push("nothing contradicts it: the pose is a poor start".to_owned()),
+            None if subject.report.status == Status::Stalled => {
+                vec![off, "the pose is not at rest: `solve` goes on".to_owned()]
+            }
+            None => vec![off, "nothing contradicts it: another start may reach it".to_owned()],
         }
+    }
+
+    /// What would settle a conflict, in one line, and the same as commands.
+    fn ways_out(&self, subject: &Subject, conflict: &Conflict) -> Vec<String> {
+        let mut repairs: Vec<Mend> = conflict
+            .repairs
+            .iter()
+            .filter_map(|repair| self.mend(subject, conflict, repair.constraint))
+            .collect();
+        repairs.sort_by(|a, b| a.effort.total_cmp(&b.effort));
+        repairs.truncate(MOST_REPAIRS);
+        let mut ways: Vec<String> = repairs.iter().map(|mend| mend.text.clone()).collect();
+        let names = subject.names(&conflict.constraints);
+        ways.push(format!("drop {}", listed(&names, "or")));
+        let mut lines = vec![listed_ways(&ways)];
+        lines.extend(repairs.into_iter().map(|mend| format!("    {}", mend.command)));
         lines
     }
 
-    fn violation_of(&self, subject: &Subject, place: usize) -> f64 {
-        use crate::constraint::Relation as _;
-        subject.constraints[place].violation(subject.world.points().column(), &subject.w)
+    /// The change of one constraint that settles a conflict, if there is one that was seen to.
+    fn mend(&self, subject: &Subject, conflict: &Conflict, place: usize) -> Option<Mend> {
+        let field = changeable(&subject.parts.constraints[place])?;
+        let island = subject.with(|scene| scene.neighbours(place));
+        // All that hangs together with it is to hold; if other conflicts are in there, at
+        // least those of this one are.
+        [&island[..], &conflict.constraints[..]].into_iter().find_map(|among| {
+            let change = subject.with(|scene| repair(scene, place, among, 1e-3 * subject.slack))?;
+            let mend = self.mend_by(subject, place, field(change), change)?;
+            // A change that was not seen to work is none.
+            let mut world = subject.world.clone();
+            world.apply(Edit::Constraint(
+                subject.parts.ids[place],
+                Some(Box::new(mend.record.clone())),
+            ));
+            let after = self.subject_of(world);
+            let holds = |&k: &usize| after.violation(k) <= after.slack;
+            conflict.constraints.iter().all(holds).then_some(mend)
+        })
     }
 
-    fn describe_conflict(&self, subject: &Subject, conflict: &Conflict, name: &str) -> Vec<String> {
-        let others: Vec<String> =
-            subject.names(&conflict.constraints).into_iter().filter(|n| n != name).collect();
-        let mut lines = Vec::new();
-        if others.is_empty() {
-            lines.push("it contradicts itself".to_owned());
-        } else {
-            lines.push(format!("it cannot hold together with {}", others.join(", ")));
+    /// A constraint with some bounds moved by `change`.
+    fn mend_by(
+        &self,
+        subject: &Subject,
+        place: usize,
+        fields: &[Field],
+        change: f64,
+    ) -> Option<Mend> {
+        let name = subject.name(place);
+        let mut record = subject.world.constraint(subject.parts.ids[place])?.clone();
+        record.drivers.retain(|(field, _)| !fields.contains(field));
+        for &field in fields {
+            let value = record.constraint.get(field)?;
+            record.constraint.set(field, value + change);
         }
-        let mut ways: Vec<String> =
-            conflict.repairs.iter().map(|repair| self.describe_repair(subject, *repair)).collect();
-        let drops: Vec<String> =
-            subject.names(&conflict.constraints).iter().map(|n| format!("drop {n}")).collect();
-        ways.extend(drops);
-        for (k, way) in ways.iter().enumerate() {
-            lines.push(if k == 0 { format!("either {way}") } else { format!("or {way}") });
-        }
-        lines
-    }
-
-    fn describe_repair(&self, subject: &Subject, repair: Repair) -> String {
-        let name = subject.name(repair.constraint);
-        let amount = |value: f64| super::run::format_digits(value.abs(), 5);
-        let is_more = repair.change > 0.0;
-        match subject.constraints[repair.constraint].kind() {
+        let amount = |value: f64| format_digits(value.abs(), 5);
+        let is_more = change > 0.0;
+        let kind = record.constraint.kind();
+        let text = match kind {
             Kind::Length => {
                 let verb = if is_more { "lengthen" } else { "shorten" };
-                format!("{verb} {name} by {}", amount(repair.change))
+                format!("{verb} {name} by {}", amount(change))
             }
             Kind::Orientation => {
                 let side = if is_more { "counter-clockwise" } else { "clockwise" };
-                format!("turn {name} {side} by {} deg", amount(repair.change.to_degrees()))
+                format!("turn {name} {side} by {} deg", amount(change.to_degrees()))
             }
             _ => {
                 let verb = if is_more { "increase" } else { "decrease" };
-                format!("{verb} {name} by {}", amount(repair.change))
+                format!("{verb} {name} by {}", amount(change))
             }
-        }
+        };
+        let is_angle = kind == Kind::Orientation;
+        let bounds =
+            Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
+        let parts = vec![ChangePart::Relation(self.relation(&record, bounds, is_angle))];
+        let command = text_of(Command::Change { name: super::describe::named(&name), parts });
+        // A radian counts as the length of what hangs together.
+        let effort = if is_angle { change.abs() * subject.size() } else { change.abs() };
+        Some(Mend { text, command, record, effort })
+    }
+
+    /// The change that makes a constraint between frozen points hold.
+    fn repairs_of_frozen(&self, subject: &Subject, place: usize) -> Vec<String> {
+        let constraint = &subject.parts.constraints[place];
+        let change = constraint.residual(subject.world.points().column());
+        let fields = changeable(constraint).map(|field| field(change));
+        let mend = fields.and_then(|fields| self.mend_by(subject, place, fields, change));
+        mend.into_iter().map(|mend| mend.text).collect()
     }
 
     fn why_point(&self, id: PointId) -> Vec<String> {
@@ -267,17 +304,72 @@ impl Session {
         let subject = self.subject();
         let found = subject.with(|scene| freedom(scene, id.0));
         let held = subject.names(&found.held_by);
-        let held = match &held[..] {
-            [] => String::new(),
-            names => format!(", held by {}", names.join(", ")),
-        };
+        let verb =
+            |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
+        let held_by = listed(&held, "and");
         vec![match found.directions {
             Directions::All => format!("{name} can move in every direction"),
-            Directions::None => format!("{name} cannot move{held}"),
+            Directions::None if held.is_empty() => format!("{name} cannot move"),
+            Directions::None => {
+                format!("{name} cannot move: {held_by} {} it", verb("holds", "hold"))
+            }
             Directions::Along(v) => {
-                let angle = super::run::format_digits(v.angle().to_degrees(), 5);
-                format!("{name} can move along {angle} deg only{held}")
+                // Both senses are meant: the angle of the one that points to the right.
+                let angle = v.angle().to_degrees();
+                let angle = if angle <= -90.0 {
+                    angle + 180.0
+                } else if angle > 90.0 {
+                    angle - 180.0
+                } else {
+                    angle
+                };
+                let angle = format_digits(if angle.abs() < 1e-9 { 0.0 } else { angle }, 5);
+                let stops = verb("stops", "stop");
+                format!(
+                    "{name} can move along {angle} deg and back only: {held_by} {stops} it across"
+                )
             }
         }]
+    }
+}
+
+/// More ways out of a conflict than this are not listed.
+const MOST_REPAIRS: usize = 3;
+
+/// A change of one constraint.
+struct Mend {
+    text: String,
+    command: String,
+    record: crate::world::Record,
+    /// How much of a change it is, length units.
+    effort: f64,
+}
+
+/// Which values of a constraint a user can change to make up for a residual; none for what has
+/// no value.
+fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field]> {
+    let bounds = match constraint {
+        Constraint::Length(c) => c.bounds,
+        Constraint::Distance(c) => c.bounds,
+        Constraint::Equal(c) => c.bounds,
+        Constraint::Orientation(c) if c.period == Period::Whole => c.bounds,
+        _ => return None,
+    };
+    Some(move |change: f64| -> &'static [Field] {
+        if bounds.is_equality() {
+            &[Field::Lo, Field::Hi]
+        } else if change > 0.0 {
+            &[Field::Hi]
+        } else {
+            &[Field::Lo]
+        }
+    })
+}
+
+/// Ways as one line: commas between them, `or` before the last.
+fn listed_ways(ways: &[String]) -> String {
+    match ways {
+        [first @ .., last] if !first.is_empty() => format!("{}, or {last}", first.join(", ")),
+        _ => ways.join(""),
     }
 }

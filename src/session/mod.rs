@@ -5,11 +5,11 @@
 //! It never touches a terminal, and never leaves half an edit behind.
 
 mod accuracy;
-mod analysis;
 mod bind;
 mod blocks;
 mod change;
 mod constrain;
+mod dead_point;
 mod delete;
 mod describe;
 mod diagnose;
@@ -19,6 +19,7 @@ mod host;
 mod journal;
 mod laps;
 mod limits;
+mod limits_of;
 mod look;
 mod outside;
 mod perform;
@@ -32,6 +33,7 @@ mod save;
 mod scope;
 mod series;
 mod settings;
+mod subject;
 mod transaction;
 
 use std::collections::{BTreeMap, HashMap};
@@ -39,7 +41,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use accuracy::Telling;
-pub use diagnose::Check;
+pub use dead_point::AtDeadPoint;
+pub use diagnose::{Check, Unsatisfiable};
 pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;

@@ -8,6 +8,7 @@ use crate::constraint::Constraint;
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::solve::{Method, Report, Settings, Status};
 use crate::study::{format_seconds, freedoms};
+use crate::world::PointId;
 
 /// Receipt of a command that let time pass.
 #[derive(Debug, Clone)]
@@ -30,6 +31,10 @@ pub struct Summary {
     pub lowered_rho: Option<f64>,
     /// The tolerance that was asked for last.
     pub tolerance: f64,
+    /// Frames after which something may be on another branch of its motion.
+    pub n_turned_over: u64,
+    /// The first of them, as the clock counts, and a point that changed sides.
+    pub first_turned_over: Option<(u64, PointId)>,
     /// Wall time of all frames together, seconds.
     pub seconds: f64,
     /// How the frames were solved, with the number of frames each.
@@ -38,6 +43,8 @@ pub struct Summary {
     pub position_error: Option<f64>,
     /// The statement whose frame was the first to miss.
     missed_at: Option<Span>,
+    /// The statement whose frame was the first to turn over.
+    turned_over_at: Option<Span>,
 }
 
 /// How frames were solved, as far as the user chose it.
@@ -74,10 +81,13 @@ impl Summary {
             worst_status: Status::Converged,
             lowered_rho: None,
             tolerance: 0.0,
+            n_turned_over: 0,
+            first_turned_over: None,
             seconds: 0.0,
             ways: Vec::new(),
             position_error: None,
             missed_at: None,
+            turned_over_at: None,
         }
     }
 
@@ -105,6 +115,11 @@ impl Summary {
             self.n_missed += 1;
             self.first_missed.get_or_insert(frame);
             self.missed_at.get_or_insert(span);
+        }
+        if let Some(point) = report.turned_over {
+            self.n_turned_over += 1;
+            self.first_turned_over.get_or_insert((frame, point));
+            self.turned_over_at.get_or_insert(span);
         }
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));
@@ -195,6 +210,7 @@ impl Session {
     pub(super) fn give_receipt(&mut self) {
         let Some(mut summary) = self.run.take() else { return };
         summary.position_error = self.estimate_position_error(&summary);
+        self.tell_turned_over(&summary);
         let line = summary.line();
         match (summary.broken(0), summary.missed_at) {
             (Some((message, label)), Some(span)) => {
@@ -204,6 +220,23 @@ impl Session {
             _ => {}
         }
         self.last_run = Some(summary);
+    }
+
+    /// Warns of frames that may have changed branch.
+    fn tell_turned_over(&mut self, summary: &Summary) {
+        let (Some((frame, point)), Some(span)) =
+            (summary.first_turned_over, summary.turned_over_at)
+        else {
+            return;
+        };
+        let name = self.world.points().name(point);
+        let message = match summary.n_turned_over {
+            1 => format!("frame {frame} may have changed branch"),
+            n => format!("{n} frames may have changed branch, the first is frame {frame}"),
+        };
+        let label = format!("`{name}` changed sides in a single jump");
+        let warning = Diagnostic::warning(message).at(span, label);
+        self.warn(&warning.help("smaller frames (`set dt`) follow the motion"));
     }
 
     /// The residual over the smallest singular value, where nothing is free.

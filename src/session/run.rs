@@ -1,5 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
+use super::dead_point::Next;
 use super::perform::format_count;
 use super::receipt::Summary;
 use super::{Diagnostic, Flow, Session};
@@ -143,19 +144,28 @@ impl Session {
         let leaves_nothing = self.world.traces().is_empty()
             && self.recorders.is_empty()
             && self.preferences.expose_every.is_none();
+        let mut lookout = self.lookout();
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
+            self.look_out(&mut lookout);
             self.attend();
             hand(self, k);
-            let report = self.pass(&limits).map_err(|why| {
-                let clock = self.world.clock();
-                let time = format_number(clock.time());
-                why.note(format!("at frame {}, time {time}", clock.frame))
-            })?;
+            let mut report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
+            if report.status != Status::Converged {
+                match self.met(&lookout, k, n) {
+                    Next::On => {}
+                    Next::Again => {
+                        self.attend();
+                        hand(self, k);
+                        report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
+                    }
+                    Next::Stop => break,
+                }
+            }
             summary.add(&report, self.world.clock().frame, span);
             if !leaves_nothing {
                 self.keep_frame(report.status != Status::Converged || report.is_interrupted);
@@ -171,6 +181,12 @@ impl Session {
                 Err(Diagnostic::error(message).kind(Kind::Promise).at(span, label))
             }
         }
+    }
+
+    /// Adds to an error in which frame it came up.
+    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+        let clock = self.world.clock();
+        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }
 
     fn pass(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {

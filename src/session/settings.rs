@@ -1,5 +1,6 @@
 //! Settings: their names, their values, `set`.
 
+use super::dead_point::AtDeadPoint;
 use super::journal::Change;
 use super::{Diagnostic, Session};
 use crate::diag::format_number;
@@ -13,17 +14,20 @@ use crate::world::{Edit, Entity};
 pub struct Preferences {
     /// How the solver works.
     pub solve: Settings,
+    /// What happens where a motor cannot go on.
+    pub dead_points: AtDeadPoint,
     /// A ghost of the mechanism is kept every so many frames.
     pub expose_every: Option<u64>,
 }
 
 /// The settings, in the order in which they are printed, with what each is.
-pub(super) const SETTINGS: [(&str, &str); 6] = [
+pub(super) const SETTINGS: [(&str, &str); 7] = [
     ("dt", "time of one frame"),
     ("method", "how frames are solved"),
     ("rho", "relaxation coefficient"),
     ("iterations", "most iterations between two frames"),
     ("tolerance", "largest residual allowed, relative to the scene's size"),
+    ("dead-points", "where a motor cannot go on: `stop`, `hold` or `reverse`"),
     ("cog", "`holonomic`, or the paper's `velocity` form"),
 ];
 
@@ -38,6 +42,7 @@ impl Session {
             "iterations" => solve.iterations.to_string(),
             "tolerance" => format_number(solve.tolerance),
             "cog" => solve.cog.word().to_owned(),
+            "dead-points" => self.preferences.dead_points.word().to_owned(),
             _ => unreachable!("`{name}` is not among the settings"),
         }
     }
@@ -86,6 +91,11 @@ impl Session {
                     }
                     "cog" => {
                         solve.cog = word_of(value, &CogForm::ALL, CogForm::word, "a form of cogs")?;
+                    }
+                    "dead-points" => {
+                        let what = "what happens at a dead point";
+                        new.dead_points =
+                            word_of(value, &AtDeadPoint::ALL, AtDeadPoint::word, what)?;
                     }
                     "rho" => solve.rho = self.coefficient(value)?,
                     "iterations" => {

@@ -11,11 +11,11 @@ use crate::constraint::Point;
 
 /// A correction of the expected pose larger than this part of the motion means that the
 /// motion was not understood; measured on mechanisms at 1 to 60 degrees a frame.
-const SURPRISE: f64 = 0.3;
+pub(super) const SURPRISE: f64 = 0.3;
 /// The same for points with freedom left, against the size.
 const FREE_SURPRISE: f64 = 0.02;
 /// A motion that is smaller than this part of the size is not worth a second look.
-const NO_MOTION: f64 = 1e-6;
+pub(super) const NO_MOTION: f64 = 1e-6;
 
 /// Squares of singular values below this count as freedom: in the middle of the range in
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
@@ -45,7 +45,7 @@ impl Attempt {
 /// Solves a frame: the values of the constraints and the frozen points are those at its end.
 pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
     if island.status != Status::Converged || island.inputs.is_disturbed {
-        return struggle::settle(island, limits, work);
+        return settle(island, limits, work);
     }
     let n_free = island.n_free;
     island.history.begin(&island.x[..n_free]);
@@ -54,19 +54,37 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
-            || island.has_velocities())
+        && (island.has_velocities()
+            || attempt.is_safe(motion_since(island, island.history.origin()), limits)
+                && island.watch.turned_over(&island.x).is_none())
     {
         return accept(island, attempt);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
+    let sides = island.sides();
     if !island.has_velocities()
         && let Some(attempt) = follow::frame(island, limits, work)
     {
         return accept(island, attempt);
     }
+    island.turned_over = None;
+    island.set_sides(sides);
     island.x[..n_free].copy_from_slice(island.history.origin());
-    struggle::settle(island, limits, work)
+    settle(island, limits, work)
+}
+
+/// Solves a frame that does not follow from the one before, and notes what changed sides.
+fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    // What a user put elsewhere, or edited, may lie on any side.
+    let is_watched = !(island.is_new || island.is_edited || island.inputs.is_disturbed);
+    let sides = is_watched.then(|| island.sides());
+    let outcome = struggle::settle(island, limits, work);
+    if let Some(sides) = sides
+        && outcome.is_converged()
+    {
+        island.turned_over = island.changed_since(&sides);
+    }
+    outcome
 }
 
 /// Keeps of the expected places of parts with freedom left only what the constraints ask for:

@@ -1,7 +1,7 @@
 //! A frame in smaller steps: what drives the island is interpolated between the last frame
 //! and the present one, and each step is expected from those before it.
 
-use super::auto::{Attempt, attempt, motion_since};
+use super::auto::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use super::ends::Ends;
 use super::island::Island;
 use super::method::Limits;
@@ -104,6 +104,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         };
         n_iterations += step.n_iterations;
         t = to;
+        if step.correction > SURPRISE * motion && motion > NO_MOTION * limits.size {
+            island.note_turning_over();
+        }
         island.keep_sides();
         if t < 1.0 {
             island.accept_pose();

@@ -9,6 +9,7 @@ use super::rows::Equations;
 use super::settings::Settings;
 use super::spectrum::Spectrum;
 use super::status::{Budget, Status};
+use super::watch::Watch;
 use crate::constraint::{Constraint, Field, Point, Relation};
 use crate::world::{ConstraintId, PointId, Record};
 
@@ -55,6 +56,10 @@ pub(super) struct Island {
     pub is_edited: bool,
     /// Whether a way off a saddle was looked for since the last converged pose.
     pub is_probed: bool,
+    /// What tells when a part that is solved as a whole turned over.
+    pub watch: Watch,
+    /// A point that may be on another branch since this frame.
+    pub turned_over: Option<u32>,
     /// What drives the island in this frame, as it was before.
     pub inputs: Inputs,
     /// The room for the island as a whole, while it is needed.
@@ -153,11 +158,13 @@ impl Island {
             stateful: stateful.collect(),
             x: points.iter().map(|&p| at(p)).collect(),
             w: points.iter().map(|&p| w(p)).collect(),
-            constraints,
             ids: members.iter().map(|m| m.id).collect(),
             own_rho,
             degree: vec![1; n_free],
             has_degree: plan.is_complete(),
+            watch: Watch::new(&plan, &constraints),
+            turned_over: None,
+            constraints,
             plan,
             points,
             history: History::default(),
@@ -309,6 +316,7 @@ impl Island {
         for block in &mut self.plan.blocks {
             block.side = block.next_side;
         }
+        self.watch.update(&self.x);
     }
 
     /// Tells the constraints that this pose counts: angles are unwrapped from here on.
@@ -343,6 +351,7 @@ impl Island {
             let side = super::block::side(block, which, &self.constraints, &self.x);
             self.plan.blocks[k].side = side;
         }
+        self.watch.update(&self.x);
     }
 }
 

@@ -10,8 +10,8 @@ pub mod mobility;
 
 // What the methods work on.
 mod ends;
-mod footprint;
 mod fingerprint;
+mod footprint;
 mod history;
 mod island;
 mod memory;
@@ -21,6 +21,7 @@ mod rates;
 mod rows;
 mod spectrum;
 mod topology;
+mod watch;
 
 // The methods.
 mod anderson;

@@ -413,6 +413,10 @@ impl Solver {
         island.residual = outcome.worst / limits.size;
         island.settle_inputs();
         write_back(island, world);
+        if let Some(p) = island.turned_over.take() {
+            let id = island.points[p as usize];
+            report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
+        }
         let status = island.status;
         if outcome.status == Status::Converged {
             self.unsolved.remove(&k);

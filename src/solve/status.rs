@@ -1,5 +1,7 @@
 //! How solving ended, and what it took.
 
+use crate::world::PointId;
+
 /// How solving ended. The order is from good to bad.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Status {
@@ -15,6 +17,16 @@ pub enum Status {
 }
 
 impl Status {
+    /// One word for it, for other programs.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::BestFit => "best-fit",
+            Self::Stalled => "stalled",
+            Self::Unsatisfiable => "unsatisfiable",
+        }
+    }
+
     /// What it means, in the user's words.
     pub const fn phrase(self) -> &'static str {
         match self {
@@ -38,6 +50,9 @@ pub struct Report {
     pub residual: f64,
     /// The relaxation coefficient used, where the user's would have diverged.
     pub lowered_rho: Option<f64>,
+    /// A point that may be on another branch than before: it changed sides, and no motion
+    /// from there to here was found.
+    pub turned_over: Option<PointId>,
     /// How many islands are not at a solution.
     pub n_unsolved_islands: u32,
     /// Whether the caller's budget ran out before the work was done.

@@ -104,6 +104,12 @@ impl<'a> Cursor<'a> {
         Some(self.ident_of(&pair))
     }
 
+    /// The name of a setting: words joined by hyphens.
+    pub fn setting_if_any(&mut self) -> Option<Ident> {
+        let pair = self.take(Rule::setting)?;
+        Some(self.ident_of(&pair))
+    }
+
     fn ident_of(&self, pair: &Parsed<'_, Rule>) -> Ident {
         Ident { text: Arc::from(pair.as_str()), span: self.span(pair) }
     }

@@ -203,7 +203,7 @@ fn change_parts(c: &mut Cursor) -> Result<Vec<ChangePart>, Diagnostic> {
 }
 
 fn set(c: &mut Cursor) -> Result<Command, Diagnostic> {
-    let Some(setting) = c.ident_if_any() else { return Ok(Command::Settings(None)) };
+    let Some(setting) = c.setting_if_any() else { return Ok(Command::Settings(None)) };
     Ok(match c.expr_if_any()? {
         None => Command::Settings(Some(setting)),
         Some(value) => Command::Set { setting, value, targets: c.names()? },

@@ -10,13 +10,18 @@ mod freedom;
 mod motions;
 mod pose;
 mod projector;
+mod range;
+mod repair;
 mod scene;
 mod settle;
+mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
 pub use motions::motion_of;
 pub use pose::Pose;
+pub use range::{End, Range, Reach, dead_end, range};
+pub use repair::repair;
 pub use scene::Scene;
 
 use dependence::dependences;

@@ -46,6 +46,20 @@ impl UnitRow {
         row
     }
 
+    /// Makes the row count `k` times.
+    pub fn count(&mut self, k: f64) {
+        self.f *= k;
+        self.values.iter_mut().for_each(|value| *value *= k);
+    }
+
+    /// Adds a further unknown, the first of the two at `place`. No row of a motor has four
+    /// points already.
+    pub fn add_unknown(&mut self, place: u32, gradient: f64) {
+        self.points[self.n_points] = place;
+        self.values[2 * self.n_points] = gradient;
+        self.n_points += 1;
+    }
+
     /// The product with a vector of unknowns.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let terms = self.points().iter().zip(self.values().as_chunks::<2>().0);
@@ -137,6 +151,22 @@ impl Scene<'_> {
         });
         unsatisfiable.dedup();
         (rows, unsatisfiable)
+    }
+
+    /// The places of all constraints that hang together with one through points that move,
+    /// itself included, ascending.
+    pub fn neighbours(&self, constraint: usize) -> Vec<usize> {
+        let mut sets = Sets::new(self.x.len());
+        let moves = |p: &&PointIdx| self.w[**p as usize] > 0.0;
+        for constraint in self.constraints {
+            let moving: Vec<_> = constraint.points().iter().filter(moves).collect();
+            moving.windows(2).for_each(|ends| sets.join(*ends[0], *ends[1]));
+        }
+        let mut root =
+            |k: usize| self.constraints[k].points().iter().find(moves).map(|&p| sets.find(p));
+        let here = root(constraint);
+        let all = 0..self.constraints.len();
+        all.filter(|&k| k == constraint || here.is_some() && root(k) == here).collect()
     }
 
     /// The rows of an island as they are at this pose.

@@ -1,0 +1,98 @@
+//! A copy of the world at rest, for questions that must not touch the world itself.
+
+use super::Session;
+use crate::constraint::{Constraint, Relation as _};
+use crate::solve::mobility::Scene;
+use crate::solve::{Budget, Report, Solver};
+use crate::world::{ConstraintId, Entity, PointId, World};
+
+/// A settled copy of the world, as the analysis takes it.
+pub(super) struct Subject {
+    pub world: World,
+    pub report: Report,
+    pub parts: Parts,
+    /// The distance up to which a constraint counts as satisfied here. Wider than the
+    /// tolerance: what is told apart is sound from contradictory, not exact from nearly so.
+    pub slack: f64,
+    size: f64,
+}
+
+/// The constraints of a world that are switched on, and the inverse masses of its points.
+pub(super) struct Parts {
+    pub ids: Vec<ConstraintId>,
+    pub constraints: Vec<Constraint>,
+    pub w: Vec<f64>,
+}
+
+impl Parts {
+    pub fn of(world: &World) -> Self {
+        let on = world.constraints().filter(|(_, record)| record.is_on);
+        let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
+        let points = world.points();
+        let all = (0..points.column().len()).map(PointId::new);
+        let w = all.map(|id| if points.is_alive(id) { points.inverse_mass(id) } else { 0.0 });
+        Self { ids, constraints, w: w.collect() }
+    }
+
+    /// The place of a constraint, if it is switched on.
+    pub fn place(&self, id: ConstraintId) -> Option<usize> {
+        self.ids.binary_search(&id).ok()
+    }
+
+    pub fn with<T>(&self, x: &[crate::constraint::Point], ask: impl FnOnce(&Scene) -> T) -> T {
+        let constraints: Vec<&Constraint> = self.constraints.iter().collect();
+        ask(&Scene { constraints: &constraints, x, w: &self.w })
+    }
+}
+
+impl Subject {
+    pub fn with<T>(&self, ask: impl FnOnce(&Scene) -> T) -> T {
+        self.parts.with(self.world.points().column(), ask)
+    }
+
+    pub fn name(&self, place: usize) -> String {
+        self.world.name_of(Entity::Constraint(self.parts.ids[place])).to_owned()
+    }
+
+    pub fn names(&self, places: &[usize]) -> Vec<String> {
+        places.iter().map(|&k| self.name(k)).collect()
+    }
+
+    /// The size of what hangs together most widely, length units.
+    pub const fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// How far a constraint is from being satisfied, length units.
+    pub fn violation(&self, place: usize) -> f64 {
+        self.parts.constraints[place].violation(self.world.points().column(), &self.parts.w)
+    }
+}
+
+impl Session {
+    /// The world at rest at the present time.
+    pub(super) fn subject(&self) -> Subject {
+        self.subject_of(self.world.clone())
+    }
+
+    /// A world brought to rest.
+    pub(super) fn subject_of(&self, mut world: World) -> Subject {
+        let mut solver = Solver::new();
+        let report = solver.settle(&mut world, &self.preferences.solve, &Budget::default());
+        let size = solver.size();
+        let slack = self.preferences.solve.tolerance.max(1e-9) * size;
+        Subject { parts: Parts::of(&world), world, report, slack, size }
+    }
+}
+
+/// Names as a list in words: `a`, `a and b`, `a, b and c`.
+pub(super) fn listed<S: AsRef<str>>(names: &[S], last: &str) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.as_ref().to_owned(),
+        [first @ .., end] => {
+            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
+            format!("{} {last} {}", first.join(", "), end.as_ref())
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! How far a motor can turn: its mechanism is followed both ways until the motion folds back,
+//! runs into a stop, or comes round.
+
+use std::f64::consts::TAU;
+
+use super::scene::Scene;
+use super::travel::{Mechanism, Node};
+use crate::constraint::{Constraint, Point};
+
+/// What ends the way of a motor in one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// The motion folds back: the motor is at its farthest angle.
+    DeadPoint(f64),
+    /// An inequality comes into play, the constraint at this place of the scene.
+    Stop(f64, usize),
+    /// The angle is as far as the motion could be followed; what comes after is not known.
+    Lost(f64),
+    /// It was followed up to this angle, and never came back to where it began.
+    Endless(f64),
+}
+
+impl End {
+    /// The angle against the x axis, radians, whole turns included.
+    pub const fn angle(self) -> f64 {
+        match self {
+            Self::DeadPoint(angle) | Self::Stop(angle, _) => angle,
+            Self::Lost(angle) | Self::Endless(angle) => angle,
+        }
+    }
+}
+
+/// How far a motor can turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reach {
+    /// All the way round; after this many turns the pose is the one it began with.
+    Full(u32),
+    /// From here, clockwise, to there, counter-clockwise.
+    Between(End, End),
+    /// What the motor drives does not satisfy its constraints now.
+    Unsatisfied,
+    /// The motor cannot turn at all: what it drives is rigid.
+    Rigid,
+    /// The motor does not say where everything goes: so many other freedoms are left.
+    Open(usize),
+    /// It holds wheels whose motion depends on how they got there.
+    Nonholonomic,
+}
+
+/// What is known of a motor's way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// The angle now, radians in (-pi, pi].
+    pub now: f64,
+    /// How far it can turn.
+    pub reach: Reach,
+    /// Where several motions cross, as angles like those of the ends; ascending.
+    pub change_points: Vec<f64>,
+}
+
+/// The farthest turn in one step, radians: a dead point and the return from it do not fit in.
+const LONGEST_TURN: f64 = 0.05;
+/// The most that the direction of the motion may change in one step, as the sine of the angle.
+const SHARPEST_BEND: f64 = 0.1;
+/// The longest correction, as a part of the step.
+const LONGEST_CORRECTION: f64 = 0.05;
+/// Steps shorter than this part of the size get nowhere: something stops the motion.
+const SHORTEST_STEP: f64 = 1e-13;
+/// Branches nearer than this part of the size count as crossing: the squares of singular values
+/// below 1e-5 are rounding. A four-bar off by 1e-8 from one that folds flat keeps them apart.
+const CROSSING: f64 = 1e-4;
+/// The step, as a part of the size, that leads across a change point.
+const LEAP: f64 = 1e-3;
+/// Turns after which it is given up to wait for the first pose to come again.
+const MOST_TURNS: u32 = 100;
+const MOST_STEPS: usize = 200_000;
+/// Poses nearer than this part of the size are the same.
+const SAME: f64 = 1e-6;
+
+/// How far the motor at place `motor` of a scene can turn, everything else standing as it is.
+/// Distances up to `tolerance` count as none.
+pub fn range(scene: &Scene, motor: usize, tolerance: f64) -> Range {
+    let Constraint::Motor(it) = scene.constraints[motor] else {
+        unreachable!("the range of a motor was asked for")
+    };
+    let mut range = Range { now: it.angle(), reach: Reach::Full(1), change_points: Vec::new() };
+    let mut mechanism = Mechanism::new(scene, motor);
+    if !mechanism.can_move() {
+        range.reach = Reach::Rigid;
+        return range;
+    }
+    if mechanism.has_velocities() {
+        range.reach = Reach::Nonholonomic;
+        return range;
+    }
+    let Some(first) = mechanism.begin(scene.x) else {
+        let is_solved = scene.rows(tolerance).0.worst() <= 10.0 * tolerance;
+        range.reach = if is_solved { Reach::Rigid } else { Reach::Unsatisfied };
+        return range;
+    };
+    let mut ends = [End::Lost(0.0); 2];
+    for (end, way) in ends.iter_mut().zip([1.0, -1.0]) {
+        let mut tour = Tour::new(Mechanism::new(scene, motor), first.clone(), way);
+        let arrived = tour.go(f64::INFINITY);
+        let crossed = tour.change_points.iter().map(|turn| range.now + turn);
+        range.change_points.extend(crossed);
+        match arrived {
+            Arrival::Home(turns) => {
+                range.reach = Reach::Full(turns);
+                range.change_points = tour.change_points.iter().map(|t| range.now + t).collect();
+                range.change_points.sort_by(f64::total_cmp);
+                return range;
+            }
+            Arrival::Open(n) => {
+                range.reach = Reach::Open(n);
+                return range;
+            }
+            Arrival::End(found) => *end = turned(found, range.now),
+        }
+    }
+    range.change_points.sort_by(f64::total_cmp);
+    range.change_points.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let [upper, lower] = ends;
+    range.reach = Reach::Between(lower, upper);
+    range
+}
+
+/// What stops the motor at place `motor` within the turn `way`, radians, from this pose; none
+/// if nothing does, or if it cannot be told. Its angle is counted with whole turns.
+pub fn dead_end(scene: &Scene, motor: usize, way: f64) -> Option<End> {
+    let Constraint::Motor(it) = scene.constraints[motor] else { return None };
+    let mut mechanism = Mechanism::new(scene, motor);
+    if !mechanism.can_move() || mechanism.has_velocities() {
+        return None;
+    }
+    let first = mechanism.begin(scene.x)?;
+    let mut tour = Tour::new(mechanism, first, way.signum());
+    match tour.go(way.abs()) {
+        Arrival::End(end @ (End::DeadPoint(_) | End::Stop(..))) => Some(turned(end, it.total())),
+        _ => None,
+    }
+}
+
+/// The end with its angle counted from the x axis instead of from the start.
+fn turned(end: End, start: f64) -> End {
+    match end {
+        End::DeadPoint(turn) => End::DeadPoint(start + turn),
+        End::Stop(turn, by) => End::Stop(start + turn, by),
+        End::Lost(turn) => End::Lost(start + turn),
+        End::Endless(turn) => End::Endless(start + turn),
+    }
+}
+
+/// Where following a motor led.
+enum Arrival {
+    /// To the first pose again, after so many turns.
+    Home(u32),
+    /// To an end, at a turn from the start.
+    End(End),
+    /// To where so many freedoms decide what comes next.
+    Open(usize),
+}
+
+/// The way of a motor in one direction.
+struct Tour<'a> {
+    mechanism: Mechanism<'a>,
+    home: Vec<Point>,
+    node: Node,
+    way: f64,
+    /// The step to be tried next.
+    h: f64,
+    /// Distances to the pose before along the motion, with turn and regularity there.
+    trail: Vec<(f64, f64, f64)>,
+    n_turns: u32,
+    change_points: Vec<f64>,
+}
+
+impl<'a> Tour<'a> {
+    fn new(mechanism: Mechanism<'a>, first: Node, way: f64) -> Self {
+        let mut node = first;
+        let k = if node.pace() == 0.0 { way } else { way * node.pace().signum() };
+        node.tangent.iter_mut().for_each(|t| *t *= k);
+        Self {
+            h: 0.01 * mechanism.size,
+            home: node.stand.x.clone(),
+            mechanism,
+            node,
+            way,
+            trail: Vec::new(),
+            n_turns: 0,
+            change_points: Vec::new(),
+        }
+    }
+
+    /// Follows the motion for a turn of at most `most`.
+    fn go(&mut self, most: f64) -> Arrival {
+        let size = self.mechanism.size;
+        for _ in 0..MOST_STEPS {
+            if self.node.stand.turn * self.way > most {
+                return Arrival::End(End::Endless(self.node.stand.turn));
+            }
+            let is_leap = self.note_change_point();
+            let pace = self.node.pace().abs() / size;
+            let h = if is_leap { LEAP * size } else { self.h.min(LONGEST_TURN / pace.max(1e-3)) };
+            let Some(next) = self.try_step(h, is_leap) else {
+                self.h = 0.5 * h;
+                if self.h < SHORTEST_STEP * size {
+                    return self.stopped();
+                }
+                continue;
+            };
+            if next.pace() * self.way <= 0.0 {
+                return match next.n_freedoms {
+                    1 => Arrival::End(End::DeadPoint(self.fold(h))),
+                    n => Arrival::Open(n - 1),
+                };
+            }
+            if next.n_freedoms > 1 && next.pace().abs() < 1e-3 && !is_leap {
+                return Arrival::Open(next.n_freedoms - 1);
+            }
+            if let Some(home) = self.passes_home(h, &next) {
+                return home;
+            }
+            self.trail.push((h, self.node.stand.turn, self.node.regularity));
+            if is_leap {
+                self.trail.clear();
+                self.h = LEAP * size;
+            } else {
+                self.h = (1.5 * h).min(self.distance_to_crossing(&next, h));
+            }
+            self.mechanism.accept(&next.stand);
+            self.node = next;
+        }
+        Arrival::End(End::Lost(self.node.stand.turn))
+    }
+
+    /// The node a step on, if it is safe to say that it lies on the same motion.
+    fn try_step(&mut self, h: f64, is_leap: bool) -> Option<Node> {
+        let (next, correction) = self.mechanism.step(&self.node, h)?;
+        if is_leap {
+            return Some(next);
+        }
+        if next.n_freedoms < self.node.n_freedoms && self.trail.is_empty() {
+            // It began at a change point, and any way on is as good.
+            self.change_points.push(self.node.stand.turn);
+            return Some(next);
+        }
+        let along: f64 = next.tangent.iter().zip(&self.node.tangent).map(|(a, b)| a * b).sum();
+        let is_straight = along * along > 1.0 - SHARPEST_BEND * SHARPEST_BEND && along > 0.0;
+        // Freedoms besides the motor's turn the motion as they like.
+        let is_safe = is_straight || next.n_freedoms > 1;
+        (is_safe && correction <= LONGEST_CORRECTION * h).then_some(next)
+    }
+
+    /// Notes a change point that lies right ahead; whether there is one.
+    fn note_change_point(&mut self) -> bool {
+        let &[.., (h, turn, before)] = &self.trail[..] else { return false };
+        let here = self.node.regularity;
+        if here >= before || self.node.n_freedoms > 1 {
+            return false;
+        }
+        let ahead = here * h / (before - here);
+        if ahead > CROSSING * self.mechanism.size {
+            return false;
+        }
+        self.change_points.push(self.node.stand.turn + (self.node.stand.turn - turn) * ahead / h);
+        true
+    }
+
+    /// A step that does not pass a crossing that lies ahead.
+    fn distance_to_crossing(&self, next: &Node, h: f64) -> f64 {
+        let (here, there) = (self.node.regularity, next.regularity);
+        if there >= here {
+            f64::INFINITY
+        } else {
+            (0.5 * there * h / (here - there)).max(0.4 * CROSSING * self.mechanism.size)
+        }
+    }
+
+    /// The turn at which the motion folds back within a step of `h`.
+    fn fold(&mut self, h: f64) -> f64 {
+        let h = root(h, self.node.pace(), |h| Some(self.mechanism.step(&self.node, h)?.0.pace()));
+        self.mechanism.step(&self.node, h).map_or(self.node.stand.turn, |(node, _)| node.stand.turn)
+    }
+
+    /// Whether a whole turn ends within this step, and that is the end of the way.
+    fn passes_home(&mut self, h: f64, next: &Node) -> Option<Arrival> {
+        let goal = TAU * f64::from(self.n_turns + 1);
+        let left = |node: &Node| node.stand.turn.abs() - goal;
+        if left(next) < 0.0 {
+            return None;
+        }
+        self.n_turns += 1;
+        if next.n_freedoms > 1 {
+            // The other freedoms do not come home, but the motor did.
+            return Some(Arrival::Home(1));
+        }
+        let (mechanism, node) = (&mut self.mechanism, &self.node);
+        let h = root(h, left(node), |h| Some(left(&mechanism.step(node, h)?.0)));
+        let at = mechanism.step(node, h).map_or_else(|| next.clone(), |(node, _)| node);
+        let farthest = at.stand.x.iter().zip(&self.home).map(|(a, b)| (*a - *b).norm());
+        if farthest.fold(0.0, f64::max) <= SAME * mechanism.size {
+            return Some(Arrival::Home(self.n_turns));
+        }
+        (self.n_turns == MOST_TURNS).then_some(Arrival::End(End::Endless(next.stand.turn)))
+    }
+
+    /// What to say where no step is short enough.
+    fn stopped(&mut self) -> Arrival {
+        let turn = self.node.stand.turn;
+        let size = self.mechanism.size;
+        // A little beyond, what comes into play is seen.
+        let active = self.mechanism.active_beyond(&self.node, 1e-6 * size);
+        let new = active.into_iter().find(|row| !self.node.active.contains(row));
+        match new {
+            Some((constraint, _)) => Arrival::End(End::Stop(turn, constraint)),
+            None => Arrival::End(End::Lost(turn)),
+        }
+    }
+}
+
+/// Where a function of a step is 0, between 0, where it is `at_0`, and `h`, where it has the
+/// other sign: false position with the weight of an end that stays halved (Illinois).
+fn root(h: f64, at_0: f64, mut f: impl FnMut(f64) -> Option<f64>) -> f64 {
+    let (mut a, mut fa) = (0.0, at_0);
+    let Some(at_h) = f(h) else { return h };
+    let (mut b, mut fb) = (h, at_h);
+    for _ in 0..60 {
+        if fa == fb || (b - a).abs() <= 1e-15 * h.abs() {
+            break;
+        }
+        let c = (a * fb - b * fa) / (fb - fa);
+        let Some(fc) = f(c) else { break };
+        if fc == 0.0 {
+            return c;
+        }
+        if fc * fb < 0.0 {
+            (a, fa) = (b, fb);
+        } else {
+            fa *= 0.5;
+        }
+        (b, fb) = (c, fc);
+    }
+    b
+}

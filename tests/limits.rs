@@ -1,0 +1,321 @@
+//! How far motors turn: `limits` against closed forms, and what runs do at dead points.
+
+mod talk;
+
+use linkwork::constraint::geometry::wrap;
+use linkwork::session::Session;
+use linkwork::solve::mobility::{End, Range, Reach};
+use linkwork::world::Entity;
+use talk::Talking;
+
+fn range(session: &Session, name: &str) -> Range {
+    let Some(Entity::Constraint(id)) = session.world().names().get(name) else {
+        panic!("no constraint {name}")
+    };
+    session.range(id).expect("it is a motor")
+}
+
+/// A four-bar of crank `a`, coupler `b`, rocker `c` and ground `d`, its crank at `theta` degrees.
+fn four_bar(a: f64, b: f64, c: f64, d: f64, theta: f64) -> Talking {
+    Talking::after(&format!(
+        "point A = (0, 0) frozen, D = ({d}, 0) frozen
+         point B = polar({a}, {theta}deg)
+         point C = B + polar({b}, 60deg)
+         crank: motor A B radius {a} speed 1rev phase {theta}deg
+         length B C = {b}
+         length C D = {c}
+         solve within 1e-11"
+    ))
+}
+
+/// Where the crank is as far from the ground pivot `d` as `e`, degrees.
+fn reaching(a: f64, d: f64, e: f64) -> f64 {
+    ((a * a + d * d - e * e) / (2.0 * a * d)).acos().to_degrees()
+}
+
+/// Both ends are dead points at these angles, degrees.
+fn check_ends(talking: &Talking, lower: f64, upper: f64) {
+    let Reach::Between(End::DeadPoint(from), End::DeadPoint(to)) =
+        range(&talking.session, "crank").reach
+    else {
+        panic!("{:?}", range(&talking.session, "crank"))
+    };
+    let errors = [from.to_degrees() - lower, to.to_degrees() - upper];
+    assert!(errors.iter().all(|e| e.abs() < 1e-9), "{errors:?}: {lower} {upper}");
+}
+
+fn check_full(talking: &Talking, change_points: &[f64]) {
+    let found = range(&talking.session, "crank");
+    assert_eq!(found.reach, Reach::Full(1), "{found:?}");
+    let angles: Vec<f64> =
+        found.change_points.iter().map(|a| wrap(*a).to_degrees().abs()).collect();
+    assert_eq!(angles.len(), change_points.len(), "{found:?}");
+    for expected in change_points {
+        assert!(angles.iter().any(|a| (a - expected).abs() < 1e-6), "{angles:?}");
+    }
+}
+
+#[test]
+fn cranks_of_grashof_linkages_turn_fully() {
+    check_full(&four_bar(1.0, 3.5, 3.0, 4.0, 20.0), &[]);
+    // The ground is the shortest: a drag link.
+    check_full(&four_bar(3.0, 2.5, 2.8, 1.0, 20.0), &[]);
+}
+
+#[test]
+fn rockers_of_grashof_linkages_swing_between_two_dead_points() {
+    for (a, b, c, d) in [(3.0, 3.5, 1.0, 4.0), (3.0, 4.0, 1.0, 3.5), (3.0, 1.0, 3.5, 4.0)] {
+        let lower = reaching(a, d, b - c);
+        let upper = reaching(a, d, b + c);
+        let (lower, upper) = if b > c { (lower, upper) } else { (reaching(a, d, c - b), upper) };
+        check_ends(&four_bar(a, b, c, d, 0.5 * (lower + upper)), lower, upper);
+    }
+}
+
+#[test]
+fn non_grashof_linkages_swing_symmetrically() {
+    // Stretched at both ends.
+    let upper = reaching(3.0, 4.0, 5.0);
+    check_ends(&four_bar(3.0, 2.5, 2.5, 4.0, 40.0), -upper, upper);
+    let upper = reaching(4.0, 3.0, 2.2 + 3.5);
+    check_ends(&four_bar(4.0, 2.2, 3.5, 3.0, 50.0), -upper, upper);
+    // Folded at both ends.
+    let lower = reaching(2.0, 2.5, 4.4 - 1.5);
+    check_ends(&four_bar(2.0, 4.4, 1.5, 2.5, 180.0), lower, 360.0 - lower);
+}
+
+#[test]
+fn linkages_that_fold_flat_turn_fully_through_their_change_points() {
+    check_full(&four_bar(1.0, 4.0, 1.0, 4.0, 50.0), &[0.0, 180.0]);
+    check_full(&four_bar(2.0, 3.0, 3.0, 4.0, 50.0), &[180.0]);
+}
+
+#[test]
+fn a_linkage_that_nearly_folds_flat_is_told_from_one_that_does() {
+    let (b, c) = (4.0, 1.001);
+    let upper = reaching(1.0, 4.0, b + c);
+    assert!(upper.is_nan());
+    // The crank is 0.001 too short for the rocker to follow all the way round on its branch,
+    // and passes on the other one: twice round, or not.
+    let found = range(&four_bar(1.0, b, c, 4.0, 50.0).session, "crank");
+    assert!(matches!(found.reach, Reach::Full(_)) && found.change_points.is_empty(), "{found:?}");
+    let lower = reaching(1.0, 4.0, 4.0 - 0.999);
+    let upper = reaching(1.0, 4.0, 4.0 + 0.999);
+    assert!(lower.is_finite() || upper.is_finite());
+    let found = range(&four_bar(1.0, 4.0, 0.999, 4.0, 50.0).session, "crank");
+    assert!(
+        matches!(found.reach, Reach::Between(End::DeadPoint(_), End::DeadPoint(_))),
+        "{found:?}"
+    );
+}
+
+fn slider_crank(crank: f64, rod: f64, offset: f64, theta: f64, slide: &str) -> Talking {
+    Talking::after(&format!(
+        "point A = (0, 0) frozen, X = (-20, {offset}) frozen, Y = (20, {offset}) frozen
+         point B = polar({crank}, {theta}deg), C = B + ({rod}, 0)
+         crank: motor A B radius {crank} speed 1rev phase {theta}deg
+         length B C = {rod}
+         {slide}
+         solve within 1e-11"
+    ))
+}
+
+#[test]
+fn slider_cranks_agree_with_closed_forms() {
+    let on = "glider C on X Y unbounded";
+    check_full(&slider_crank(1.0, 2.0, 0.5, 30.0, on), &[]);
+    let upper = (0.6_f64).asin().to_degrees();
+    check_ends(&slider_crank(1.0, 0.6, 0.0, 10.0, on), -upper, upper);
+    let upper = (0.8_f64).asin().to_degrees();
+    let lower = (0.3 - 0.5_f64).asin().to_degrees();
+    check_ends(&slider_crank(1.0, 0.5, 0.3, 10.0, on), lower, upper);
+    check_full(&slider_crank(1.0, 1.0, 0.0, 30.0, on), &[90.0, 90.0]);
+}
+
+#[test]
+fn an_end_stop_stops_the_crank_where_it_says() {
+    let mut talking =
+        slider_crank(1.0, 2.0, 0.0, 90.0, "point Z = (2.5, 0) frozen; s: glider C on X Z");
+    let found = range(&talking.session, "crank");
+    let Reach::Between(End::Stop(from, _), End::Stop(to, _)) = found.reach else {
+        panic!("{found:?}")
+    };
+    let at = (0.65_f64).acos().to_degrees();
+    assert!((from.to_degrees() - at).abs() < 1e-9, "{}", from.to_degrees() - at);
+    assert!((to.to_degrees() - (360.0 - at)).abs() < 1e-9, "{}", to.to_degrees());
+    assert_eq!(
+        talking.ask("limits crank"),
+        ["crank turns from 49.458398126 deg, where s stops it, to 310.541601874 deg, \
+          where s stops it; it is at 90 deg"]
+    );
+}
+
+#[test]
+fn a_cord_ends_the_way_too() {
+    let talking = Talking::after(
+        "point A = (0, 0) frozen, W = (-3, 0) frozen, B = (1, 0)
+         crank: motor A B radius 1 speed 1rev
+         cord: length W B >= 2.5
+         solve",
+    );
+    let found = range(&talking.session, "crank");
+    let Reach::Between(End::Stop(from, 1), End::Stop(to, 1)) = found.reach else {
+        panic!("{found:?}")
+    };
+    let at = std::f64::consts::PI - ((1.0 + 9.0 - 6.25) / 6.0_f64).acos();
+    assert!((from + at).abs() < 1e-11 && (to - at).abs() < 1e-11, "{from} {to} {at}");
+}
+
+#[test]
+fn geared_motors_turn_until_what_they_drive_stops() {
+    // The second wheel carries the input of a rocker; the first turns four times as far.
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, P = (1, 0), A = (5, 0) frozen, B = A + polar(3, 60deg)
+         crank: motor O P radius 1 speed 1rev
+         cog O P, A B ratio -4
+         point D = (9, 0) frozen, C = B + (1, 1)
+         length A B = 3; length B C = 2; length C D = 3.5
+         solve within 1e-11",
+    );
+    let found = range(&talking.session, "crank");
+    let Reach::Between(End::DeadPoint(from), End::DeadPoint(to)) = found.reach else {
+        panic!("{found:?}")
+    };
+    let swing = reaching(3.0, 4.0, 5.5) - reaching(3.0, 4.0, 1.5);
+    assert!(((to - from).to_degrees() - 4.0 * swing).abs() < 1e-8, "{}", (to - from).to_degrees());
+    assert_eq!(talking.ask("limits crank").len(), 1);
+}
+
+#[test]
+fn what_else_time_drives_is_held() {
+    let mut talking = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
+    talking.run("change crank speed 0rev\nchange length1 = 2.5 + 0.5 * time\nset dt 0.1\nstep 10");
+    let upper = reaching(3.0, 4.0, 5.5);
+    check_ends(&talking, -upper, upper);
+}
+
+#[test]
+fn limits_says_what_it_cannot_tell() {
+    let mut chain = Talking::after(
+        "point A = (0, 0) frozen, B = (1, 0), C = (2, 1), D = (3, 0), E = (3.5, 0) frozen
+         crank: motor A B radius 1 speed 1rev
+         length B C = 1; length C D = 1; length D E = 1
+         solve",
+    );
+    let told = chain.ask("limits crank");
+    assert_eq!(
+        told,
+        ["it cannot be told how far crank turns: another freedom leaves the motion open"]
+    );
+    let mut loose = Talking::after(
+        "point A = (0, 0) frozen, B = (1, 0), C = (2, 0)\ncrank: motor A B speed 1rev\nlength B C",
+    );
+    assert_eq!(loose.ask("limits crank"), ["crank turns fully"]);
+    let mut broken = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
+    broken.run("change length2 = 0.1\nsolve");
+    let told = broken.ask("limits crank");
+    assert_eq!(told, ["it cannot be told how far crank turns: the constraints do not hold now"]);
+    let mut off = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
+    assert_eq!(off.ask("off crank; limits crank"), ["crank is switched off"]);
+    assert!(off.execute("limits length1").is_err());
+    let mut measured = four_bar(1.0, 3.5, 3.0, 4.0, 20.0);
+    let told = measured.ask("change length1 = 3.5 + 0.001 * C.x; limits crank");
+    assert_eq!(told, ["it cannot be told how far crank turns: length1 is measured on the pose"]);
+}
+
+#[test]
+fn a_jansen_leg_turns_fully() {
+    let script = include_str!("../scripts/hard/jansen.link");
+    let mut talking = Talking::after(&format!("{script}\nsolve"));
+    let told = talking.ask("limits motor1");
+    assert_eq!(told, ["motor1 turns fully"]);
+}
+
+/// A rocker that meets its dead point at 86.41 degrees, a degree a frame.
+fn run_into(policy: &str) -> Talking {
+    let mut talking = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
+    talking.run(&format!("set dt 1/360\nset dead-points {policy}"));
+    talking.talk.told();
+    talking
+}
+
+#[test]
+fn a_held_motor_says_where_its_dead_point_is_once_and_picks_up_again() {
+    let mut talking = run_into("hold");
+    talking.run("step 60\nstep 20");
+    let told = talking.talk.told();
+    let met: Vec<_> = told.iter().filter(|t| t.contains("dead point")).collect();
+    let at = reaching(3.0, 4.0, 5.0);
+    let at = format!("{}", (at * 1e9).round() / 1e9);
+    let expected = format!(
+        "crank meets a dead point at {at} deg in frame 47; the best fit is held until it can go on"
+    );
+    assert_eq!(met, [&expected], "{told:?}");
+    // The dead points lie at +-86.4: it comes in again from the other side.
+    talking.run("step 153\nstep 10 within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
+}
+
+#[test]
+fn a_run_may_end_at_the_last_good_frame() {
+    let mut talking = run_into("stop");
+    talking.run("trace C\nstep 60");
+    assert_eq!(talking.session.world().clock().frame, 46);
+    assert_eq!(talking.session.world().traces()[0].samples.len(), 46);
+    let told = talking.talk.told();
+    assert!(told[0].ends_with("deg: stopped after 46 of 60 frames"), "{told:?}");
+    talking.run("assert distance(C, D) = 2.5 within 1e-9\nassert angle(A, B) = 86deg within 1e-9");
+    talking.run("step 3\nundo 2\nassert angle(A, B) = 40deg within 1e-9");
+}
+
+#[test]
+fn a_motor_may_turn_back() {
+    let mut talking = run_into("reverse");
+    talking.run("step 60");
+    let told = talking.talk.told();
+    assert!(told.len() == 1 && told[0].ends_with("in frame 47; it turns back"), "{told:?}");
+    talking.run("assert angle(A, B) = 72deg within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
+    let kept = talking.session.to_script();
+    assert!(kept.contains("set dead-points reverse"), "{kept}");
+    let mut again = Talking::after(&kept);
+    for both in [&mut talking, &mut again] {
+        both.run("step 500");
+    }
+    assert_eq!(talking.session.to_script(), again.session.to_script());
+    talking.run("undo 2\nassert angle(A, B) = 40deg within 1e-9\nstep 10\nassert angle(A, B) = 50deg within 1e-9");
+    talking.run("undo\nredo\nassert angle(A, B) = 50deg within 1e-9");
+}
+
+#[test]
+fn a_speed_that_is_an_expression_is_not_reversed() {
+    let mut talking = run_into("reverse");
+    talking.run("change crank speed 1rev + 0 * time\nstep 60");
+    let told = talking.talk.told();
+    assert!(
+        told[0].ends_with("the speed of crank is an expression and cannot be reversed"),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn an_unknown_way_to_meet_a_dead_point_lists_the_known() {
+    let mut talking = run_into("hold");
+    let problem = talking.execute("set dead-points revers").unwrap_err();
+    assert_eq!(&*problem.message, "`revers` is not what happens at a dead point");
+    assert_eq!(problem.helps, ["did you mean `reverse`?"]);
+}
+
+#[test]
+fn a_jump_to_the_other_branch_is_not_silent() {
+    // Dragged in one frame past a place that is out of reach: nothing says on which side C
+    // comes out, but if it changed sides that is told.
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (2, 0) frozen, C = (1, 0.4)
+         length A C = 1.2; length B C = 1.1
+         solve
+         drag B to (-2, -0.1) over 1",
+    );
+    let told = talking.talk.told();
+    let is_over = talking.session.world().points().column()[2].y < 0.0;
+    assert_eq!(told.iter().any(|t| t.contains("may have changed branch")), is_over, "{told:?}");
+    talking.run("drag B to (2, 0) over 1\ndrag B to (-2, -0.1) over 100");
+}
