@@ -54,9 +54,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
-            || island.has_velocities())
-        && island.watch.turned_over(&island.x).is_none()
+        && (island.has_velocities()
+            || attempt.is_safe(motion_since(island, island.history.origin()), limits)
+                && island.watch.turned_over(&island.x).is_none())
     {
         return accept(island, attempt);
     }
