@@ -8,4 +8,5 @@ pub mod render;
 pub mod repl;
 pub mod session;
 pub mod solve;
+pub mod study;
 pub mod world;

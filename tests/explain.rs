@@ -106,7 +106,10 @@ fn duplicates_name_what_they_repeat() {
         talking.ask("check")[1..3],
         ["redundant: second, implied by first", "redundant: third, implied by first"]
     );
-    assert_eq!(talking.ask("why second"), ["second is satisfied", "it is redundant: first implies it"]);
+    assert_eq!(
+        talking.ask("why second"),
+        ["second is satisfied", "it is redundant: first implies it"]
+    );
     assert_eq!(talking.ask("why first"), ["first is satisfied"]);
 }
 
@@ -179,7 +182,8 @@ fn carry_out(script: &str, name: &str, n_commands: usize) -> (String, String) {
 }
 
 /// A rectangle whose diagonal does not fit.
-const SQUARE: &str = "point A = (0, 0) frozen, B = (1000, 0) frozen, C = (1000, 1000), D = (0, 1000)
+const SQUARE: &str =
+    "point A = (0, 0) frozen, B = (1000, 0) frozen, C = (1000, 1000), D = (0, 1000)
     bc: length B C = 1000
     cd: length C D = 1000
     da: length D A = 1000
@@ -191,10 +195,7 @@ const SQUARE: &str = "point A = (0, 0) frozen, B = (1000, 0) frozen, C = (1000, 
 fn repairs_are_exact_for_changes_of_any_size() {
     let (first, ways) = carry_out(SQUARE, "diag", 2);
     assert_eq!(first, "diag is off by 299: it cannot hold together with bc and square");
-    assert_eq!(
-        ways,
-        "shorten diag by 585.79, lengthen bc by 732.05, or drop bc, square or diag"
-    );
+    assert_eq!(ways, "shorten diag by 585.79, lengthen bc by 732.05, or drop bc, square or diag");
 }
 
 #[test]
@@ -262,7 +263,10 @@ fn why_says_where_a_point_can_go() {
          ab: length A B = 2
          point E = (4, 1); xe: length X E = 1; x: coordinate E at (4, 1)",
     );
-    assert_eq!(talking.ask("why B"), ["B can move along -60 deg and back only: ab stops it across"]);
+    assert_eq!(
+        talking.ask("why B"),
+        ["B can move along -60 deg and back only: ab stops it across"]
+    );
     assert_eq!(talking.ask("why C"), ["C can move in every direction"]);
     assert_eq!(talking.ask("why A"), ["A is frozen"]);
     assert!(talking.ask("why E")[0].starts_with("E cannot move: "));
@@ -277,7 +281,8 @@ fn check_says_what_the_program_says() {
         let out = Command::new(program).arg("check").arg(&script).args(more).output().unwrap();
         (out.status.code(), String::from_utf8(out.stdout).unwrap())
     };
-    let sound = "point A = (0, 0) frozen, B = (1, 0)\nfirst: length A B = 1\nsecond: length A B = 1\n";
+    let sound =
+        "point A = (0, 0) frozen, B = (1, 0)\nfirst: length A B = 1\nsecond: length A B = 1\n";
     let (status, text) = run(sound, &[]);
     assert_eq!(status, Some(0));
     assert_eq!(
@@ -303,7 +308,10 @@ fn check_says_what_the_program_says() {
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(found["conflicting"][0]["constraints"], serde_json::json!(["bc", "square", "diag"]));
     assert_eq!(found["status"], "best-fit");
-    assert_eq!(run("point A = (0, 0) frozen, B = (2, 0) frozen\nl: length A B = 1\n", &[]).0, Some(1));
+    assert_eq!(
+        run("point A = (0, 0) frozen, B = (2, 0) frozen\nl: length A B = 1\n", &[]).0,
+        Some(1)
+    );
     assert_eq!(run("lenght A B\n", &[]).0, Some(2));
     std::fs::remove_file(&script).unwrap();
 }

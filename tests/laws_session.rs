@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::Seat;
+use desk::{Seat, check_same};
 use proptest::prelude::*;
 
 /// What there is before anything random happens: a four-bar with a driven crank, an actuator,
@@ -99,7 +99,7 @@ fn tries(seat: &mut Seat, statement: &str) -> bool {
     let before = seat.world();
     let is_done = seat.run("random", statement).is_ok();
     if !is_done {
-        assert_eq!(seat.world(), before, "`{statement}` failed and changed the world");
+        check_same(&seat.world(), &before, &format!("`{statement}` failed"));
     }
     is_done
 }
@@ -114,7 +114,7 @@ fn scene() -> Seat {
 fn loaded(script: &str) -> Seat {
     let mut seat = Seat::new(".");
     if let Err(problem) = seat.run("saved", script) {
-        panic!("a saved session cannot be read:\n{}\n{script}", seat.drawn(&problem));
+        panic!("a saved session cannot be read:\n{}", seat.drawn(&problem));
     }
     seat
 }
@@ -137,7 +137,7 @@ fn undo_and_redo(statements: &[String]) {
             }
             assert!(seat.run("walk", command).is_ok(), "`{command}` led nowhere");
         }
-        assert_eq!(seat.world(), *wanted, "after `{command}`");
+        check_same(&seat.world(), wanted, &format!("after `{command}`"));
     };
     worlds.iter().rev().for_each(|world| walk("undo", world));
     worlds.iter().for_each(|world| walk("redo", world));
@@ -150,16 +150,28 @@ fn saved_goes_on(before: &[String], after: &[String]) {
     }
     let script = seat.world();
     let mut other = loaded(&script);
-    assert_eq!(other.world(), script, "a loaded world saves otherwise");
+    check_same(&other.world(), &script, "a loaded world saves otherwise");
     for statement in after {
         let is_done = tries(&mut seat, statement);
         assert_eq!(tries(&mut other, statement), is_done, "`{statement}` knows what was loaded");
-        assert_eq!(other.world(), seat.world(), "after `{statement}`, from\n{script}");
+        check_same(&other.world(), &seat.world(), &format!("after `{statement}`"));
+    }
+}
+
+/// As many cases as a test run has time for; `PROPTEST_CASES` asks for more.
+fn config() -> ProptestConfig {
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64);
+    let failure_persistence = None;
+    ProptestConfig {
+        cases,
+        failure_persistence,
+        max_shrink_iters: 2_000,
+        ..ProptestConfig::default()
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 600, ..ProptestConfig::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn undo_takes_back_and_redo_brings_back_to_the_bit(statements in statements(16)) {
@@ -180,6 +192,6 @@ proptest! {
             assert_eq!(tries(&mut looked_at, statement), is_done);
             looked_at.talk("list; show B; print velocity(B), time; set; check; assert B = A");
         }
-        prop_assert_eq!(looked_at.world(), seat.world());
+        check_same(&looked_at.world(), &seat.world(), "looked at");
     }
 }

@@ -109,7 +109,10 @@ fn a_linkage_that_nearly_folds_flat_is_told_from_one_that_does() {
     let upper = reaching(1.0, 4.0, 4.0 + 0.999);
     assert!(lower.is_finite() || upper.is_finite());
     let found = range(&four_bar(1.0, 4.0, 0.999, 4.0, 50.0).session, "crank");
-    assert!(matches!(found.reach, Reach::Between(End::DeadPoint(_), End::DeadPoint(_))), "{found:?}");
+    assert!(
+        matches!(found.reach, Reach::Between(End::DeadPoint(_), End::DeadPoint(_))),
+        "{found:?}"
+    );
 }
 
 fn slider_crank(crank: f64, rod: f64, offset: f64, theta: f64, slide: &str) -> Talking {
@@ -137,7 +140,8 @@ fn slider_cranks_agree_with_closed_forms() {
 
 #[test]
 fn an_end_stop_stops_the_crank_where_it_says() {
-    let mut talking = slider_crank(1.0, 2.0, 0.0, 90.0, "point Z = (2.5, 0) frozen; s: glider C on X Z");
+    let mut talking =
+        slider_crank(1.0, 2.0, 0.0, 90.0, "point Z = (2.5, 0) frozen; s: glider C on X Z");
     let found = range(&talking.session, "crank");
     let Reach::Between(End::Stop(from, _), End::Stop(to, _)) = found.reach else {
         panic!("{found:?}")
@@ -205,8 +209,13 @@ fn limits_says_what_it_cannot_tell() {
          solve",
     );
     let told = chain.ask("limits crank");
-    assert_eq!(told, ["it cannot be told how far crank turns: another freedom leaves the motion open"]);
-    let mut loose = Talking::after("point A = (0, 0) frozen, B = (1, 0), C = (2, 0)\ncrank: motor A B speed 1rev\nlength B C");
+    assert_eq!(
+        told,
+        ["it cannot be told how far crank turns: another freedom leaves the motion open"]
+    );
+    let mut loose = Talking::after(
+        "point A = (0, 0) frozen, B = (1, 0), C = (2, 0)\ncrank: motor A B speed 1rev\nlength B C",
+    );
     assert_eq!(loose.ask("limits crank"), ["crank turns fully"]);
     let mut broken = four_bar(3.0, 2.5, 2.5, 4.0, 40.0);
     broken.run("change length2 = 20\nsolve");
@@ -246,8 +255,9 @@ fn a_held_motor_says_where_its_dead_point_is_once_and_picks_up_again() {
     let met: Vec<_> = told.iter().filter(|t| t.contains("dead point")).collect();
     let at = reaching(3.0, 4.0, 5.0);
     let at = format!("{}", (at * 1e9).round() / 1e9);
-    let expected =
-        format!("crank meets a dead point at {at} deg in frame 51; the best fit is held until it can go on");
+    let expected = format!(
+        "crank meets a dead point at {at} deg in frame 51; the best fit is held until it can go on"
+    );
     assert_eq!(met, [&expected], "{told:?}");
     // The dead points lie at +-86.4: it comes in again from the other side.
     talking.run("step 160\nstep 10 within 1e-9\nassert distance(C, D) = 2.5 within 1e-9");
@@ -288,7 +298,10 @@ fn a_speed_that_is_an_expression_is_not_reversed() {
     let mut talking = run_into("reverse");
     talking.run("change crank speed 1rev + 0 * time\nstep 60");
     let told = talking.talk.told();
-    assert!(told[0].ends_with("the speed of crank is an expression and cannot be reversed"), "{told:?}");
+    assert!(
+        told[0].ends_with("the speed of crank is an expression and cannot be reversed"),
+        "{told:?}"
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::thread;
 
-const FOLDERS: [&str; 4] = ["paper", "gallery", "hard", "bench"];
+const FOLDERS: [&str; 5] = ["paper", "study", "gallery", "hard", "bench"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts")
@@ -59,7 +59,10 @@ fn lossy(bytes: &[u8]) -> std::borrow::Cow<'_, str> {
 
 /// The pictures a script says it draws.
 fn pictures(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter_map(|line| line.strip_prefix("svg \"")?.strip_suffix('"'))
+    text.lines().filter_map(|line| {
+        let path = line.strip_prefix("svg \"").or_else(|| line.strip_prefix("plot \""))?;
+        path.split('"').next()
+    })
 }
 
 /// What is wrong with a script, if anything.

@@ -24,9 +24,15 @@ pub struct Arguments {
 pub enum Command {
     /// Run scripts, one after the other, each in a world of its own.
     Run(Batch),
+    /// Tell what accuracy costs in time on a script's own motion: a table, `accuracy.csv` and
+    /// `accuracy.svg`.
+    Accuracy(Study),
     /// Run a script and examine what is there at its end: freedoms, redundant and conflicting
     /// constraints, singular poses. Exit status 1 if something conflicts.
     Check(Examination),
+    /// Run a script and tell which effects its scene has switched on at the end, why, and what
+    /// each costs.
+    Effects(Examination),
 }
 
 /// A script to be examined.
@@ -36,6 +42,23 @@ pub struct Examination {
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Print the findings as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub outside: Outside,
+}
+
+/// A script to study.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// The script; `-` is standard input. What it prints and writes is left out.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Study so many frames, not those of the script's longest run.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub frames: Option<u64>,
+    /// Print a list of JSON objects, not a table.
     #[arg(long)]
     pub json: bool,
     /// How it talks and where it writes.

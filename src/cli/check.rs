@@ -1,30 +1,25 @@
 //! `linkwork check`: what a script makes, examined at its end.
 
-use std::io::{self, Write};
-
 use serde_json::{Value, json};
 
 use super::args::Examination;
-use super::run::{self, Status};
+use super::rehearsal::rehearse;
+use super::run::Status;
 use super::talk;
 use crate::session::Check;
 
 /// Runs a script and says what there is to know about the mechanism at its end.
 pub fn script(examination: &Examination) -> Status {
-    let mut session = run::begin(&examination.outside);
-    let status = run::script(&examination.file, &mut session);
-    talk::flush();
-    if status != Status::Fine {
-        return status;
-    }
-    let check = session.examine();
-    let text = if examination.json {
-        format!("{:#}\n", to_json(&check))
-    } else {
-        check.lines().into_iter().map(|line| line + "\n").collect()
+    let session = match rehearse(&examination.file, &examination.outside) {
+        Ok(session) => session,
+        Err(status) => return status,
     };
-    // Whoever closed the pipe has read enough.
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+    let check = session.examine();
+    if examination.json {
+        talk::answer(&format!("{:#}", to_json(&check)));
+    } else {
+        check.lines().iter().for_each(|line| talk::answer(line));
+    }
     if check.is_sound() { Status::Fine } else { Status::BrokenPromise }
 }
 

@@ -1,11 +1,15 @@
 //! The command line: arguments, exit statuses, files, signals.
 
+mod accuracy;
 mod args;
+mod bar;
 mod check;
+mod effects;
 mod files;
 pub(crate) mod interrupt;
 pub(crate) mod obey;
 mod outside;
+mod rehearsal;
 mod run;
 pub(crate) mod talk;
 
@@ -17,7 +21,9 @@ pub fn run() -> ExitCode {
     interrupt::listen();
     let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
+        Some(args::Command::Accuracy(wish)) => accuracy::accuracy(&wish),
         Some(args::Command::Check(examination)) => check::script(&examination),
+        Some(args::Command::Effects(examination)) => effects::script(&examination),
         None => run::session(&args.session),
     };
     talk::flush();

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::args::Outside;
+use super::bar::Bar;
 use super::{files, interrupt, talk};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::session::Host;
@@ -15,6 +16,7 @@ pub struct Process {
     is_quiet: bool,
     allows_any_path: bool,
     begun: Instant,
+    bar: Bar,
 }
 
 impl Process {
@@ -25,6 +27,7 @@ impl Process {
             is_quiet: outside.quiet,
             allows_any_path: outside.allow_any_path,
             begun: Instant::now(),
+            bar: Bar::default(),
         }
     }
 }
@@ -58,6 +61,12 @@ impl Host for Process {
 
     fn allows_any_path(&self) -> bool {
         self.allows_any_path
+    }
+
+    fn progress(&self, share: f64) {
+        if !self.is_quiet {
+            self.bar.show(share);
+        }
     }
 
     fn seconds(&self) -> f64 {

@@ -29,7 +29,7 @@ pub enum Status {
 }
 
 impl Status {
-    const fn of(problem: &Diagnostic) -> Self {
+    pub const fn of(problem: &Diagnostic) -> Self {
         match problem.kind {
             Kind::Promise => Self::BrokenPromise,
             Kind::Mistake => Self::Mistake,
@@ -64,8 +64,8 @@ pub fn batch(batch: &Batch) -> Status {
     Status::Fine
 }
 
-/// Runs a script in a session.
-pub(super) fn script(file: &Path, session: &mut Session) -> Status {
+/// Runs one script, `-` from standard input, and says what went wrong.
+pub fn script(file: &Path, session: &mut Session) -> Status {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
     let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };

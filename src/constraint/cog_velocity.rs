@@ -122,6 +122,18 @@ impl Relation for CogVelocity {
     fn begin_frame(&mut self, x: &[Point], _dt: f64) {
         self.previous = self.points.map(|p| x[p as usize]);
     }
+
+    fn state(&self) -> Option<Vec<f64>> {
+        Some(self.previous.iter().flat_map(|p| [p.x, p.y]).collect())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let (&[x1, x2, x3, x4], []) = state.as_chunks::<2>()
+            && state.iter().all(|v| v.is_finite())
+        {
+            self.previous = [x1, x2, x3, x4].map(|[x, y]| Point::new(x, y));
+        }
+    }
 }
 
 #[cfg(test)]

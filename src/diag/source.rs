@@ -88,6 +88,11 @@ impl Sources {
         id
     }
 
+    /// The text that was added first.
+    pub fn first(&self) -> Option<&Source> {
+        self.get(SourceId(0))
+    }
+
     /// The text called `id`, if it is one of these.
     pub fn get(&self, id: SourceId) -> Option<&Source> {
         self.all.get(id.0 as usize)

@@ -163,6 +163,20 @@ pub enum Command {
     },
     /// `record stop`
     RecordStop,
+    /// `sample "relaxation" = e`: the next values of a series.
+    Sample {
+        /// Which series.
+        series: Text,
+        /// Its next values, at least one.
+        values: Vec<Expr>,
+    },
+    /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart.
+    Plot {
+        /// The file.
+        path: Text,
+        /// How it looks.
+        parts: Vec<PlotPart>,
+    },
 
     /// `for i in 1..10 { ... }`, both ends included
     For {
@@ -321,6 +335,19 @@ pub enum Expose {
     Every(Expr),
     /// `expose off`
     Off,
+}
+
+/// One part of a `plot`, each at most once.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PlotPart {
+    /// `log`: equal ratios are equally high.
+    Log,
+    /// `title "..."`
+    Title(Text),
+    /// `x "..."`: what the numbers to the right count.
+    X(Text),
+    /// `y "..."`: what the values are.
+    Y(Text),
 }
 
 /// A named group of statements with parameters.

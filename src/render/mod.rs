@@ -33,6 +33,9 @@ mod strip;
 mod style;
 mod view;
 
+// Numbers in lines.
+pub mod chart;
+
 // Figures in motion.
 mod animation;
 mod cast;

@@ -252,7 +252,7 @@ impl Session {
     }
 
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
-        self.solver.rates(&mut self.world, &self.preferences.solve)
+        self.look(crate::solve::Solver::rates)
     }
 
     fn bind_call(

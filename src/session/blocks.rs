@@ -202,12 +202,11 @@ impl Session {
         let saved: PathBuf = self.host.written(Path::new(&*path.value));
         let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
         let beside = folder.join(Path::new(&*path.value));
-        let (file, text) = match self.host.read(&saved) {
-            Ok(text) => (saved, text),
-            Err(_) => {
-                let text = self.read(&beside, path)?;
-                (beside, text)
-            }
+        let (file, text) = if let Ok(text) = self.host.read(&saved) {
+            (saved, text)
+        } else {
+            let text = self.read(&beside, path)?;
+            (beside, text)
         };
         self.clear();
         self.perform_text(&file, &text, span)

@@ -1,8 +1,8 @@
 //! Motors that cannot go on: noticing it, saying so, and what happens then.
 
+use super::Session;
 use super::limits_of::degrees;
 use super::subject::Parts;
-use super::Session;
 use crate::constraint::geometry::wrap;
 use crate::constraint::{Constraint, Field, Point, Relation as _, Turns};
 use crate::solve::mobility::{End, dead_end};

@@ -119,6 +119,7 @@ impl Session {
     fn stop_everything(&mut self) {
         self.stop_recording();
         self.set_memory(Memory::default());
+        self.change(Change::Series(Vec::new()));
         let definitions: Vec<_> = self.definitions.keys().cloned().collect();
         for name in definitions {
             self.change(Change::Definition(name, None));

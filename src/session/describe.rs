@@ -10,7 +10,7 @@ use crate::constraint::{
 use crate::diag::{SourceId, Span, format_number};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
-    Name, Node as Syntax, Pair, Range, Relation,
+    Name, Node as Syntax, Pair, Range, Relation, Text,
 };
 use crate::world::{ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record};
 
@@ -38,8 +38,13 @@ pub(super) fn vector(x: f64, y: f64) -> Expr {
     expr(Syntax::Vector(Box::new([literal(x), literal(y)])))
 }
 
+/// A string with this content.
+pub(super) fn quoted(text: &str) -> Text {
+    Text { value: Arc::from(text), span: NOWHERE }
+}
+
 /// The text of a command.
-pub(super) fn text_of(command: Command) -> String {
+pub(super) fn text_of(command: &Command) -> String {
     command.to_string()
 }
 
@@ -181,14 +186,14 @@ impl Session {
     }
 
     pub(super) fn constraint_text(&self, record: &Record) -> String {
-        text_of(self.constraint_statement(record))
+        text_of(&self.constraint_statement(record))
     }
 
     pub(super) fn parameter_text(&self, id: ParameterId) -> String {
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         let value = self.unbind(&parameter.formula);
         let binding = crate::lang::ast::Binding { name: named(&parameter.name), value };
-        text_of(Command::Let(vec![binding]))
+        text_of(&Command::Let(vec![binding]))
     }
 
     /// What else there is to know of a constraint.

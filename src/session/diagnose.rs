@@ -233,7 +233,10 @@ impl Session {
             let mend = self.mend_by(subject, place, field(change), change)?;
             // A change that was not seen to work is none.
             let mut world = subject.world.clone();
-            world.apply(Edit::Constraint(subject.parts.ids[place], Some(Box::new(mend.record.clone()))));
+            world.apply(Edit::Constraint(
+                subject.parts.ids[place],
+                Some(Box::new(mend.record.clone())),
+            ));
             let after = self.subject_of(world);
             let holds = |&k: &usize| after.violation(k) <= after.slack;
             conflict.constraints.iter().all(holds).then_some(mend)
@@ -273,12 +276,10 @@ impl Session {
             }
         };
         let is_angle = kind == Kind::Orientation;
-        let bounds = Bounds {
-            lo: record.constraint.get(Field::Lo)?,
-            hi: record.constraint.get(Field::Hi)?,
-        };
+        let bounds =
+            Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
         let parts = vec![ChangePart::Relation(self.relation(&record, bounds, is_angle))];
-        let command = text_of(Command::Change { name: super::describe::named(&name), parts });
+        let command = text_of(&Command::Change { name: super::describe::named(&name), parts });
         // A radian counts as the length of what hangs together.
         let effort = if is_angle { change.abs() * subject.size() } else { change.abs() };
         Some(Mend { text, command, record, effort })
@@ -301,19 +302,30 @@ impl Session {
         let subject = self.subject();
         let found = subject.with(|scene| freedom(scene, id.0));
         let held = subject.names(&found.held_by);
-        let verb = |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
+        let verb =
+            |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
         let held_by = listed(&held, "and");
         vec![match found.directions {
             Directions::All => format!("{name} can move in every direction"),
             Directions::None if held.is_empty() => format!("{name} cannot move"),
-            Directions::None => format!("{name} cannot move: {held_by} {} it", verb("holds", "hold")),
+            Directions::None => {
+                format!("{name} cannot move: {held_by} {} it", verb("holds", "hold"))
+            }
             Directions::Along(v) => {
                 // Both senses are meant: the angle of the one that points to the right.
                 let angle = v.angle().to_degrees();
-                let angle = if angle <= -90.0 { angle + 180.0 } else if angle > 90.0 { angle - 180.0 } else { angle };
+                let angle = if angle <= -90.0 {
+                    angle + 180.0
+                } else if angle > 90.0 {
+                    angle - 180.0
+                } else {
+                    angle
+                };
                 let angle = format_digits(if angle.abs() < 1e-9 { 0.0 } else { angle }, 5);
                 let stops = verb("stops", "stop");
-                format!("{name} can move along {angle} deg and back only: {held_by} {stops} it across")
+                format!(
+                    "{name} can move along {angle} deg and back only: {held_by} {stops} it across"
+                )
             }
         }]
     }

@@ -39,6 +39,9 @@ pub trait Host {
         false
     }
 
+    /// Told how much of a long piece of work is done, from 0 to 1.
+    fn progress(&self, _share: f64) {}
+
     /// Seconds of wall time since some fixed moment; for promises and receipts only.
     fn seconds(&self) -> f64;
 }

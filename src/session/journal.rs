@@ -1,6 +1,7 @@
 //! What was done, so that it can be undone: every command is one transaction.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Preferences;
@@ -20,9 +21,13 @@ pub enum Change {
     /// Sets what a definition is, or that there is none.
     Definition(Arc<str>, Option<Arc<Definition>>),
     /// Sets what the solver remembers.
-    Memory(Box<Memory>),
+    Memory(Rc<Memory>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
+    /// Appends a value to a series, or takes the last one away.
+    Sample(Arc<str>, Option<f64>),
+    /// Sets all series.
+    Series(super::series::SeriesList),
     /// Sets what the recorders have taken.
     Reels(Vec<Reel>),
 }
@@ -32,7 +37,6 @@ impl Change {
         let inside = match self {
             Self::World(Edit::Motion(motion)) => motion.n_bytes(),
             Self::World(Edit::Constraint(_, Some(_))) => size_of::<crate::world::Record>(),
-            Self::Memory(memory) => memory.n_bytes(),
             _ => 0,
         };
         size_of::<Self>() + inside
@@ -57,8 +61,6 @@ pub enum Part {
     Parameter(ParameterId),
     /// The clock.
     Clock,
-    /// What the solver remembers.
-    Memory,
     /// All that running changes.
     Motion,
 }
@@ -79,8 +81,13 @@ pub struct Journal {
     pub current: Vec<Change>,
     /// Whether `current` holds all that running changes already: once is enough.
     pub has_motion: bool,
+    /// Whether `current` holds what the solver remembered.
+    pub has_memory: bool,
     /// What `current` takes back already; anew once it holds all that running changes.
     pub covered: BTreeSet<Part>,
+    /// The last of `done` that the solver has not taken in, so that none of them says what it
+    /// remembered before.
+    n_unseen: usize,
     done: VecDeque<(Entry, usize)>,
     undone: Vec<Entry>,
     n_bytes: usize,
@@ -96,15 +103,31 @@ impl Journal {
         }
     }
 
+    /// Whether there are commands that the solver has not taken in.
+    pub const fn has_unseen(&self) -> bool {
+        self.n_unseen > 0
+    }
+
+    /// Adds what brings the solver back to all commands that it is about to take in.
+    pub fn see(&mut self, change: impl Fn() -> Change) {
+        let n_unseen = std::mem::take(&mut self.n_unseen).min(self.done.len());
+        for (entry, _) in self.done.range_mut(self.done.len() - n_unseen..) {
+            entry.changes.push(change());
+        }
+    }
+
     /// Ends the command under way without a trace; gives what takes it back.
     pub fn take_current(&mut self) -> Vec<Change> {
         self.has_motion = false;
+        self.has_memory = false;
         self.covered.clear();
         std::mem::take(&mut self.current)
     }
 
     /// Keeps a command as the last one done.
     pub fn keep(&mut self, entry: Entry) {
+        let is_seen = entry.changes.iter().any(|change| matches!(change, Change::Memory(_)));
+        self.n_unseen = if is_seen { 0 } else { self.n_unseen + 1 };
         let n_bytes = entry.changes.iter().map(Change::n_bytes).sum();
         self.n_bytes += n_bytes;
         self.done.push_back((entry, n_bytes));
@@ -119,6 +142,7 @@ impl Journal {
     /// The last command done.
     pub fn pop_done(&mut self) -> Option<Entry> {
         let (entry, n_bytes) = self.done.pop_back()?;
+        self.n_unseen = self.n_unseen.saturating_sub(1);
         self.n_bytes -= n_bytes;
         Some(entry)
     }

@@ -4,7 +4,7 @@
 //! edits, lets the solver work, and hands what is to be printed or written to a [`Host`].
 //! It never touches a terminal, and never leaves half an edit behind.
 
-mod analysis;
+mod accuracy;
 mod bind;
 mod blocks;
 mod change;
@@ -14,8 +14,10 @@ mod delete;
 mod describe;
 mod diagnose;
 mod effects;
+mod fingerprint;
 mod host;
 mod journal;
+mod laps;
 mod limits;
 mod limits_of;
 mod look;
@@ -23,11 +25,13 @@ mod outside;
 mod perform;
 mod pictures;
 mod points;
+mod receipt;
 mod recorder;
 mod restore;
 mod run;
 mod save;
 mod scope;
+mod series;
 mod settings;
 mod subject;
 mod transaction;
@@ -36,12 +40,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+pub use accuracy::Telling;
 pub use dead_point::AtDeadPoint;
 pub use diagnose::{Check, Unsatisfiable};
 pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
-pub use run::Summary;
+pub use receipt::{Summary, Way};
 pub use settings::Preferences;
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
@@ -49,15 +54,19 @@ use crate::lang::ast::{Definition, Statement};
 use crate::solve::Solver;
 use crate::world::World;
 use journal::Journal;
+use laps::Laps;
 use outside::Override;
 use recorder::Recorder;
 use scope::Scope;
+use series::SeriesList;
 
 /// A world with everything that a user can say to it.
 pub struct Session {
     host: Box<dyn Host>,
     world: World,
     solver: Solver,
+    /// Whether the solver has yet to take in what it was told to remember.
+    is_behind: bool,
     preferences: Preferences,
     definitions: BTreeMap<Arc<str>, Arc<Definition>>,
     recorders: Vec<Recorder>,
@@ -79,6 +88,10 @@ pub struct Session {
     /// Files to be written when the command under way has succeeded.
     outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     last_run: Option<Summary>,
+    /// What the command under way has run so far.
+    run: Option<Summary>,
+    laps: Laps,
+    series: SeriesList,
 }
 
 /// How a statement ended.
@@ -99,6 +112,7 @@ impl Session {
             host,
             world: World::new(),
             solver: Solver::new(),
+            is_behind: false,
             preferences: Preferences::default(),
             definitions: BTreeMap::new(),
             recorders: Vec::new(),
@@ -113,6 +127,9 @@ impl Session {
             overrides: BTreeMap::new(),
             outbox: Vec::new(),
             last_run: None,
+            run: None,
+            laps: Laps::default(),
+            series: SeriesList::new(),
         }
     }
 
@@ -163,6 +180,8 @@ impl Session {
         });
         match result {
             Ok(flow) => {
+                self.end_laps();
+                self.give_receipt();
                 let label = self.label(statement.span);
                 self.journal.commit(&label);
                 Ok(flow)

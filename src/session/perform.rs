@@ -60,7 +60,7 @@ impl Session {
             Command::Why(name) => self.why(name)?,
             Command::Limits(name) => self.limits(name)?,
             Command::Effects => self.effects()?,
-            Command::Accuracy(promise) => self.accuracy(promise, span)?,
+            Command::Accuracy(promise) => return self.accuracy(promise, span),
             Command::Assert { left, relation, within } => {
                 self.assert(left, relation, within.as_ref(), span)?;
             }
@@ -70,6 +70,8 @@ impl Session {
             Command::Expose(expose) => self.expose(expose)?,
             Command::Svg(path) => self.svg(path)?,
             Command::Record { path, every } => self.record(path, every.as_ref())?,
+            Command::Sample { series, values } => self.sample(series, values)?,
+            Command::Plot { path, parts } => self.plot(path, parts)?,
             Command::RecordStop => self.record_stop(span)?,
             Command::For { variable, range, body } => {
                 return self.repeat(variable, range, body, span);

@@ -7,7 +7,7 @@ use super::recorder::{Format, Recorder};
 use super::{Diagnostic, Session};
 use crate::diag::Span;
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
-use crate::render::{Animation, Options, Scene, View, svg, svg_with_view};
+use crate::render::{Animation, Scene, View, svg, svg_with_view};
 use crate::world::{Edit, Trace};
 
 impl Session {
@@ -131,7 +131,7 @@ impl Session {
             problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
         })?;
         let scene = Scene::new(&self.world);
-        let picture = svg(&scene, &Options::default());
+        let picture = svg(&scene, &self.picture_options());
         self.hand_over(file, picture.into_bytes(), path.span);
         Ok(())
     }
@@ -184,6 +184,10 @@ impl Session {
 
     /// Ends all recordings and hands over their files.
     pub(super) fn stop_recording(&mut self) {
+        if self.recorders.is_empty() {
+            return;
+        }
+        let options = self.picture_options();
         for recorder in &self.recorders {
             match recorder.format {
                 Format::Table => {
@@ -194,14 +198,14 @@ impl Session {
                 Format::Frames => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
                     for (k, (scene, _)) in recorder.scenes().enumerate() {
-                        let picture = svg_with_view(scene, &view, &Options::default());
+                        let picture = svg_with_view(scene, &view, &options);
                         let path = recorder.path.join(format!("frame-{k:04}.svg"));
                         self.outbox.push((path, picture.into_bytes(), recorder.span));
                     }
                 }
                 Format::Movie => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
-                    let mut movie = Animation::new(view, &Options::default());
+                    let mut movie = Animation::new(view, &options);
                     for (scene, time) in recorder.scenes() {
                         movie.push(scene, time);
                     }

@@ -33,14 +33,12 @@ impl Session {
             given.is_used = true;
             formula = Formula::constant(given.value);
         }
-        match self.world.names().get(&text) {
-            Some(Entity::Parameter(id)) => self.redefine(id, formula, value),
-            _ => {
-                let text = self.declare(name)?;
-                let id = self.world.next_parameter();
-                self.set_parameter(id, text, formula)
-            }
+        if let Some(Entity::Parameter(id)) = self.world.names().get(&text) {
+            return self.redefine(id, formula, value);
         }
+        let text = self.declare(name)?;
+        let id = self.world.next_parameter();
+        self.set_parameter(id, text, formula)
     }
 
     /// Gives a parameter that exists another expression.

@@ -43,8 +43,7 @@ impl Session {
     }
 
     /// The script that makes this world, its settings and its state.
-    pub fn to_script(&mut self) -> String {
-        self.attend();
+    pub fn to_script(&self) -> String {
         let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
@@ -59,8 +58,13 @@ impl Session {
         self.save_constraints(&mut script);
         self.save_looks(&mut script);
         for (owner, values) in self.solver.memory().to_numbers() {
-            let name = owner.map(|id| self.world.points().name(id).to_owned());
-            restore(&mut script, what::MEMORY, name.as_deref(), numbers(&values));
+            // What was remembered of things that are deleted since is lost on all others.
+            let points = self.world.points();
+            let Some(name) = owner.filter(|id| points.is_alive(*id)).map(|id| points.name(id))
+            else {
+                continue;
+            };
+            restore(&mut script, what::MEMORY, Some(name), numbers(&values));
         }
         script
     }
@@ -179,6 +183,10 @@ impl Session {
             });
             restore(script, what::GHOST, None, places.flatten().collect());
         }
+        for (series, values) in &self.series {
+            let series = super::describe::quoted(series);
+            line(script, Command::Sample { series, values: numbers(values) });
+        }
         if let Some(every) = self.preferences.expose_every {
             line(script, Command::Expose(Expose::Every(literal(every as f64))));
         }
@@ -190,8 +198,9 @@ pub(super) fn ordinals(world: &World) -> Vec<PointId> {
     world.points().ids().collect()
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
 fn line(script: &mut String, command: Command) {
-    script.push_str(&text_of(command));
+    script.push_str(&text_of(&command));
     script.push('\n');
 }
 

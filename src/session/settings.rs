@@ -108,6 +108,8 @@ impl Session {
                     _ => return Err(unknown_setting(setting)),
                 }
                 self.change(Change::Preferences(Box::new(new)));
+                // What counted as solved may not any more; that is part of this command.
+                self.attend();
                 Ok(())
             }
         }

@@ -1,10 +1,12 @@
 //! A command is a transaction: what it changed can be taken back, and done again.
 
+use std::rc::Rc;
+
 use super::Session;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use crate::solve::Memory;
-use crate::world::Edit;
+use crate::solve::{Memory, Settings, Solver};
+use crate::world::{Edit, World};
 
 impl Session {
     /// Makes a reversible change; gives the change that takes it back.
@@ -23,9 +25,10 @@ impl Session {
                 Change::Definition(name, old)
             }
             Change::Memory(memory) => {
-                let old = self.solver.memory();
-                self.solver.set_memory(*memory);
-                Change::Memory(Box::new(old))
+                let old = Rc::new(self.solver.memory());
+                self.solver.set_memory(Memory::clone(&memory));
+                self.is_behind = true;
+                Change::Memory(old)
             }
             Change::Recorder(idx, Some(recorder)) => {
                 self.recorders.insert(idx, *recorder);
@@ -34,6 +37,8 @@ impl Session {
             Change::Recorder(idx, None) => {
                 Change::Recorder(idx, Some(Box::new(self.recorders.remove(idx))))
             }
+            Change::Sample(series, value) => self.swap_sample(series, value),
+            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),
@@ -88,11 +93,9 @@ impl Session {
 
     /// Sets what the solver remembers, as part of the command under way.
     pub(super) fn set_memory(&mut self, memory: Memory) {
-        if self.journal.has_motion || !self.journal.covered.insert(Part::Memory) {
-            self.solver.set_memory(memory);
-        } else {
-            self.change(Change::Memory(Box::new(memory)));
-        }
+        self.note_memory();
+        self.solver.set_memory(memory);
+        self.is_behind = true;
     }
 
     /// Keeps all that running changes, before the command under way lets time pass or the
@@ -105,21 +108,57 @@ impl Session {
         let reels = self.recorders.iter().map(Recorder::mark).collect();
         self.attend();
         let motion = Box::new(self.world.motion());
-        self.journal.current.push(Change::Memory(Box::new(self.solver.memory())));
         self.journal.current.push(Change::World(Edit::Motion(motion)));
         self.journal.current.push(Change::Reels(reels));
     }
 
-    /// Lets the solver take in what was edited, so that what it remembers is of the world as
-    /// it is.
+    /// Keeps what the solver remembers, before the command under way has it take in an edit.
+    pub(super) fn note_memory(&mut self) {
+        if !std::mem::replace(&mut self.journal.has_memory, true) {
+            self.note_unseen();
+            let memory = Rc::new(self.solver.memory());
+            self.journal.current.push(Change::Memory(memory));
+        }
+    }
+
+    /// Commands that the solver has not seen yet are taken back to what it remembers now.
+    fn note_unseen(&mut self) {
+        if self.journal.has_unseen() {
+            let memory = Rc::new(self.solver.memory());
+            self.journal.see(|| Change::Memory(memory.clone()));
+        }
+    }
+
+    /// Lets the solver take in what was edited, as part of the command under way.
     pub(super) fn attend(&mut self) {
+        self.note_memory();
+        self.is_behind = false;
         let Self { solver, world, preferences, .. } = self;
         solver.attend(world, &preferences.solve);
+    }
+
+    /// Asks the solver something. What it has to take in for that, it forgets again, so that
+    /// looking changes nothing of what comes after.
+    pub(super) fn look<T>(
+        &mut self,
+        ask: impl FnOnce(&mut Solver, &mut World, &Settings) -> T,
+    ) -> T {
+        let Self { solver, world, preferences, .. } = self;
+        let is_behind = self.is_behind || !world.is_untouched();
+        let memory = is_behind.then(|| solver.memory());
+        let answer = ask(solver, world, &preferences.solve);
+        if let Some(memory) = memory {
+            solver.set_memory(memory);
+            self.is_behind = true;
+        }
+        answer
     }
 
     /// Takes back what the command under way did.
     pub(super) fn roll_back(&mut self) {
         self.outbox.clear();
+        self.run = None;
+        self.laps.give_up();
         self.scopes.truncate(1);
         self.depth = 0;
         self.n_rounds = 1.0;
@@ -133,7 +172,6 @@ impl Session {
 
     /// Takes back one command, or does it again: gives what was taken back.
     fn invert(&mut self, entry: Entry) -> Entry {
-        self.attend();
         let changes = entry.changes.into_iter().rev().map(|change| self.apply(change)).collect();
         Entry { label: entry.label, changes }
     }

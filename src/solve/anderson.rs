@@ -3,8 +3,9 @@
 
 use super::island::Island;
 use super::method::{Limits, Outcome};
-use super::relaxation::{Coefficient, correct_all, ending};
+use super::relaxation::{Coefficient, ending};
 use super::status::Counters;
+use super::sweep::Sweep;
 use crate::constraint::{Point, Vector};
 
 /// How many past sweeps are used. More is not better: measured non-monotone from 3 to 8.
@@ -20,16 +21,16 @@ pub(super) fn solve(
     work: &mut Counters,
 ) -> Outcome {
     let n_free = island.n_free;
-    let mut d = vec![Vector::ZERO; n_free];
+    let sweep = Sweep::new(island, coefficient);
+    let mut d = vec![Vector::ZERO; island.x.len()];
     let mut last: Option<(Vec<Point>, Vec<Vector>)> = None;
     // Changes of the pose and of its correction from one sweep to the next.
     let mut changes: Vec<(Vec<Vector>, Vec<Vector>)> = Vec::new();
     let mut best = f64::INFINITY;
     for n in 0..limits.n_iterations {
-        let Island { constraints, x, w, own_rho, .. } = &mut *island;
-        let rho = |c: usize| coefficient.of(own_rho, c);
-        let worst = correct_all(constraints, rho, x, w, &mut d);
-        work.evaluations += constraints.len() as u64;
+        let Island { constraints, x, w, .. } = &mut *island;
+        let worst = sweep.correct_all(constraints, x, w, &mut d, work);
+        let d = &d[..n_free];
         if worst <= limits.tolerance || limits.budget.is_spent() {
             return ending(island, limits, n, f64::INFINITY, work);
         }
@@ -48,16 +49,16 @@ pub(super) fn solve(
             }
             changes.push((dx, dd));
         }
-        last = Some((free.to_vec(), d.clone()));
-        let gamma = combine(&changes, &d);
-        let mut to: Vec<Vector> = d.clone();
+        last = Some((free.to_vec(), d.to_vec()));
+        let gamma = combine(&changes, d);
+        let mut to: Vec<Vector> = d.to_vec();
         for ((dx, dd), gamma) in changes.iter().zip(&gamma) {
             for (to, (dx, dd)) in to.iter_mut().zip(dx.iter().zip(dd)) {
                 *to -= (*dx + *dd) * *gamma;
             }
         }
         let longest = to.iter().fold(0.0_f64, |most, d| most.max(d.norm()));
-        let step = if longest <= 0.5 * limits.size { &to } else { &d };
+        let step = if longest <= 0.5 * limits.size { &to[..] } else { d };
         if !step.iter().all(|d| d.is_finite()) {
             return ending(island, limits, n, f64::INFINITY, work);
         }

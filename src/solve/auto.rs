@@ -51,17 +51,20 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     island.history.begin(&island.x[..n_free]);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
-        distrust(island, work);
+        restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && attempt.is_safe(motion_since(island, island.history.origin()), limits)
+        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
+            || island.has_velocities())
         && island.watched_point_over().is_none()
     {
         return accept(island, attempt);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
     let sides = island.sides();
-    if let Some(attempt) = follow::frame(island, limits, work) {
+    if !island.has_velocities()
+        && let Some(attempt) = follow::frame(island, limits, work)
+    {
         return accept(island, attempt);
     }
     island.turned_over = None;
@@ -84,19 +87,25 @@ fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome 
     outcome
 }
 
-/// Takes back the expected places of parts with freedom left that are worse than those they
-/// come from: nothing but their own past tells such points where to go.
-fn distrust(island: &mut Island, work: &mut Counters) {
+/// Keeps of the expected places of parts with freedom left only what the constraints ask for:
+/// where they leave a choice, points stay where they are, whatever their past. Takes back what
+/// is no better than the places they come from.
+fn restrain(island: &mut Island, limits: &Limits, work: &mut Counters) {
     let mut rooms = std::mem::take(&mut island.part_rooms);
     for room in &mut rooms {
         room.equations.gather(&island.x, &mut room.expected);
-        room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
-        for &p in room.equations.points() {
-            island.x[p as usize] = island.history.origin()[p as usize];
-        }
-        room.trial.evaluate(&room.equations, &island.constraints, &island.x, work);
-        if room.rows.energy < room.trial.energy {
-            room.equations.scatter(&room.expected, &mut island.x);
+        let points = room.equations.points().iter();
+        let origin: Vec<Point> = points.map(|&p| island.history.origin()[p as usize]).collect();
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        room.equations.scatter(&origin, pose.x);
+        room.evaluate(&pose, work);
+        let energy = room.rows.energy;
+        room.equations.scatter(&room.expected, pose.x);
+        room.evaluate(&pose, work);
+        if room.rows.energy >= energy
+            || !newton::restrain(room, &mut pose, &origin, energy, limits, work)
+        {
+            room.equations.scatter(&origin, pose.x);
         }
     }
     island.part_rooms = rooms;
@@ -132,7 +141,9 @@ pub(super) fn attempt(
         let found = block::find(block, which, constraints, x, is_predicted, limits, work)?;
         sum.worst = sum.worst.max(found.worst);
         sum.n_iterations = sum.n_iterations.max(found.n_steps);
-        sum.correction = sum.correction.max(found.correction);
+        if block.is_determined || found.correction > FREE_SURPRISE * limits.size {
+            sum.correction = sum.correction.max(found.correction);
+        }
         sum.has_flipped |= found.side * block.side < 0.0;
         block.next_side = found.side;
     }

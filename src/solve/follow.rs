@@ -42,7 +42,9 @@ impl Track {
             (0..n_nodes).map(|degree| lagrange(&self.nodes, degree, t)).collect();
         let (_, here) = &self.nodes[self.nodes.len() - 1];
         for (k, to) in free.iter_mut().enumerate() {
-            let weights = &weights[(degree[k] as usize).min(n_nodes - 1)];
+            // What has freedom left has no motion of its own to go on with.
+            let degree = if degree[k] > 1 { degree[k] as usize } else { 0 };
+            let weights = &weights[degree.min(n_nodes - 1)];
             let mut d = Vector::ZERO;
             for (weight, (_, pose)) in weights.iter().zip(self.nodes.iter().rev()) {
                 d += (pose[k] - here[k]) * *weight;

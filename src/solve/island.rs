@@ -104,44 +104,6 @@ impl Inputs {
     }
 }
 
-/// What an island is made of, what drives it and how it lies, each as one number: equal
-/// numbers mean that nothing was edited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Fingerprint {
-    pub structure: u64,
-    pub inputs: u64,
-    pub pose: u64,
-}
-
-/// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
-struct Hasher(u64);
-
-impl Default for Hasher {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Hasher {
-    fn add(&mut self, word: u64) {
-        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01b3);
-        // Words differ most in their upper bits, which the product alone never moves down.
-        self.0 ^= self.0 >> 29;
-    }
-}
-
-/// Every value a constraint may have.
-const FIELDS: [Field; 8] = [
-    Field::Lo,
-    Field::Hi,
-    Field::X,
-    Field::Y,
-    Field::Radius,
-    Field::Speed,
-    Field::Phase,
-    Field::Ratio,
-];
-
 /// A constraint on its way into an island.
 pub(super) struct Member<'a> {
     /// Its handle.
@@ -218,8 +180,9 @@ impl Island {
             remembered: OnceLock::new(),
             spectrum: None,
         };
-        for block in island.plan.blocks.iter().filter(|block| block.is_determined) {
-            island.degree[block.point as usize] = 3;
+        for block in &island.plan.blocks {
+            // A single point with freedom left is as easily found from where it is.
+            island.degree[block.point as usize] = if block.is_determined { 3 } else { 0 };
         }
         island.update_sides();
         island
@@ -278,33 +241,6 @@ impl Island {
     pub fn is_smooth(&self) -> bool {
         let first = self.plan.rest.first().and_then(|part| part.points.first());
         first.is_some_and(|&p| self.degree[p as usize] > 1)
-    }
-
-    /// What later results depend on besides what is remembered.
-    pub fn fingerprint(&self) -> Fingerprint {
-        let mut structure = Hasher::default();
-        structure.add(self.n_free as u64);
-        for (c, constraint) in self.constraints.iter().enumerate() {
-            structure.add(constraint.kind() as u64);
-            structure.add(n_firm_rows(constraint) as u64);
-            constraint.points().iter().for_each(|&p| structure.add(u64::from(p)));
-            let rho = self.own_rho.get(c).copied().flatten();
-            structure.add(rho.map_or(0, f64::to_bits));
-        }
-        let mut inputs = Hasher::default();
-        self.w.iter().for_each(|w| inputs.add(w.to_bits()));
-        for constraint in &self.constraints {
-            let values = FIELDS.iter().filter_map(|&field| constraint.get(field));
-            let values = values.chain(constraint.state().unwrap_or_default());
-            values.for_each(|value| inputs.add(value.to_bits()));
-        }
-        let mut pose = Hasher::default();
-        for (p, at) in self.x.iter().enumerate() {
-            let hasher = if p < self.n_free { &mut pose } else { &mut inputs };
-            hasher.add(at.x.to_bits());
-            hasher.add(at.y.to_bits());
-        }
-        Fingerprint { structure: structure.0, inputs: inputs.0, pose: pose.0 }
     }
 
     /// The user changed something since the last visit: a value, or the place of a free point.
@@ -389,6 +325,13 @@ impl Island {
             self.constraints[c as usize].accept(&self.x);
         }
         self.begin_velocities();
+    }
+
+    /// Whether displacements in a frame stand for velocities here: its length matters then, and
+    /// a frame in smaller steps would be another motion.
+    pub fn has_velocities(&self) -> bool {
+        let mut stateful = self.stateful.iter().map(|&c| &self.constraints[c as usize]);
+        stateful.any(|constraint| matches!(constraint, Constraint::CogVelocity(_)))
     }
 
     /// The next displacements, which stand for velocities, begin at this pose.

@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::fingerprint::Fingerprint;
 use super::history::History;
-use super::island::{Fingerprint, Island};
+use super::island::Island;
 use super::spectrum::Spectrum;
 use super::status::Status;
 use crate::constraint::Point;

@@ -62,6 +62,8 @@ pub(super) struct Workspace {
     pub slope: Vec<f64>,
     /// The step in the weighted unknowns.
     pub step: Vec<f64>,
+    /// Room for one more step.
+    pub trial_step: Vec<f64>,
     /// J^T J and its factor, for the methods that ask for it.
     matrix: Option<Box<NormalMatrix>>,
 }
@@ -78,6 +80,7 @@ impl Workspace {
             expected: Vec::new(),
             slope: vec![0.0; n],
             step: vec![0.0; n],
+            trial_step: Vec::new(),
             matrix: None,
         }
     }

@@ -10,6 +10,7 @@ pub mod mobility;
 
 // What the methods work on.
 mod ends;
+mod fingerprint;
 mod footprint;
 mod history;
 mod island;
@@ -34,12 +35,14 @@ mod newton;
 mod relaxation;
 mod struggle;
 mod successive;
+mod sweep;
 
 // Their face.
 mod pass;
 mod settings;
 mod solver;
 mod status;
+mod visit;
 
 pub use footprint::{Effect, is_inequality, is_wheel};
 pub use memory::Memory;

@@ -3,6 +3,7 @@
 
 use super::method::{Limits, Outcome, Pose, Workspace};
 use super::status::{Counters, Status};
+use crate::constraint::Point;
 
 /// The damping, relative to the distance to satisfaction, that a solve begins with; measured
 /// best among powers of ten on mechanisms. Larger is slower, smaller overshoots more often.
@@ -59,6 +60,32 @@ pub(super) fn approach(
     let end = descend(room, pose, limits, &mut nu, &mut n, work);
     let status = if end == End::Met { Status::Converged } else { Status::Stalled };
     room.outcome(status, n)
+}
+
+/// A step from an expected pose that also takes back whatever way from `origin` the rows do
+/// not ask for; `room` holds the rows at that pose. False, and the pose is to be thrown away,
+/// if it ends above `energy`.
+///
+/// The damping mu y pulls toward the origin here, mu (y + x - origin), and not toward the
+/// expected pose: no matter how small mu is, what the rows leave open follows it entirely.
+pub(super) fn restrain(
+    room: &mut Workspace,
+    pose: &mut Pose,
+    origin: &[Point],
+    energy: f64,
+    limits: &Limits,
+    work: &mut Counters,
+) -> bool {
+    room.assemble();
+    room.update_slope();
+    room.remember(pose);
+    let rms = (2.0 * room.rows.energy / room.rows.n_active().max(1) as f64).sqrt();
+    let mu = FIRST_DAMPING * (rms / limits.size).min(1.0) + FLOOR;
+    let mut way = std::mem::take(&mut room.trial_step);
+    room.equations.way(origin, &room.before, &mut way);
+    room.slope.iter_mut().zip(&way).for_each(|(g, y)| *g += mu * y);
+    room.trial_step = way;
+    aim(room, mu, work).is_some() && room.try_step(pose, 1.0, work) <= energy
 }
 
 /// Why a descent ended.

@@ -285,6 +285,7 @@ mod tests {
     fn a_pin_through_an_inequality_determines_nothing() {
         let cord = Length { points: [0, 1], bounds: Bounds { lo: 0.0, hi: 1.0 } }.into();
         let plan = Plan::new(&[cord, bar(0, 2)], 1, 3);
-        assert!(plan.blocks.is_empty());
+        assert_eq!(plan.blocks.len(), 1);
+        assert!(!plan.blocks[0].is_determined);
     }
 }

@@ -3,10 +3,10 @@
 
 use super::island::Island;
 use super::method::{Limits, Outcome};
-use super::rows::is_wheel;
 use super::spectrum::Spectrum;
 use super::status::{Counters, Status};
-use crate::constraint::{Constraint, Point, Relation, Vector};
+use super::sweep::Sweep;
+use crate::constraint::{Relation, Vector};
 
 /// Simultaneous corrections contract if rho < 2 / lambda; this keeps a tenth away from that.
 const MOST_RHO: f64 = 1.8;
@@ -58,32 +58,6 @@ impl Coefficient {
     }
 }
 
-/// Adds up the corrections of all constraints; gives the largest distance to satisfaction of
-/// those that can move anything.
-pub(super) fn correct_all(
-    constraints: &[Constraint],
-    rho: impl Fn(usize) -> f64,
-    x: &[Point],
-    w: &[f64],
-    d: &mut [Vector],
-) -> f64 {
-    d.fill(Vector::ZERO);
-    let mut worst = 0.0_f64;
-    for (c, constraint) in constraints.iter().enumerate() {
-        let rho = rho(c);
-        let mut squared = 0.0;
-        constraint.correct(x, w, &mut |p, v| {
-            // Frozen points have no place in `d`, nor a share.
-            if let Some(d) = d.get_mut(p as usize) {
-                squared += v.norm_squared() / w[p as usize];
-                *d += v * rho;
-            }
-        });
-        worst = worst.max(squared);
-    }
-    worst.sqrt()
-}
-
 /// Improves the pose of an island; gives how it ended.
 pub(super) fn solve(
     island: &mut Island,
@@ -91,22 +65,19 @@ pub(super) fn solve(
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    let mut d = vec![Vector::ZERO; island.n_free];
-    let n_wheels = island.constraints.iter().filter(|c| is_wheel(c)).count() as u64;
+    let sweep = Sweep::new(island, coefficient);
+    let mut d = vec![Vector::ZERO; island.x.len()];
     for n in 0..limits.n_iterations {
-        let Island { constraints, own_rho, x, w, .. } = island;
-        let worst = correct_all(constraints, |c| coefficient.of(own_rho, c), x, w, &mut d);
-        work.evaluations += constraints.len() as u64;
-        work.wheel_evaluations += n_wheels;
-        if worst <= limits.tolerance || limits.budget.is_spent() {
-            return ending(island, limits, n, f64::INFINITY, work);
-        }
-        let longest = d.iter().fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()));
+        let Island { constraints, x, w, n_free, .. } = &mut *island;
+        let worst = sweep.correct_all(constraints, x, w, &mut d, work);
+        let (free, d) = (&mut x[..*n_free], &d[..*n_free]);
         // A correction that overflowed would poison its neighbours.
-        if !d.iter().all(|d| d.is_finite()) {
+        let is_finite = d.iter().all(|d| d.is_finite());
+        if worst <= limits.tolerance || !is_finite || limits.budget.is_spent() {
             return ending(island, limits, n, f64::INFINITY, work);
         }
-        island.x.iter_mut().zip(&d).for_each(|(x, d)| *x += *d);
+        free.iter_mut().zip(d).for_each(|(x, d)| *x += *d);
+        let longest = d.iter().fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()));
         if longest <= STILL * limits.size {
             return ending(island, limits, n + 1, longest, work);
         }

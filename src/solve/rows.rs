@@ -107,6 +107,15 @@ impl Equations {
         }
     }
 
+    /// The way from one pose of the points to another, in the weighted unknowns.
+    pub fn way(&self, from: &[Point], to: &[Point], way: &mut Vec<f64>) {
+        way.clear();
+        for ((from, to), root_w) in from.iter().zip(to).zip(&self.root_w) {
+            let d = (*to - *from) / *root_w;
+            way.extend([d.x, d.y]);
+        }
+    }
+
     /// The longest displacement of a point in a step of the weighted unknowns.
     pub fn reach(&self, step: &[f64]) -> f64 {
         let (steps, _) = step.as_chunks::<2>();

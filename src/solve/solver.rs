@@ -4,23 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::island::Island;
 use super::memory::{self, Memory};
-use super::method::{Limits, Outcome, Pose};
-use super::relaxation::Coefficient;
+use super::rates;
 use super::settings::{Method, Settings};
 use super::status::{Budget, Counters, Report, Status};
 use super::topology::{Home, Topology};
-use super::{
-    anderson, auto, conjugate, descent, nesterov, newton, rates, relaxation, struggle, successive,
-};
-use crate::constraint::{Constraint, Relation, Vector};
+use super::visit::{Task, begin, check, solve, turn_back, write_back};
+use crate::constraint::Vector;
 use crate::diag::Diagnostic;
-use crate::world::{ConstraintId, PointId, Rates, World};
+use crate::world::{ConstraintId, PointId, Rates, Touched, World};
 
 /// Rounds until rates and what is measured on them agree. Each gains the digits by which the
 /// measured value is the weaker cause.
 const MEASURED_ROUNDS: u32 = 8;
-/// Rounds of `settle` before it counts as getting nowhere.
-const MOST_ROUNDS: u32 = 2_000;
 
 /// Everything the solver keeps from one call to the next.
 #[derive(Default)]
@@ -39,17 +34,6 @@ pub struct Solver {
     pending: Memory,
     /// Whether all islands are to be made anew.
     is_stale: bool,
-}
-
-/// What a call does with each island.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Task {
-    /// The clock went one frame on.
-    Frame,
-    /// Bare iterations at the present time.
-    Relax,
-    /// Until solved or at rest, at the present time.
-    Settle,
 }
 
 /// What changed the world.
@@ -106,16 +90,18 @@ impl Solver {
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
         let mut memory = self.pending.clone();
-        for (_, island) in self.topology.iter() {
-            memory.insert(island);
+        // What was brought back counts, not what was there before.
+        if !self.is_stale {
+            for (_, island) in self.topology.iter() {
+                memory.insert(island);
+            }
         }
         memory
     }
 
     /// Brings back what was remembered, for a world that is as it was then.
     pub fn set_memory(&mut self, memory: Memory) {
-        self.pending = memory;
-        self.is_stale = true;
+        *self = Self { pending: memory, settings: self.settings, is_stale: true, ..Self::new() };
     }
 
     /// Whether what was remembered waits for [`Solver::attend`].
@@ -200,6 +186,11 @@ impl Solver {
                 }
             }
         }
+        if task == Task::Settle
+            && let Some(tolerance) = budget.tolerance
+        {
+            self.doubt(|island| island.residual > tolerance);
+        }
         let visit = std::mem::take(&mut self.awake);
         for &k in &visit {
             self.is_awake[k as usize] = false;
@@ -214,12 +205,17 @@ impl Solver {
             }
             self.visit(k, world, settings, budget, task, &mut report);
         }
+        let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
         for &violation in self.unsatisfiable.values() {
-            report.include(Status::Unsatisfiable, 0, violation);
+            let is_met = violation <= tolerance;
+            let status = if is_met { Status::Converged } else { Status::Unsatisfiable };
+            report.include(status, 0, violation);
         }
         for &k in &self.unsolved {
             if let Some(island) = self.topology.get(k) {
-                report.include(island.status, 0, island.residual);
+                let is_met = island.residual <= tolerance;
+                let status = if is_met { Status::Converged } else { island.status };
+                report.include(status, 0, island.residual);
             }
         }
         report
@@ -236,13 +232,13 @@ impl Solver {
         if let Some(before) = self.settings.replace(*settings)
             && (before.method, before.tolerance) != (settings.method, settings.tolerance)
         {
-            self.doubt_all();
+            self.doubt(|_| true);
         }
         let mut touched = world.take_touched();
         if std::mem::take(&mut self.is_stale) {
             // What is remembered is what counts: forget the rest.
             self.topology = Topology::default();
-            touched.all = true;
+            touched = Touched::everything();
         }
         if touched.is_empty() {
             return Vec::new();
@@ -316,13 +312,15 @@ impl Solver {
     }
 
     /// What counted as solved may not any more.
-    fn doubt_all(&mut self) {
+    fn doubt(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
         let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
         for k in all {
-            if let Some(island) = self.topology.get_mut(k) {
+            if let Some(island) = self.topology.get_mut(k)
+                && is_doubtful(island)
+            {
                 island.status = Status::Stalled;
+                self.wake(k);
             }
-            self.wake(k);
         }
     }
 
@@ -440,132 +438,4 @@ impl Solver {
             self.wake(k);
         }
     }
-}
-
-/// Works out what drove an island at the beginning of a frame that it was made in.
-fn turn_back(island: &mut Island, dt: f64) {
-    island.settle_inputs();
-    for (c, constraint) in island.constraints.iter().enumerate() {
-        let mut before = constraint.clone();
-        if before.advance(-dt) {
-            island.inputs.constraints.push((c as u32, before));
-        }
-    }
-}
-
-/// Solves an island that is new as it was when its first frame began, so that the motion of
-/// that frame has a beginning.
-fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
-    if !island.inputs.is_empty() {
-        island.swap_inputs();
-        island.status = struggle::settle(island, limits, work).status;
-        island.swap_inputs();
-    }
-}
-
-/// Solves an island by the chosen method; gives the coefficient of relaxation too, if it had
-/// to be lowered.
-fn solve(
-    island: &mut Island,
-    settings: &Settings,
-    limits: &Limits,
-    task: Task,
-    work: &mut Counters,
-) -> (Outcome, Option<f64>) {
-    if settings.method == Method::Auto {
-        let outcome = match task {
-            Task::Frame => auto::frame(island, limits, work),
-            Task::Relax | Task::Settle => struggle::settle(island, limits, work),
-        };
-        return (outcome, None);
-    }
-    island.history.forget();
-    island.feasible = None;
-    let mut lowered = None;
-    let mut outcome = iterate(island, settings, limits, &mut lowered, work);
-    if task == Task::Settle {
-        let mut n = outcome.n_iterations;
-        for _ in 0..MOST_ROUNDS {
-            if outcome.status != Status::Stalled || limits.budget.is_spent() {
-                break;
-            }
-            outcome = iterate(island, settings, limits, &mut lowered, work);
-            n = n.saturating_add(outcome.n_iterations);
-        }
-        outcome.n_iterations = n;
-    }
-    if outcome.is_converged() {
-        island.accept_pose();
-        island.update_sides();
-    } else if task == Task::Frame {
-        island.begin_velocities();
-    }
-    (outcome, lowered)
-}
-
-/// One round of a method.
-fn iterate(
-    island: &mut Island,
-    settings: &Settings,
-    limits: &Limits,
-    lowered: &mut Option<f64>,
-    work: &mut Counters,
-) -> Outcome {
-    let rho = settings.rho;
-    match settings.method {
-        Method::Relaxation | Method::Anderson => {
-            let (coefficient, low) = Coefficient::new(island, rho, work);
-            *lowered = low;
-            if settings.method == Method::Relaxation {
-                relaxation::solve(island, coefficient, limits, work)
-            } else {
-                anderson::solve(island, coefficient, limits, work)
-            }
-        }
-        Method::Successive => successive::solve(island, rho, limits, work),
-        Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
-            let mut room = island.take_room();
-            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-            let points = &island.points[..island.n_free];
-            let outcome = match settings.method {
-                Method::Descent => descent::solve(&mut room, &mut pose, limits, work),
-                Method::Conjugate => conjugate::solve(&mut room, &mut pose, limits, work),
-                Method::Nesterov => nesterov::solve(&mut room, points, &mut pose, limits, work),
-                _ => newton::solve(&mut room, &mut pose, limits, work),
-            };
-            island.room = Some(room);
-            outcome
-        }
-    }
-}
-
-/// Puts what was found back into the world.
-fn write_back(island: &Island, world: &mut World) {
-    for (id, at) in island.points[..island.n_free].iter().zip(&island.x) {
-        world.set_position(*id, *at);
-    }
-    for &c in &island.stateful {
-        let c = c as usize;
-        if let Some(state) = island.constraints[c].state() {
-            world.constraint_state_mut(island.ids[c]).set_state(&state);
-        }
-    }
-}
-
-/// How far a constraint is from satisfaction, and how large what it holds is, length units.
-fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
-    let points = constraint.points().to_vec();
-    let x: Vec<_> = points.iter().map(|&p| world.points().at(PointId(p))).collect();
-    let w: Vec<f64> = points.iter().map(|&p| world.points().inverse_mass(PointId(p))).collect();
-    let mut local = constraint.clone();
-    local.map_points(|p| points.iter().position(|&q| q == p).expect("it holds it") as u32);
-    let extent = |of: fn(&crate::constraint::Point) -> f64| {
-        let values = x.iter().map(of);
-        let (lo, hi) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        hi - lo
-    };
-    let size = extent(|p| p.x).max(extent(|p| p.y));
-    let size = size.max(super::island::wanted_length(constraint));
-    (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
 }

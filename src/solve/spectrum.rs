@@ -20,10 +20,10 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// A start for these points: arbitrary, always the same, and along no symmetry.
+    /// A start for these points: arbitrary, always the same, and along no symmetry. It depends
+    /// on how many there are and not on their handles, which a saved session gives anew.
     pub fn new(points: &[PointId]) -> Self {
-        let v: Vec<f64> =
-            points.iter().flat_map(|p| [noise(2 * p.0), noise(2 * p.0 + 1)]).collect();
+        let v: Vec<f64> = (0..2 * points.len() as u32).map(noise).collect();
         Self { scratch: vec![0.0; v.len()], v, is_warm: false }
     }
 

@@ -43,11 +43,34 @@ pub enum Edit {
     Motion(Box<Motion>),
 }
 
+impl Edit {
+    /// Whether it changes what there is, and not only where it is, when, or how it is shown.
+    const fn is_structural(&self) -> bool {
+        match self {
+            Self::Point(..)
+            | Self::Freeze(..)
+            | Self::Weight(..)
+            | Self::Constraint(..)
+            | Self::Switch(..)
+            | Self::Parameter(..) => true,
+            Self::Move(..)
+            | Self::Clock(_)
+            | Self::Trace(..)
+            | Self::Ghost(_)
+            | Self::Start(..)
+            | Self::StartState(..)
+            | Self::StartStates(_)
+            | Self::Motion(_) => false,
+        }
+    }
+}
+
 impl World {
     /// Makes an edit; gives the edit that takes it back.
     ///
     /// Names must be free and handles alive: whoever makes the edit has asked.
     pub fn apply(&mut self, edit: Edit) -> Edit {
+        self.revision += u64::from(edit.is_structural());
         match edit {
             Edit::Point(id, record) => Edit::Point(id, self.swap_point(id, record)),
             Edit::Move(id, at) => {

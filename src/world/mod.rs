@@ -55,6 +55,7 @@ pub struct World {
     ghosts: Vec<Ghost>,
     live: live::Live,
     touched: Touched,
+    revision: u64,
 }
 
 impl World {
@@ -121,6 +122,12 @@ impl World {
         &self.clock
     }
 
+    /// Counts the edits that changed what there is: while it stays the same, a motion can be
+    /// gone back to.
+    pub const fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// The traces, in the order they were asked for.
     pub fn traces(&self) -> &[Trace] {
         &self.traces
@@ -146,9 +153,15 @@ impl World {
         ParameterId::new(self.parameters.n_handles())
     }
 
+    /// Whether nothing changed since it was last asked what did.
+    pub fn is_untouched(&self) -> bool {
+        self.touched.is_empty()
+    }
+
     /// What changed since this was last asked for.
     pub fn take_touched(&mut self) -> Touched {
-        std::mem::take(&mut self.touched)
+        let touched = std::mem::take(&mut self.touched);
+        if touched.all { Touched::everything() } else { touched }
     }
 
     /// Puts a point where the solver found it. A position that is not finite is refused and

@@ -125,7 +125,7 @@ impl Seat {
     }
 
     /// The script that makes the world as it is: the same text, the same world.
-    pub fn world(&mut self) -> String {
+    pub fn world(&self) -> String {
         self.session.to_script()
     }
 }
@@ -148,4 +148,25 @@ pub fn check_golden(path: &Path, got: &str) {
     }
     let wanted = std::fs::read_to_string(path).unwrap_or_default();
     assert_eq!(got, wanted, "in {}", path.display());
+}
+
+/// Compares two texts; on a difference shows the first lines that differ, not all of both.
+pub fn check_same(got: &str, wanted: &str, when: &str) {
+    if got == wanted {
+        return;
+    }
+    let mut differing = String::new();
+    let (mut a, mut b) = (got.lines(), wanted.lines());
+    loop {
+        match (a.next(), b.next()) {
+            (None, None) => break,
+            (a, b) if a == b => {}
+            (a, b) if differing.len() < 2_000 => {
+                writeln!(differing, "  is     {}\n  wanted {}", a.unwrap_or("-"), b.unwrap_or("-"))
+                    .expect("writing to a string");
+            }
+            _ => break,
+        }
+    }
+    panic!("{when}:\n{differing}");
 }

@@ -195,6 +195,18 @@ fn pictures() -> BoxedStrategy<Command> {
         text().prop_map(Command::Svg),
         (text(), of(expr())).prop_map(|(path, every)| Command::Record { path, every }),
         Just(Command::RecordStop),
+        (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Command::Sample { series, values }),
+        (text(), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
+            |(path, is_log, title, x, y)| {
+                let parts = [
+                    is_log.then_some(PlotPart::Log),
+                    title.map(PlotPart::Title),
+                    x.map(PlotPart::X),
+                    y.map(PlotPart::Y),
+                ];
+                Command::Plot { path, parts: parts.into_iter().flatten().collect() }
+            }
+        ),
     ]
     .boxed()
 }

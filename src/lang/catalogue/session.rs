@@ -103,9 +103,12 @@ print "x is", C.x"#,
         section: Section::Looking,
         usage: "accuracy [within TOLERANCE] [in WALL_TIME]",
         summary: "what accuracy costs in time on this very scene",
-        help: "",
+        help: "Does the longest run since the scene last changed again, on a copy, with every method and
+many settings. Prints a table and writes `accuracy.csv` and `accuracy.svg`. With a wish it
+names the one setting to use instead.",
         example: "accuracy\n\
-             accuracy within 1e-9",
+             accuracy within 1e-6\n\
+             accuracy in 2ms",
     },
     Entry {
         keyword: "assert",
@@ -188,6 +191,25 @@ time and the traced points. `record stop`, or the end of the script, writes them
         example: r#"record "frames/" every 10
 record "motion.svg"
 record stop"#,
+    },
+    Entry {
+        keyword: "sample",
+        section: Section::Pictures,
+        usage: "sample SERIES = VALUE, ...",
+        summary: "append values to a named series, to be plotted",
+        help: "The name of the series stands in quotes. `plot` draws all series.",
+        example: r#"sample "relaxation" = distance(A, B) - 5
+relax 1
+sample "relaxation" = distance(A, B) - 5"#,
+    },
+    Entry {
+        keyword: "plot",
+        section: Section::Pictures,
+        usage: "plot FILE [log] [title TEXT] [x TEXT] [y TEXT]",
+        summary: "write all series as a line chart against the number of the sample",
+        help: "The first sample of a series has number 0. With `log` equal ratios are equally high,
+and values that are not above 0 are left out.",
+        example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error""#,
     },
     Entry {
         keyword: "for",

@@ -314,5 +314,8 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_for
             | Rule::kw_in
             | Rule::kw_as
+            | Rule::kw_title
+            | Rule::kw_x
+            | Rule::kw_y
     )
 }

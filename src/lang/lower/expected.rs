@@ -43,7 +43,14 @@ impl Expected {
                     expected.add("a relation");
                     expected.keywords.push("in");
                 }
-                Rule::string => expected.add(if verb == "print" { "a string" } else { PATH }),
+                Rule::string => {
+                    let is_path = match verb {
+                        "print" | "sample" => false,
+                        "plot" => is_first,
+                        _ => true,
+                    };
+                    expected.add(if is_path { PATH } else { "a string" });
+                }
                 Rule::name
                 | Rule::names
                 | Rule::ident
@@ -165,6 +172,10 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_as => "as",
         Rule::kw_all => "all",
         Rule::kw_add => "add",
+        Rule::kw_log => "log",
+        Rule::title | Rule::kw_title => "title",
+        Rule::x_label | Rule::kw_x => "x",
+        Rule::y_label | Rule::kw_y => "y",
         _ => return None,
     })
 }

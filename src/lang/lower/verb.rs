@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{
     Binding, Body, ChangePart, Command, ConstraintDecl, Definition, DragTarget, Expose, Ident,
-    ListWhat, Name, PointDecl, PrintItem, Relation,
+    ListWhat, Name, PlotPart, PointDecl, PrintItem, Relation,
 };
 
 use super::constraint;
@@ -50,6 +50,8 @@ pub(super) fn rule(word: &str) -> Option<Rule> {
         "expose" => Rule::expose,
         "svg" => Rule::svg,
         "record" => Rule::record,
+        "sample" => Rule::sample,
+        "plot" => Rule::plot,
         "for" => Rule::for_,
         "define" => Rule::define,
         "use" => Rule::use_,
@@ -122,6 +124,8 @@ pub(super) fn lower(
         Rule::svg => Command::Svg(c.text()?),
         Rule::record if c.flag(Rule::kw_stop) => Command::RecordStop,
         Rule::record => Command::Record { path: c.text()?, every: c.clause(Rule::every)? },
+        Rule::sample => Command::Sample { series: c.text()?, values: c.exprs()? },
+        Rule::plot => Command::Plot { path: c.text()?, parts: plot_parts(c)? },
         Rule::for_ => {
             Command::For { variable: c.declared_ident()?, range: c.range()?, body: block }
         }
@@ -216,6 +220,29 @@ fn print_items(c: &mut Cursor) -> Result<Vec<PrintItem>, Diagnostic> {
         });
     }
     Ok(items)
+}
+
+fn plot_parts(c: &mut Cursor) -> Result<Vec<PlotPart>, Diagnostic> {
+    let mut parts = Vec::new();
+    let mut seen: Vec<(Rule, Span)> = Vec::new();
+    while let Some((rule, span)) = c.peek_span() {
+        if let Some((_, first)) = seen.iter().find(|(known, _)| *known == rule) {
+            return Err(refusal::twice(&c.reader.text[span.range()], *first, span));
+        }
+        seen.push((rule, span));
+        if c.flag(Rule::kw_log) {
+            parts.push(PlotPart::Log);
+            continue;
+        }
+        let part = c.take(rule).expect("it is the next thing");
+        let text = c.within(part).text()?;
+        parts.push(match rule {
+            Rule::title => PlotPart::Title(text),
+            Rule::x_label => PlotPart::X(text),
+            _ => PlotPart::Y(text),
+        });
+    }
+    Ok(parts)
 }
 
 fn expose(c: &mut Cursor) -> Result<Command, Diagnostic> {

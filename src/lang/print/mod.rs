@@ -7,7 +7,7 @@ mod expr;
 
 use super::ast::{
     Binding, ChangePart, Command, ConstraintDecl, Definition, DragTarget, Expose, Expr, Ident,
-    Name, PointDecl, PrintItem, Promise, Range, Relation, Selection, Statement, Text,
+    Name, PlotPart, PointDecl, PrintItem, Promise, Range, Relation, Selection, Statement, Text,
 };
 use super::expr::Node;
 
@@ -97,6 +97,11 @@ fn write_command(f: &mut Formatter, command: &Command, level: usize) -> fmt::Res
             write!(f, "record {path}{}", Clause(" every ", every))
         }
         Command::RecordStop => f.write_str("record stop"),
+        Command::Sample { series, values } => write!(f, "sample {series} = {}", commas(values)),
+        Command::Plot { path, parts } => {
+            write!(f, "plot {path}")?;
+            parts.iter().try_for_each(|part| write!(f, " {part}"))
+        }
         Command::For { variable, range, body } => {
             write!(f, "for {variable} in {range} ")?;
             write_block(f, body, level)
@@ -234,6 +239,17 @@ impl Display for ChangePart {
             Self::Ratio(value) => write!(f, "ratio {value}"),
             Self::Inside => f.write_str("inside"),
             Self::Unbounded => f.write_str("unbounded"),
+        }
+    }
+}
+
+impl Display for PlotPart {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Log => f.write_str("log"),
+            Self::Title(text) => write!(f, "title {text}"),
+            Self::X(text) => write!(f, "x {text}"),
+            Self::Y(text) => write!(f, "y {text}"),
         }
     }
 }

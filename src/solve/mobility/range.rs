@@ -24,8 +24,10 @@ impl End {
     /// The angle against the x axis, radians, whole turns included.
     pub const fn angle(self) -> f64 {
         match self {
-            Self::DeadPoint(angle) | Self::Stop(angle, _) => angle,
-            Self::Lost(angle) | Self::Endless(angle) => angle,
+            Self::DeadPoint(angle)
+            | Self::Stop(angle, _)
+            | Self::Lost(angle)
+            | Self::Endless(angle) => angle,
         }
     }
 }

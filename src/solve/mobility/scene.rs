@@ -162,9 +162,8 @@ impl Scene<'_> {
             let moving: Vec<_> = constraint.points().iter().filter(moves).collect();
             moving.windows(2).for_each(|ends| sets.join(*ends[0], *ends[1]));
         }
-        let mut root = |k: usize| {
-            self.constraints[k].points().iter().find(moves).map(|&p| sets.find(p))
-        };
+        let mut root =
+            |k: usize| self.constraints[k].points().iter().find(moves).map(|&p| sets.find(p));
         let here = root(constraint);
         let all = 0..self.constraints.len();
         all.filter(|&k| k == constraint || here.is_some() && root(k) == here).collect()

@@ -70,7 +70,7 @@ impl<'a> Mechanism<'a> {
         let sources = scene.neighbours(motor);
         let constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
-        let mut held: Vec<_> = constraints.iter().flat_map(|c| c.points()).copied().collect();
+        let mut held: Vec<_> = constraints.iter().flat_map(Relation::points).copied().collect();
         held.sort_unstable();
         held.dedup();
         // What moves says how large it is: the ends of a rail may be far away.
@@ -119,9 +119,7 @@ impl<'a> Mechanism<'a> {
         let motor = &mut self.constraints[self.motor];
         motor.set(Field::Phase, self.phase + stand.turn);
         let (radius, angle) = match motor {
-            Constraint::Motor(motor) => {
-                (motor.get(Field::Radius).unwrap_or(0.0), motor.angle())
-            }
+            Constraint::Motor(motor) => (motor.get(Field::Radius).unwrap_or(0.0), motor.angle()),
             _ => (0.0, 0.0),
         };
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
@@ -129,7 +127,9 @@ impl<'a> Mechanism<'a> {
         let all: Vec<usize> = (0..constraints.len()).collect();
         let mut rows = scene.rows_over(self.points.clone(), &all);
         // An inequality that is met exactly stops nothing that leads away from it.
-        rows.rows.retain(|row| row.f.abs() > self.tolerance || !is_inequality(constraints[row.source.0]));
+        rows.rows.retain(|row| {
+            row.f.abs() > self.tolerance || !is_inequality(constraints[row.source.0])
+        });
         let turn = rows.points.len() as u32;
         rows.points.push(PointIdx::MAX);
         let slope = Vector::polar(radius, angle).perp() * (-1.0 / self.size);
@@ -164,7 +164,7 @@ impl<'a> Mechanism<'a> {
             rows.rows.iter().for_each(|row| row.add_to(-row.f, &mut y));
             Projector::of(&rows).solve_damped(DAMPING, &mut y);
             way += norm(&y);
-            if !(way <= reach) {
+            if way.is_nan() || way > reach {
                 return None;
             }
             self.displace(stand, 1.0, &y);
@@ -176,7 +176,12 @@ impl<'a> Mechanism<'a> {
     /// The node at a pose that is a solution nearly; its tangent leans to `direction`, or is
     /// the one that turns the motor most for its length. None if no solution is within
     /// `reach` or nothing can move there.
-    fn node(&mut self, mut stand: Stand, direction: Option<&[f64]>, reach: f64) -> Option<(Node, f64)> {
+    fn node(
+        &mut self,
+        mut stand: Stand,
+        direction: Option<&[f64]>,
+        reach: f64,
+    ) -> Option<(Node, f64)> {
         let (rows, way) = self.correct(&mut stand, reach)?;
         let n = rows.n_unknowns();
         let mut projector = Projector::of(&rows);
@@ -208,7 +213,8 @@ impl<'a> Mechanism<'a> {
             }
         };
         let length = norm(&tangent);
-        if !(length > 1e-3) && direction.is_some() || length == 0.0 || n_freedoms == 0 {
+        let is_short = length.is_nan() || length <= 1e-3;
+        if is_short && direction.is_some() || length == 0.0 || n_freedoms == 0 {
             return None;
         }
         tangent.iter_mut().for_each(|t| *t /= length);

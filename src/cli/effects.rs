@@ -1,0 +1,49 @@
+//! `linkwork effects`: which effects a script's scene has switched on at its end.
+
+use serde_json::{Value, json};
+
+use super::args::Examination;
+use super::rehearsal::rehearse;
+use super::run::Status;
+use super::talk;
+use crate::session::{EffectRow, Effects};
+
+/// Runs a script and says which effects its scene has switched on, why, and what each costs.
+pub fn script(examination: &Examination) -> Status {
+    let session = match rehearse(&examination.file, &examination.outside) {
+        Ok(session) => session,
+        Err(status) => return status,
+    };
+    let effects = match session.effects_on() {
+        Ok(effects) => effects,
+        Err(problem) => {
+            talk::show(&problem, session.sources());
+            return Status::of(&problem);
+        }
+    };
+    if examination.json {
+        talk::answer(&format!("{:#}", to_json(&effects)));
+    } else {
+        effects.lines().iter().for_each(|line| talk::answer(line));
+    }
+    Status::Fine
+}
+
+fn to_json(effects: &Effects) -> Value {
+    let row = |row: &EffectRow| {
+        json!({
+            "name": row.name,
+            "on": row.is_on,
+            "because": row.because,
+            "bytes": row.n_bytes,
+            "seconds": row.seconds,
+        })
+    };
+    let (total, awake) = effects.islands;
+    json!({
+        "effects": effects.rows.iter().map(row).collect::<Vec<_>>(),
+        "islands": { "total": total, "awake": awake },
+        "frames": effects.n_frames,
+        "seconds": effects.seconds,
+    })
+}

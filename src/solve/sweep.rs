@@ -1,0 +1,159 @@
+//! One sweep over all constraints: each corrected exactly from the same pose, the corrections
+//! added up. The innermost loop of the paper's method.
+
+use super::island::Island;
+use super::relaxation::Coefficient;
+use super::rows::is_wheel;
+use super::status::Counters;
+use crate::constraint::{Constraint, Point, Relation, Vector};
+
+/// Bars are taken so many at a time, for the vector units: their roots and quotients cost
+/// most and do not depend on each other.
+const LANES: usize = 8;
+/// Squares of lengths outside this range have lost digits or overflowed.
+const SAFE_SQUARES: std::ops::Range<f64> = 1e-280..1e280;
+
+/// What a sweep needs to know of the constraints of an island; made once for many sweeps.
+pub(super) struct Sweep {
+    bars: Vec<Bar>,
+    /// The constraints that are no bars, and the coefficient of each.
+    others: Vec<(u32, f64)>,
+    n_wheels: u64,
+}
+
+/// A length constraint, with the parts of its correction that do not depend on the pose.
+struct Bar {
+    /// Which constraint it is.
+    c: u32,
+    a: u32,
+    b: u32,
+    lo: f64,
+    hi: f64,
+    /// What of the excess each end takes over: rho w1 / (w1 + w2), and 2 for 1.
+    share_a: f64,
+    share_b: f64,
+    /// (w1 + w2) ^ -1/2: the distance to satisfaction that an excess of 1 means.
+    distance: f64,
+}
+
+impl Sweep {
+    /// What sweeps over the constraints of an island need.
+    pub fn new(island: &Island, coefficient: Coefficient) -> Self {
+        let mut sweep = Self { bars: Vec::new(), others: Vec::new(), n_wheels: 0 };
+        for (c, constraint) in island.constraints.iter().enumerate() {
+            let rho = coefficient.of(&island.own_rho, c);
+            let c = c as u32;
+            if let Constraint::Length(bar) = constraint
+                && bar.points[0] != bar.points[1]
+                && bar.bounds.lo <= bar.bounds.hi
+            {
+                let [a, b] = bar.points;
+                let (w1, w2) = (island.w[a as usize], island.w[b as usize]);
+                // An island has no bar whose ends are both frozen: the sum is not 0.
+                let sum = w1 + w2;
+                let (share_a, share_b) = (rho * w1 / sum, rho * w2 / sum);
+                let (lo, hi, distance) = (bar.bounds.lo, bar.bounds.hi, 1.0 / sum.sqrt());
+                sweep.bars.push(Bar { c, a, b, lo, hi, share_a, share_b, distance });
+            } else {
+                sweep.others.push((c, rho));
+                sweep.n_wheels += u64::from(is_wheel(constraint));
+            }
+        }
+        sweep
+    }
+
+    /// Adds up the corrections of all constraints in `d`, which has a place for every point;
+    /// gives the largest distance to satisfaction of those that can move anything.
+    pub fn correct_all(
+        &self,
+        constraints: &[Constraint],
+        x: &[Point],
+        w: &[f64],
+        d: &mut [Vector],
+        work: &mut Counters,
+    ) -> f64 {
+        work.evaluations += constraints.len() as u64;
+        work.wheel_evaluations += self.n_wheels;
+        d.fill(Vector::ZERO);
+        let mut worst = 0.0_f64;
+        let (chunks, rest) = self.bars.as_chunks::<LANES>();
+        for bars in chunks {
+            worst = worst.max(correct_bars(bars, constraints, x, d));
+        }
+        for bar in rest {
+            worst = worst.max(correct_bar(bar, constraints, x, d));
+        }
+        for &(c, rho) in &self.others {
+            let mut squared = 0.0;
+            constraints[c as usize].correct(x, w, &mut |p, v| {
+                let p = p as usize;
+                if w[p] > 0.0 {
+                    squared += v.norm_squared() / w[p];
+                    d[p] += v * rho;
+                }
+            });
+            worst = worst.max(squared.sqrt());
+        }
+        worst
+    }
+}
+
+/// The corrections of several bars; gives the largest distance to satisfaction.
+fn correct_bars(
+    bars: &[Bar; LANES],
+    constraints: &[Constraint],
+    x: &[Point],
+    d: &mut [Vector],
+) -> f64 {
+    let between = bars.each_ref().map(|bar| x[bar.b as usize] - x[bar.a as usize]);
+    let squares = between.map(Vector::norm_squared);
+    if !squares.iter().all(|square| SAFE_SQUARES.contains(square)) {
+        let each = bars.iter().map(|bar| correct_bar(bar, constraints, x, d));
+        return each.fold(0.0, f64::max);
+    }
+    let mut results = [(0.0, 0.0); LANES];
+    for ((result, bar), square) in results.iter_mut().zip(bars).zip(squares) {
+        *result = bar.excess(square);
+    }
+    let mut worst = 0.0_f64;
+    for ((bar, between), (excess, factor)) in bars.iter().zip(between).zip(results) {
+        bar.give(between * factor, d);
+        worst = worst.max(excess.abs() * bar.distance);
+    }
+    worst
+}
+
+/// The correction of one bar, whatever its length.
+fn correct_bar(bar: &Bar, constraints: &[Constraint], x: &[Point], d: &mut [Vector]) -> f64 {
+    let between = x[bar.b as usize] - x[bar.a as usize];
+    let square = between.norm_squared();
+    if SAFE_SQUARES.contains(&square) {
+        // The very operations of many at once: mirror images stay such to the bit.
+        let (excess, factor) = bar.excess(square);
+        bar.give(between * factor, d);
+        return excess.abs() * bar.distance;
+    }
+    let mut excess = 0.0;
+    constraints[bar.c as usize].jacobian(x, &mut |row| {
+        excess = row.f;
+        bar.give(row.gradient[1] * excess, d);
+    });
+    excess.abs() * bar.distance
+}
+
+impl Bar {
+    /// The excess of its length, and the same as a part of the length.
+    #[inline]
+    fn excess(&self, square: f64) -> (f64, f64) {
+        let l = square.sqrt();
+        let excess = l - l.max(self.lo).min(self.hi);
+        (excess, excess / l)
+    }
+
+    /// Lets each end take over its share.
+    #[inline]
+    fn give(&self, tau: Vector, d: &mut [Vector]) {
+        d[self.a as usize] += tau * self.share_a;
+        d[self.b as usize] -= tau * self.share_b;
+    }
+}

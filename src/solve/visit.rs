@@ -1,0 +1,154 @@
+//! What a call of the solver does with one island.
+
+use super::island::{Island, wanted_length};
+use super::method::{Limits, Outcome, Pose};
+use super::relaxation::Coefficient;
+use super::settings::{Method, Settings};
+use super::status::{Counters, Status};
+use super::{
+    anderson, auto, conjugate, descent, nesterov, newton, relaxation, struggle, successive,
+};
+use crate::constraint::{Constraint, Point, Relation};
+use crate::world::{PointId, World};
+
+/// Rounds of a method before it counts as getting nowhere.
+const MOST_ROUNDS: u32 = 2_000;
+
+/// What a call does with each island.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Task {
+    /// The clock went one frame on.
+    Frame,
+    /// Bare iterations at the present time.
+    Relax,
+    /// Until solved or at rest, at the present time.
+    Settle,
+}
+
+/// Works out what drove an island at the beginning of a frame that it was made in.
+pub(super) fn turn_back(island: &mut Island, dt: f64) {
+    island.settle_inputs();
+    for (c, constraint) in island.constraints.iter().enumerate() {
+        let mut before = constraint.clone();
+        if before.advance(-dt) {
+            island.inputs.constraints.push((c as u32, before));
+        }
+    }
+}
+
+/// Solves an island that is new as it was when its first frame began, so that the motion of
+/// that frame has a beginning.
+pub(super) fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
+    if !island.inputs.is_empty() {
+        island.swap_inputs();
+        island.status = struggle::settle(island, limits, work).status;
+        island.swap_inputs();
+    }
+}
+
+/// Solves an island by the chosen method; gives the coefficient of relaxation too, if it had
+/// to be lowered.
+pub(super) fn solve(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    task: Task,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    if settings.method == Method::Auto {
+        let outcome = match task {
+            Task::Frame => auto::frame(island, limits, work),
+            Task::Relax | Task::Settle => struggle::settle(island, limits, work),
+        };
+        return (outcome, None);
+    }
+    island.history.forget();
+    island.feasible = None;
+    let mut lowered = None;
+    let mut outcome = iterate(island, settings, limits, &mut lowered, work);
+    if task == Task::Settle {
+        let mut n = outcome.n_iterations;
+        for _ in 0..MOST_ROUNDS {
+            if outcome.status != Status::Stalled || limits.budget.is_spent() {
+                break;
+            }
+            outcome = iterate(island, settings, limits, &mut lowered, work);
+            n = n.saturating_add(outcome.n_iterations);
+        }
+        outcome.n_iterations = n;
+    }
+    if outcome.is_converged() {
+        island.accept_pose();
+        island.update_sides();
+    } else if task == Task::Frame {
+        island.begin_velocities();
+    }
+    (outcome, lowered)
+}
+
+/// One round of a method.
+fn iterate(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    lowered: &mut Option<f64>,
+    work: &mut Counters,
+) -> Outcome {
+    let rho = settings.rho;
+    match settings.method {
+        Method::Relaxation | Method::Anderson => {
+            let (coefficient, low) = Coefficient::new(island, rho, work);
+            *lowered = low;
+            if settings.method == Method::Relaxation {
+                relaxation::solve(island, coefficient, limits, work)
+            } else {
+                anderson::solve(island, coefficient, limits, work)
+            }
+        }
+        Method::Successive => successive::solve(island, rho, limits, work),
+        Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
+            let mut room = island.take_room();
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            let points = &island.points[..island.n_free];
+            let outcome = match settings.method {
+                Method::Descent => descent::solve(&mut room, &mut pose, limits, work),
+                Method::Conjugate => conjugate::solve(&mut room, &mut pose, limits, work),
+                Method::Nesterov => nesterov::solve(&mut room, points, &mut pose, limits, work),
+                _ => newton::solve(&mut room, &mut pose, limits, work),
+            };
+            island.room = Some(room);
+            outcome
+        }
+    }
+}
+
+/// Puts what was found back into the world.
+pub(super) fn write_back(island: &Island, world: &mut World) {
+    for (id, at) in island.points[..island.n_free].iter().zip(&island.x) {
+        world.set_position(*id, *at);
+    }
+    for &c in &island.stateful {
+        let c = c as usize;
+        if let Some(state) = island.constraints[c].state() {
+            world.constraint_state_mut(island.ids[c]).set_state(&state);
+        }
+    }
+}
+
+/// How far a constraint is from satisfaction, and how large what it holds is, length units.
+pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
+    let points = constraint.points().to_vec();
+    let x: Vec<_> = points.iter().map(|&p| world.points().at(PointId(p))).collect();
+    let w: Vec<f64> = points.iter().map(|&p| world.points().inverse_mass(PointId(p))).collect();
+    let mut local = constraint.clone();
+    local.map_points(|p| points.iter().position(|&q| q == p).expect("it holds it") as u32);
+    let extent = |of: fn(&Point) -> f64| {
+        let values = x.iter().map(of);
+        let (lo, hi) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        hi - lo
+    };
+    let size = extent(|p| p.x).max(extent(|p| p.y));
+    let size = size.max(wanted_length(constraint));
+    (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
+}

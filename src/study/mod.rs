@@ -1,0 +1,25 @@
+//! What accuracy costs in time: a motion done again with every method over a ladder of settings.
+//!
+//! A [`Course`] is the motion; [`study`] repeats it on copies of its world, once for each rung
+//! of the [`ladder`], and compares every frame with a reference solved as exactly as doubles
+//! allow. Nothing here knows statements, files or the clock on the wall: the time comes from
+//! the caller.
+
+mod advice;
+mod course;
+mod measure;
+mod picture;
+mod reference;
+mod report;
+mod rung;
+mod sample;
+mod table;
+
+pub use advice::{Advice, Wish};
+pub use course::{Course, Hand, Leg};
+pub use measure::{Outside, study};
+pub use picture::picture;
+pub use reference::freedoms;
+pub use report::{Cut, Measure, Row, Study, Why};
+pub use rung::{Rung, Step, ladder};
+pub use table::{csv, format_seconds, json, table};

@@ -1,0 +1,40 @@
+//! A study as a picture: error against time a frame, one line a method.
+
+use super::report::{Row, Study};
+use crate::render::chart::{Axis, Chart, Mark, Series, Unit};
+use crate::solve::Method;
+
+/// The picture, as SVG; `title` stands above it.
+pub fn picture(study: &Study, title: &str) -> String {
+    // No logarithm shows an error of 0; what is below the floor is rounding anyway.
+    let floor = study.floor.max(1e-16);
+    let mark = |row: &Row| Mark {
+        x: row.seconds_per_frame,
+        y: row.error(study.measure).max(floor),
+        label: Some(row.rung.setting()),
+        is_notable: row.is_efficient,
+    };
+    let line = |(k, method): (usize, Method)| {
+        let rows = study.rows.iter().filter(|row| row.rung.method == method);
+        Series { name: method.word().to_owned(), look: k, marks: rows.map(mark).collect() }
+    };
+    let series: Vec<Series> = Method::ALL.into_iter().enumerate().map(line).collect();
+    let series = series.into_iter().filter(|series| !series.marks.is_empty()).collect();
+    let frontier = study.frontier().into_iter().map(|row| (mark(row).x, mark(row).y)).collect();
+    let error = format!("{}, relative to the scene's size", study.measure.words());
+    let time = if study.is_still { "time for the solve" } else { "time a frame" };
+    Chart {
+        title: title.to_owned(),
+        subtitle: study.summary(),
+        x: Axis { label: time.to_owned(), is_log: true, unit: Unit::Seconds },
+        y: Axis { label: error, is_log: true, unit: Unit::None },
+        series,
+        frontier,
+        note: format!(
+            "numbers at the marks: {} and {} tolerance, others most iterations a frame",
+            Method::Auto.word(),
+            Method::Newton.word()
+        ),
+    }
+    .svg()
+}

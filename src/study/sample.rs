@@ -1,0 +1,187 @@
+//! One run of one rung: what it comes to, and how long it takes.
+
+use super::course::{Course, Replay};
+use super::measure::Outside;
+use super::reference::Reference;
+use super::report::Why;
+use super::rung::{Rung, Step};
+use crate::diag::Diagnostic;
+use crate::solve::{Budget, Report, Settings, Solver, Status};
+use crate::world::World;
+
+/// A pose this many sizes away from the reference has left the scene.
+const BLOWN: f64 = 1e3;
+/// A solve of a pose is repeated until this much time is measured: enough for the clock.
+const LEAST_SECONDS: f64 = 2e-4;
+/// No clock tells anything shorter, and a logarithm needs something.
+const LEAST_TIME: f64 = 1e-9;
+/// And no more often than this.
+const MOST_SOLVES: usize = 100;
+
+/// What is done again and again: a motion, or one solve of a pose.
+pub(super) struct Subject<'a> {
+    pub course: &'a Course,
+    pub is_still: bool,
+    pub n_frames: u64,
+}
+
+/// What a run came to.
+pub(super) struct Outcome {
+    /// Seconds a frame, the median.
+    pub seconds: f64,
+    /// The largest residual of a frame.
+    pub residual: f64,
+    /// The largest error of a frame, if there is a reference.
+    pub position_error: Option<f64>,
+    /// Frames that missed the tolerance.
+    pub n_failed: u64,
+}
+
+impl Subject<'_> {
+    /// Runs a rung and looks at every frame; gives why it was cut short, if it was.
+    pub fn look(
+        &self,
+        rung: Rung,
+        reference: Option<&Reference>,
+        outside: &Outside,
+        seconds: f64,
+    ) -> Result<Outcome, Why> {
+        let settings = rung.settings(&self.course.settings);
+        let begun = (outside.now)();
+        let is_over = || (outside.stop)() || (outside.now)() - begun > seconds;
+        let budget = Budget { tolerance: None, stop: Some(&is_over) };
+        let mut outcome = Outcome {
+            seconds: 0.0,
+            residual: 0.0,
+            position_error: reference.map(|_| 0.0),
+            n_failed: 0,
+        };
+        let take = |outcome: &mut Outcome, world: &World, report: &Report, k: usize| {
+            outcome.residual = outcome.residual.max(report.residual);
+            outcome.n_failed += u64::from(report.status != Status::Converged);
+            let error = reference.map(|reference| reference.error_of(world, k));
+            if let (Some(worst), Some(error)) = (&mut outcome.position_error, error) {
+                *worst = worst.max(error);
+            }
+            // A number that is none is not below the limit either.
+            let is_sane = |value: f64| value <= BLOWN;
+            is_sane(report.residual) && error.is_none_or(is_sane)
+        };
+        let no_value = |problem: Diagnostic| Why::NoValue(problem.message.into());
+        if self.is_still {
+            let (world, report, seconds) =
+                self.solve(&settings, rung.step, &budget, outside).map_err(no_value)?;
+            outcome.seconds = seconds;
+            if is_over() {
+                return Err(outside.why_over());
+            }
+            return if take(&mut outcome, &world, &report, 0) {
+                Ok(outcome)
+            } else {
+                Err(Why::Blown)
+            };
+        }
+        let mut replay = Replay::new(self.course, 1);
+        let mut times = Vec::with_capacity(self.n_frames as usize);
+        for k in 0..self.n_frames {
+            let before = (outside.now)();
+            let report = replay.frame(&settings, &budget).map_err(no_value)?;
+            times.push((outside.now)() - before);
+            if is_over() {
+                return Err(outside.why_over());
+            }
+            if !take(&mut outcome, &replay.world, &report, k as usize) {
+                return Err(Why::Blown);
+            }
+        }
+        outcome.seconds = median(&mut times);
+        Ok(outcome)
+    }
+
+    /// Runs a rung by the clock alone; gives the median of the times of its frames, seconds. A
+    /// mean would tell of what else the machine was doing: that falls on few frames, but hard.
+    pub fn time(&self, rung: Rung, outside: &Outside) -> Result<f64, Diagnostic> {
+        let settings = rung.settings(&self.course.settings);
+        let overhead = overhead(outside);
+        let mut times;
+        if self.is_still {
+            times = Vec::with_capacity(MOST_SOLVES);
+            let mut sum = 0.0;
+            while sum < LEAST_SECONDS && times.len() < MOST_SOLVES {
+                let seconds = self.solve(&settings, rung.step, &Budget::default(), outside)?.2;
+                times.push(seconds);
+                sum += seconds;
+            }
+        } else {
+            times = Vec::with_capacity(self.n_frames as usize);
+            let mut replay = Replay::new(self.course, 1);
+            let mut before = (outside.now)();
+            for _ in 0..self.n_frames {
+                replay.frame(&settings, &Budget::default())?;
+                let now = (outside.now)();
+                times.push(now - before);
+                before = now;
+            }
+        }
+        Ok((median(&mut times) - overhead).max(LEAST_TIME))
+    }
+
+    /// Solves the pose by a method until it is solved, or stuck.
+    pub fn solve_pose(
+        &self,
+        settings: &Settings,
+        outside: &Outside,
+    ) -> Result<(World, Report), Diagnostic> {
+        let budget = Budget { tolerance: None, stop: Some(outside.stop) };
+        let (world, report, _) =
+            self.solve(settings, Step::Tolerance(settings.tolerance), &budget, outside)?;
+        Ok((world, report))
+    }
+
+    fn solve(
+        &self,
+        settings: &Settings,
+        step: Step,
+        budget: &Budget,
+        outside: &Outside,
+    ) -> Result<(World, Report, f64), Diagnostic> {
+        let mut world = self.course.world().clone();
+        let is_measured = world.is_measured();
+        if is_measured {
+            world.refresh_measured()?;
+        }
+        let mut solver = Solver::new();
+        // The scene is taken in before the clock runs: a mechanism is built once and solved often.
+        let at_once = || true;
+        let nothing = Budget { tolerance: None, stop: Some(&at_once) };
+        solver.settle(&mut world, settings, &nothing);
+        let before = (outside.now)();
+        let mut report = match step {
+            Step::Iterations(n) => solver.relax(&mut world, settings, n.into()),
+            Step::Tolerance(_) => solver.settle(&mut world, settings, budget),
+        };
+        if is_measured {
+            solver.agree(&mut world, settings, budget, &mut report)?;
+        }
+        let seconds = (outside.now)() - before;
+        Ok((world, report, seconds))
+    }
+}
+
+/// What looking at the clock takes, seconds.
+fn overhead(outside: &Outside) -> f64 {
+    let mut before = (outside.now)();
+    let mut times = [0.0; 31];
+    for time in &mut times {
+        let now = (outside.now)();
+        *time = now - before;
+        before = now;
+    }
+    median(&mut times)
+}
+
+/// The median of some numbers, of which there is at least one.
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}

@@ -1,0 +1,321 @@
+//! The study of accuracy against time, from scenes to words; no time is asserted.
+
+use std::cell::{Cell, RefCell};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use linkwork::diag::{Diagnostic, Kind, Sources};
+use linkwork::session::{Flow, Host, Session, Telling};
+
+/// What a session said and wrote.
+#[derive(Default)]
+struct Record {
+    printed: RefCell<Vec<String>>,
+    told: RefCell<Vec<String>>,
+    written: RefCell<Vec<(PathBuf, String)>>,
+    calls: Cell<u64>,
+    /// The user stops after so many looks at the clock.
+    patience: Cell<u64>,
+}
+
+/// An outside whose clock goes a microsecond on whenever it is looked at.
+struct Notebook(Rc<Record>);
+
+impl Host for Notebook {
+    fn print(&mut self, line: &str) {
+        self.0.printed.borrow_mut().push(line.to_owned());
+    }
+
+    fn tell(&mut self, what: &Diagnostic, _sources: &Sources) {
+        let mut text = what.message.to_string();
+        what.notes.iter().for_each(|note| text = format!("{text}; {note}"));
+        self.0.told.borrow_mut().push(text);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.0.calls.get() > self.0.patience.get()
+    }
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        Err(io::Error::from(io::ErrorKind::NotFound))
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let text = String::from_utf8(bytes.to_vec()).expect("files are texts");
+        self.0.written.borrow_mut().push((path.to_path_buf(), text));
+        Ok(())
+    }
+
+    fn written(&self, path: &Path) -> PathBuf {
+        path.to_path_buf()
+    }
+
+    fn seconds(&self) -> f64 {
+        self.0.calls.set(self.0.calls.get() + 1);
+        self.0.calls.get() as f64 * 1e-6
+    }
+}
+
+fn session() -> (Session, Rc<Record>) {
+    let record = Rc::new(Record::default());
+    record.patience.set(u64::MAX);
+    (Session::new(Box::new(Notebook(record.clone()))), record)
+}
+
+fn run(session: &mut Session, text: &str) -> Result<Flow, Diagnostic> {
+    let source = session.add_source("test.link", text, None);
+    session.execute_all(source)
+}
+
+/// Runs a script; gives what was printed and told.
+fn said(text: &str) -> (Vec<String>, Vec<String>, Rc<Record>) {
+    let (mut session, record) = session();
+    if let Err(problem) = run(&mut session, text) {
+        panic!("{}: {:?}", problem.message, problem.labels);
+    }
+    (record.printed.take(), record.told.take(), record)
+}
+
+const FOUR_BAR: &str = "
+point A = (0, 0) frozen, D = (4, 0) frozen
+point B = (1, 0), C = (3, 3)
+crank: motor A B radius 1 speed 1rev
+length B C = 3.5
+length C D = 3
+set dt 1/36
+";
+
+fn numbers(line: &str) -> Vec<&str> {
+    line.trim_start_matches('*').split_whitespace().collect()
+}
+
+#[test]
+fn the_table_has_every_setting_and_marks_the_efficient() {
+    let (printed, told, record) = said(&format!("{FOUR_BAR} step 36; accuracy"));
+    assert_eq!(printed.len(), 1 + 70 + 1, "{told:?}");
+    assert!(printed[0].contains("method") && printed[0].contains("time a frame"));
+    let efficient: Vec<_> = printed.iter().filter(|line| line.starts_with("* ")).collect();
+    assert!(efficient.len() > 1);
+    assert!(printed.last().is_some_and(|line| line.contains("both faster and better")));
+    let auto = printed.iter().find(|line| numbers(line).starts_with(&["auto", "1e-12"]));
+    let error: f64 = numbers(auto.expect("it is a setting"))[7].parse().expect("a number");
+    assert!(error < 1e-10, "the position error of auto is {error}");
+    let names: Vec<_> = record.written.borrow().iter().map(|(path, _)| path.clone()).collect();
+    assert_eq!(names, [Path::new("accuracy.csv"), Path::new("accuracy.svg")]);
+    let written = record.written.borrow();
+    assert_eq!(written[0].1.lines().count(), 71);
+    for word in ["relaxation", "nesterov", "efficient", "position error", "</svg>"] {
+        assert!(written[1].1.contains(word), "`{word}` is in the picture");
+    }
+}
+
+#[test]
+fn json_has_these_keys_and_numbers() {
+    let (mut session, record) = session();
+    run(&mut session, FOUR_BAR).expect("it is sound");
+    session.study_accuracy(Some(12), Telling::Json).expect("there is something to study");
+    let printed = record.printed.take();
+    assert_eq!(printed.first().map(String::as_str), Some("["));
+    assert_eq!(printed.last().map(String::as_str), Some("]"));
+    assert_eq!(printed.len(), 72);
+    let keys = [
+        "method",
+        "iterations",
+        "tolerance",
+        "seconds_per_frame",
+        "residual",
+        "position_error",
+        "failed_frames",
+        "efficient",
+    ];
+    for line in &printed[1..71] {
+        let found: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
+        let found: Vec<&str> = found.into_iter().filter(|word| keys.contains(word)).collect();
+        assert_eq!(found, keys, "in {line}");
+        assert!(!line.contains("NaN") && !line.contains("inf"), "in {line}");
+    }
+}
+
+#[test]
+fn a_scene_without_motion_is_solved_from_its_start() {
+    let (printed, told, _) = said(
+        "
+        point A = (0, 0) frozen, B = (4, 0) frozen, C = (1, 1)
+        length A C = 3; length B C = 3
+        solve
+        accuracy
+    ",
+    );
+    assert!(told.iter().any(|t| t.starts_with("nothing moves in this scene")), "{told:?}");
+    let one = printed.iter().find(|line| numbers(line).starts_with(&["relaxation", "1"]));
+    let one = numbers(one.expect("it is a setting"));
+    assert_ne!(one[6], "0", "one iteration does not solve it: the pose is the given one");
+    assert!(told.iter().any(|t| t.starts_with("one solve of the starting pose")), "{told:?}");
+}
+
+#[test]
+fn a_scene_that_never_converges_has_no_position_errors() {
+    let (printed, told, _) = said(
+        "
+        point A = (0, 0) frozen, B = (1, 0), C = (0.3, 0.8)
+        length A B = 1; length B C = 1; length C A = 3
+        accuracy
+    ",
+    );
+    let words = "there is no reference: it ended as best fit";
+    assert!(told.iter().any(|t| t.starts_with(words)), "{told:?}");
+    assert!(printed.last().is_some_and(|line| line.contains("better by residual")));
+    assert!(printed[1..printed.len() - 1].iter().all(|line| numbers(line).contains(&"-")));
+}
+
+#[test]
+fn a_motion_with_freedoms_left_says_so() {
+    let (_, told, _) = said(
+        "
+        point p[0] = (0, 0) frozen
+        for i in 1..6 { point p[i] = (i, 0.1 * i^2); length p[i-1] p[i] }
+        freeze p[6]
+        drag p[6] to p[6] - (1, 0) over 20
+        accuracy
+    ",
+    );
+    assert!(told.iter().any(|t| t.contains("freedoms left")), "{told:?}");
+    assert!(told.iter().any(|t| t.starts_with("20 frames, ")), "{told:?}");
+}
+
+#[test]
+fn a_motion_past_its_branches_has_no_reference() {
+    // Both frames end where the crank is straight with the coupler, and which way it folds is
+    // a matter of how the way there was divided.
+    let (_, told, _) = said(
+        "
+        point A = (0, 0) frozen, D = (2, 0) frozen
+        point B = polar(4, 30deg), C = (2.6, 0.8)
+        crank: motor A B radius 4 speed 1rev
+        length B C = 2.5; length C D = 1
+        set dt 1/60
+        step 60
+        accuracy
+    ",
+    );
+    assert!(told.iter().any(|t| t.starts_with("there is no reference")), "{told:?}");
+}
+
+#[test]
+fn advice_can_be_typed() {
+    let (printed, _, record) = said(&format!("{FOUR_BAR} step 36; accuracy within 1e-6"));
+    assert!(record.written.borrow().is_empty());
+    assert_eq!(printed.len(), 2);
+    assert!(printed[0].starts_with("set method ") && printed[0].contains("# position error "));
+    assert!(printed[1].starts_with("set iterations ") || printed[1].starts_with("set tolerance "));
+    let (mut session, _) = session();
+    run(&mut session, &printed.join("\n")).expect("the advice is a script");
+
+    let (printed, _, _) = said(&format!("{FOUR_BAR} step 36; accuracy in 2ms"));
+    assert!(printed[0].starts_with("set method "), "{printed:?}");
+
+    let (printed, _, _) = said(&format!("{FOUR_BAR} step 36; accuracy within 1e-30"));
+    assert!(printed[0].starts_with("# no setting does that; nearest: "), "{printed:?}");
+}
+
+#[test]
+fn a_study_that_is_stopped_shows_what_it_has() {
+    let (mut session, record) = session();
+    run(&mut session, &format!("{FOUR_BAR} step 36")).expect("it is sound");
+    record.patience.set(record.calls.get() + 2_000);
+    assert_eq!(run(&mut session, "accuracy").expect("it is stopped"), Flow::Stopped);
+    let told = record.told.take();
+    assert!(told.iter().any(|t| t.starts_with("stopped: ")), "{told:?}");
+    assert!(record.printed.borrow().len() > 2);
+    assert_eq!(record.written.borrow().len(), 2);
+}
+
+#[test]
+fn nothing_to_study_is_an_error() {
+    let (mut session, _) = session();
+    let problem = run(&mut session, "point A = (0, 0); accuracy").expect_err("there is nothing");
+    assert_eq!(&*problem.message, "there is nothing to study");
+}
+
+#[test]
+fn a_study_changes_nothing() {
+    let (mut session, _) = session();
+    run(&mut session, &format!("{FOUR_BAR} trace C; step 20")).expect("it is sound");
+    let before = session.to_script();
+    run(&mut session, "accuracy").expect("it can be studied");
+    assert_eq!(session.to_script(), before);
+}
+
+#[test]
+fn one_receipt_a_command() {
+    let (_, told, _) = said(&format!("{FOUR_BAR} for k in 1..6 {{ step 6 }}"));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("36 frames by auto: "), "{told:?}");
+    for words in ["iterations and", "a frame, largest residual", "position error about"] {
+        assert!(told[0].contains(words), "{told:?}");
+    }
+}
+
+#[test]
+fn a_receipt_shows_changes_between_frames() {
+    let (_, told, _) = said(&format!(
+        "{FOUR_BAR} for k in 1..2 {{ set method relaxation; set rho 1 / (4 * k); step 3 }}"
+    ));
+    let words = "6 frames by relaxation (rho 0.25, iterations 30) (3), \
+                 then relaxation (rho 0.125, iterations 30) (3): ";
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("6 of 6 frames did not reach the tolerance 1e-12"), "{told:?}");
+    assert!(told[0].contains(words), "{told:?}");
+}
+
+#[test]
+fn a_broken_promise_fails() {
+    let (mut session, _) = session();
+    let text = format!("{FOUR_BAR} set method relaxation; step 10 within 1e-9");
+    let problem = run(&mut session, &text).expect_err("30 iterations are not enough");
+    assert_eq!(problem.kind, Kind::Promise);
+    run(&mut session, "set method auto; step 10 within 1e-9").expect("auto keeps it");
+}
+
+#[test]
+fn frames_without_time_are_told_and_gone_on_with() {
+    let (_, told, _) = said(&format!("{FOUR_BAR} step 4 in 1e-9; print time"));
+    assert!(told[0].contains("for want of time"), "{told:?}");
+}
+
+#[test]
+fn pictures_say_where_they_come_from() {
+    let picture = |text: &str| {
+        let (_, _, record) = said(&format!("{FOUR_BAR} {text} svg \"now.svg\""));
+        let picture = record.written.borrow()[0].1.clone();
+        let start = picture.find("tolerance: ").expect("it has a receipt");
+        let end = picture[start..].find('<').expect("it ends");
+        picture[start..start + end].lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (early, late) = (picture("step 3;"), picture("step 30;"));
+    assert_eq!(early[0], "tolerance: 1e-12");
+    assert!(early[1].starts_with("largest residual: "));
+    assert!(early[2].starts_with("scene: ") && early[2].len() == 7 + 16);
+    assert_eq!(early[2], late[2], "the hash is of the scene, not of its state");
+    assert_ne!(early[2], picture("change crank radius 1.1; step 3;")[2]);
+    assert_eq!(picture("step 3 within 1e-6;")[0], "tolerance: 1e-6");
+}
+
+#[test]
+fn series_are_undone_saved_and_plotted() {
+    let (mut session, record) = session();
+    run(&mut session, "sample \"a b\" = 1, 0.5, 0.25; sample \"c\" = 3; undo; sample \"c\" = 2")
+        .expect("it is sound");
+    let script = session.to_script();
+    assert!(script.contains("sample \"a b\" = 1, 0.5, 0.25\n"), "{script}");
+    assert!(script.contains("sample \"c\" = 2\n"), "{script}");
+    run(&mut session, "plot \"e.svg\" log title \"T < U\" x \"n\" y \"error\"").expect("it plots");
+    let written = record.written.take();
+    assert!(written[0].1.contains("T &lt; U") && written[0].1.contains("a b"));
+    run(&mut session, "clear").expect("it clears");
+    let problem = run(&mut session, "plot \"e.svg\"").expect_err("there is nothing to plot");
+    assert_eq!(&*problem.message, "there is nothing to plot");
+    let problem = run(&mut session, "sample \"c\" = 2; plot \"e.png\"").expect_err("not an SVG");
+    assert_eq!(&*problem.message, "`plot` writes an SVG picture");
+}

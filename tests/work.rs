@@ -1,0 +1,186 @@
+//! What a frame does, counted by the solver itself: nothing that the scene does not call for.
+//! `benches/counting.py` counts instructions of the whole program for the same claims.
+
+use linkwork::constraint::Point;
+use linkwork::session::{Nowhere, Session};
+use linkwork::solve::{Budget, Counters, Settings, Solver};
+use linkwork::world::{Edit, Entity, World};
+
+/// Frames for what is new to come to rest, and frames that are counted.
+const FIRST: usize = 5;
+const COUNTED: usize = 60;
+
+const FOUR_BAR: &str = "
+point A = (0, 0) frozen, D = (4, 0) frozen
+point B = (1, 0), C = (3, 2.9)
+motor A B radius 1 speed 1rev
+length B C = 3.5
+length C D = 3
+set dt 1/360
+";
+
+/// The world that a script makes.
+fn world(script: &str) -> World {
+    let mut session = Session::new(Box::new(Nowhere));
+    let source = session.add_source("work", script, None);
+    session.execute_all(source).expect("a script that works");
+    session.world().clone()
+}
+
+fn pass(world: &mut World, solver: &mut Solver) -> Counters {
+    let settings = Settings::default();
+    solver.pass(world, &settings, &Budget::default()).expect("values at every time").counters
+}
+
+/// The work of some frames of a scene, once it has come to rest.
+fn work(script: &str) -> Counters {
+    let mut world = world(script);
+    let mut solver = Solver::new();
+    (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
+    let mut all = Counters::default();
+    (0..COUNTED).for_each(|_| all.add(&pass(&mut world, &mut solver)));
+    all
+}
+
+fn check_same(moving: &str, with: &str) {
+    let alone = work(moving);
+    assert!(alone.evaluations > 0, "the scene moves");
+    assert_eq!(alone, work(&format!("{moving}{with}")), "{with}");
+}
+
+#[test]
+fn still_constraints_are_no_work() {
+    check_same(
+        FOUR_BAR,
+        "for i in 1..25000 {
+           point P[i] = (i, 10) frozen, Q[i] = (i, 11), R[i] = (i + 1, 11), S[i] = (i + 1, 10)
+           length P[i] Q[i] = 1
+           length Q[i] R[i] = 1
+           length R[i] S[i] = 1
+           length S[i] P[i] = 1
+         }",
+    );
+}
+
+#[test]
+fn still_constraints_between_frozen_points_are_no_work() {
+    check_same(
+        FOUR_BAR,
+        "point F[0] = (0, 10) frozen
+         for i in 1..20000 { point F[i] = (i, 10) frozen; length F[i-1] F[i] = 1 }",
+    );
+}
+
+#[test]
+fn a_large_still_island_is_no_work() {
+    check_same(
+        FOUR_BAR,
+        "point F[0] = (0, 10) frozen
+         for i in 1..5000 { point F[i] = (i, 10); length F[i-1] F[i] = 1 }",
+    );
+}
+
+#[test]
+fn a_still_island_that_cannot_be_solved_is_no_work() {
+    check_same(
+        FOUR_BAR,
+        "point U = (0, 10), V = (2, 10), W = (1, 11)
+         length U V = 3; length V W = 1; length W U = 1",
+    );
+}
+
+/// Four-bars of which each but the first is made to stand still in some way.
+fn four_bars(n: usize, still: &str) -> String {
+    format!(
+        "set dt 1/360
+         for i in 1..{n} {{
+           point A[i] = (0, 6 * i) frozen, D[i] = (4, 6 * i) frozen
+           point B[i] = (1, 6 * i), C[i] = (3, 6 * i + 2.9)
+           length B[i] C[i] = 3.5
+           length C[i] D[i] = 3
+         }}
+         motor A[1] B[1] radius 1 speed 1rev
+         for i in 2..{n} {{ {still} }}"
+    )
+}
+
+#[test]
+fn one_driven_mechanism_of_many_is_the_work_of_one() {
+    let alone = work(&four_bars(1, ""));
+    for still in ["freeze B[i]", "motor A[i] B[i] radius 1 speed 0", "length A[i] B[i] = 1"] {
+        assert_eq!(alone, work(&four_bars(10_000, still)), "{still}");
+    }
+}
+
+#[test]
+fn dragging_one_of_many_is_the_work_of_one() {
+    let drag = |n: usize| {
+        let mut world = world(&four_bars(n, "freeze B[i]"));
+        let mut solver = Solver::new();
+        let settings = Settings::default();
+        (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
+        let Some(Entity::Point(d)) = world.names().get("D[1]") else { panic!("no point") };
+        let mut all = Counters::default();
+        for k in 1..=COUNTED {
+            solver.attend(&mut world, &settings);
+            world.apply(Edit::Move(d, Point::new(4.0 + 0.01 * k as f64, 6.0)));
+            all.add(&pass(&mut world, &mut solver));
+        }
+        all
+    };
+    assert_eq!(drag(1), drag(1000));
+}
+
+/// Scenes that call for one effect more than a four-bar does.
+const EFFECTS: [(&str, &str); 6] = [
+    ("wheel angles", "point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1"),
+    (
+        "wheel angles",
+        "point G = (-9, -1) frozen, H = (9, -1) frozen, W = (6, 0), R = (6, -1)
+                      length W R = 1\nrack W R on G H",
+    ),
+    ("inequalities", "point E = (9, 9) frozen, F = (9, 8)\nlength E F <= 5"),
+    ("traces", "trace C"),
+    ("ghosts", "expose every 10"),
+    ("derivatives", "let v = norm(velocity(C))"),
+];
+
+#[test]
+fn what_no_statement_calls_for_has_no_memory() {
+    let effects = |with: &str| {
+        let mut session = Session::new(Box::new(Nowhere));
+        let source = session.add_source("work", &format!("{FOUR_BAR}{with}\nstep 30"), None);
+        session.execute_all(source).expect("a script that works");
+        session.effects_on().expect("values at every time").rows
+    };
+    let without = effects("");
+    for (name, with) in EFFECTS {
+        let off = without.iter().find(|row| row.name == name).expect("a known effect");
+        assert!(!off.is_on && off.n_bytes == 0, "{name}");
+        for row in effects(with) {
+            let is_on = row.name == name || without.iter().any(|r| r.name == row.name && r.is_on);
+            assert_eq!(row.is_on, is_on, "{}, asked for: {with}", row.name);
+            assert!(row.is_on || row.n_bytes == 0, "{}, asked for: {with}", row.name);
+        }
+    }
+}
+
+#[test]
+fn no_wheels_no_evaluations_of_wheels() {
+    assert_eq!(work(FOUR_BAR).wheel_evaluations, 0);
+    let all = [EFFECTS[2].1, EFFECTS[3].1, EFFECTS[4].1, EFFECTS[5].1].join("\n");
+    assert_eq!(work(&format!("{FOUR_BAR}{all}")).wheel_evaluations, 0);
+}
+
+#[test]
+fn a_still_scene_is_no_work_at_all() {
+    let still = "point A = (0, 0) frozen, B = (1, 1)\nlength A B = 2\n";
+    assert_eq!(work(still), Counters::default());
+}
+
+#[test]
+fn an_island_is_built_once() {
+    let counters = work(FOUR_BAR);
+    assert_eq!(counters.islands_rebuilt, 0);
+    assert_eq!(counters.islands_visited, COUNTED as u64);
+}
