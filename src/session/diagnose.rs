@@ -40,8 +40,8 @@ pub struct Unsatisfiable {
     pub constraint: String,
     /// Its points.
     pub frozen: Vec<String>,
-    /// How far it is from holding, length units.
-    pub residual: f64,
+    /// By how much it is missed, in its own unit.
+    pub miss: String,
 }
 
 impl Check {
@@ -73,11 +73,9 @@ impl Check {
             let residual = format_rounded(*residual);
             lines.push(format!("conflicting: {}, off by {residual}", names.join(", ")));
         }
-        for Unsatisfiable { constraint, frozen, residual } in &self.unsatisfiable {
-            let (frozen, residual) = (listed(frozen, "and"), format_rounded(*residual));
-            lines.push(format!(
-                "unsatisfiable: {constraint}, off by {residual}: {frozen} are frozen"
-            ));
+        for Unsatisfiable { constraint, frozen, miss } in &self.unsatisfiable {
+            let frozen = listed(frozen, "and");
+            lines.push(format!("unsatisfiable: {constraint}, off by {miss}: {frozen} are frozen"));
         }
         lines.push(match (self.pose, self.near_singular) {
             (Pose::Regular, None) => "pose: regular".to_owned(),
@@ -120,7 +118,7 @@ impl Session {
                 .map(|&k| Unsatisfiable {
                     constraint: subject.name(k),
                     frozen: self.points_of(&subject, k),
-                    residual: subject.violation(k),
+                    miss: subject.miss(k),
                 })
                 .collect(),
             pose: found.pose,
@@ -167,7 +165,7 @@ impl Session {
         let slack = subject.slack;
         let place = subject.parts.place(id).expect("it is on");
         let violation = subject.violation(place);
-        let off = format!("{name} is off by {}", format_rounded(violation));
+        let off = format!("{name} is off by {}", subject.miss(place));
         let found = subject.with(|scene| analyse(scene, slack));
         if found.unsatisfiable.contains(&place) {
             let points = self.points_of(&subject, place);

@@ -1,7 +1,8 @@
 //! A copy of the world at rest, for questions that must not touch the world itself.
 
 use super::Session;
-use crate::constraint::{Constraint, Relation as _};
+use super::run::format_rounded;
+use crate::constraint::{Constraint, Kind, Relation as _};
 use crate::solve::mobility::Scene;
 use crate::solve::{Budget, Report, Solver};
 use crate::world::{ConstraintId, Entity, PointId, World};
@@ -61,6 +62,18 @@ impl Subject {
     /// The size of what hangs together most widely, length units.
     pub const fn size(&self) -> f64 {
         self.size
+    }
+
+    /// By how much a constraint is missed, in its own unit: length units, or degrees.
+    pub fn miss(&self, place: usize) -> String {
+        let constraint = &self.parts.constraints[place];
+        let missed = constraint.residual(self.world.points().column()).abs();
+        match constraint.kind() {
+            Kind::Orientation | Kind::Cog => {
+                format!("{} deg", format_rounded(missed.to_degrees()))
+            }
+            _ => format_rounded(missed),
+        }
     }
 
     /// How far a constraint is from being satisfied, length units.

@@ -2,7 +2,7 @@
 //! each point is.
 
 use super::island::Island;
-use super::plan::Plan;
+use super::plan::{Block, Plan};
 use crate::constraint::{Constraint, Point, PointIdx};
 
 /// A triangle flatter than this, as the sine of an angle, has no side.
@@ -55,7 +55,7 @@ impl Watch {
     }
 
     /// A point that is on the other side than when last looked at.
-    pub fn turned_over(&self, x: &[Point]) -> Option<PointIdx> {
+    fn turned_over(&self, x: &[Point]) -> Option<PointIdx> {
         let both = self.sides.iter().zip(&self.triangles);
         both.filter(|(before, t)| *before * side(**t, x) < 0.0).map(|(_, t)| t[0]).next()
     }
@@ -87,20 +87,31 @@ impl Island {
         self.watch.sides.iter_mut().zip(&mut sides).for_each(|(to, side)| *to = side);
     }
 
+    /// A watched point that is on the other side than at the last pose that counted. Points
+    /// with freedom left may be on any side.
+    pub fn watched_point_over(&self) -> Option<PointIdx> {
+        self.is_smooth().then(|| self.watch.turned_over(&self.x))?
+    }
+
     /// A point that is on the other side than it was.
-    pub fn changed_since(&self, before: &Sides) -> Option<u32> {
+    pub fn changed_since(&self, before: &Sides) -> Option<PointIdx> {
         let now = self.sides();
-        let points = self.plan.blocks.iter().map(|block| block.point);
-        let points = points.chain(self.watch.triangles.iter().map(|t| t[0]));
-        let mut both = before.0.iter().zip(&now.0).zip(points);
-        both.find(|((a, b), _)| *a * *b < 0.0 && a.abs().min(b.abs()) > FLAT).map(|(_, p)| p)
+        let blocks = self.plan.blocks.iter();
+        let blocks = blocks.map(|block| block.is_determined.then_some(block.point));
+        let watched = self.watch.triangles.iter().map(|t| self.is_smooth().then_some(t[0]));
+        let both = before.0.iter().zip(&now.0).zip(blocks.chain(watched));
+        let over = |((a, b), point): ((&f64, &f64), Option<PointIdx>)| {
+            point.filter(|_| a * b < 0.0 && a.abs().min(b.abs()) > FLAT)
+        };
+        both.filter_map(over).next()
     }
 
     /// Notes what is on the other side at a pose that was tried, as against the last that
     /// counted.
     pub fn note_turning_over(&mut self) {
-        let block = self.plan.blocks.iter().find(|block| block.side * block.next_side < 0.0);
-        let point = block.map(|block| block.point).or_else(|| self.watch.turned_over(&self.x));
+        let is_over = |block: &&Block| block.is_determined && block.side * block.next_side < 0.0;
+        let block = self.plan.blocks.iter().find(is_over);
+        let point = block.map(|block| block.point).or_else(|| self.watched_point_over());
         self.turned_over = self.turned_over.or(point);
     }
 }

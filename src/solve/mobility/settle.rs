@@ -9,6 +9,8 @@ const N_STEPS: usize = 40;
 /// A step that promises no more than this part of the energy leads nowhere: a best fit. Near a
 /// pose where all holds, a step promises nearly all of it.
 const NOWHERE: f64 = 1e-6;
+/// The same where something that counts little keeps nearly all of the energy.
+const NOWHERE_NEARLY: f64 = 1e-15;
 
 /// Some constraints of a scene and the points of theirs that move.
 pub struct Part<'a> {
@@ -50,7 +52,8 @@ impl<'a> Part<'a> {
             let mut step = downhill.clone();
             Projector::of(&here).solve_damped(mu, &mut step);
             let promised: f64 = 0.5 * step.iter().zip(&downhill).map(|(s, d)| s * d).sum::<f64>();
-            if promised <= NOWHERE * here.energy() {
+            let nowhere = if light.1 == 1.0 { NOWHERE } else { NOWHERE_NEARLY };
+            if promised <= nowhere * here.energy() {
                 break;
             }
             let moves = self.scene.displacements(&self.points, &step);

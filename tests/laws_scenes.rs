@@ -1,0 +1,242 @@
+//! Laws of sessions on random scenes of all constraint types under random edits.
+
+mod talk;
+
+use linkwork::constraint::Relation as _;
+use linkwork::session::Session;
+use linkwork::world::Entity;
+use proptest::prelude::*;
+use proptest::test_runner::Config;
+use talk::Talking;
+
+const N_POINTS: usize = 7;
+const N_CONSTRAINTS: usize = 9;
+
+fn point() -> impl Strategy<Value = String> {
+    (0..N_POINTS).prop_map(|k| format!("p{k}"))
+}
+
+fn constraint_name() -> impl Strategy<Value = String> {
+    (0..N_CONSTRAINTS).prop_map(|k| format!("c{k}"))
+}
+
+/// A number as a user may type it: mostly ordinary, some hard.
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => (-50..50i32).prop_map(|n| format!("{}", f64::from(n) / 10.0)),
+        1 => Just("0".to_owned()),
+        1 => prop_oneof![Just("1e-9"), Just("1e6"), Just("-1"), Just("1 + sin(time)")]
+            .prop_map(str::to_owned),
+    ]
+}
+
+fn angle() -> impl Strategy<Value = String> {
+    (-36..=36i32).prop_map(|n| format!("{}deg", 10 * n))
+}
+
+fn relation(value: impl Strategy<Value = String> + Clone) -> impl Strategy<Value = String> {
+    prop_oneof![
+        2 => Just(String::new()),
+        4 => value.clone().prop_map(|v| format!("= {v}")),
+        1 => value.clone().prop_map(|v| format!("<= {v}")),
+        1 => value.prop_map(|v| format!(">= {v}")),
+    ]
+}
+
+/// A statement of a constraint of any type, with its name in front.
+fn constraint() -> impl Strategy<Value = String> {
+    let body = prop_oneof![
+        4 => (point(), point(), relation(number().boxed())).prop_map(|(a, b, r)| format!("length {a} {b} {r}")),
+        1 => (point(), number(), number()).prop_map(|(a, x, y)| format!("coordinate {a} at ({x}, {y})")),
+        1 => (point(), point()).prop_map(|(a, b)| format!("coincidence {a} {b}")),
+        1 => [point(), point(), point(), point()]
+            .prop_map(|[a, b, c, d]| format!("equivalence {a} {b}, {c} {d}")),
+        1 => ([point(), point(), point(), point()], relation(number().boxed()))
+            .prop_map(|([a, b, c, d], r)| format!("equal {a} {b}, {c} {d} {r}")),
+        2 => ([point(), point(), point(), point()], relation(angle().boxed()))
+            .prop_map(|([a, b, c, d], r)| format!("orientation {a} {b}, {c} {d} {r}")),
+        2 => (point(), point(), number(), number())
+            .prop_map(|(a, b, r, v)| format!("motor {a} {b} radius abs({r}) speed {v}")),
+        2 => ([point(), point(), point()], any::<bool>()).prop_map(|([a, b, c], free)| {
+            format!("glider {a} on {b} {c} {}", if free { "unbounded" } else { "" })
+        }),
+        1 => ([point(), point(), point()], number())
+            .prop_map(|([a, b, c], mu)| format!("hinge {a} on {b} {c} at {mu}")),
+        1 => ([point(), point(), point(), point()], number())
+            .prop_map(|([a, b, c, d], r)| format!("cog {a} {b}, {c} {d} ratio {r}")),
+        1 => ([point(), point(), point()], relation(number().boxed()))
+            .prop_map(|([a, b, c], r)| format!("distance {a} to {b} {c} {r}")),
+        1 => ([point(), point(), point(), point()], prop_oneof![Just("parallel"), Just("perpendicular")])
+            .prop_map(|([a, b, c, d], word)| format!("{word} {a} {b}, {c} {d}")),
+        1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),
+        1 => [point(), point(), point(), point()]
+            .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
+    ];
+    (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
+}
+
+/// Any edit or run.
+fn edit() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => constraint(),
+        1 => constraint_name().prop_map(|c| format!("delete {c}")),
+        1 => point().prop_map(|p| format!("delete {p} cascade")),
+        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("point {p} = ({x}, {y})")),
+        2 => point().prop_map(|p| format!("freeze {p}")),
+        1 => point().prop_map(|p| format!("thaw {p}")),
+        1 => constraint_name().prop_map(|c| format!("off {c}")),
+        1 => constraint_name().prop_map(|c| format!("on {c}")),
+        2 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} = {v}")),
+        1 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} speed {v}")),
+        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("move {p} to ({x}, {y})")),
+        2 => (point(), number(), number(), 1..6u32)
+            .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
+        3 => (1..8u32).prop_map(|n| format!("step {n}")),
+        1 => Just("solve".to_owned()),
+        1 => Just("relax 5".to_owned()),
+        1 => point().prop_map(|p| format!("trace {p}")),
+        1 => Just("reset".to_owned()),
+        1 => prop_oneof![Just("hold"), Just("stop"), Just("reverse")]
+            .prop_map(|word| format!("set dead-points {word}")),
+        1 => prop_oneof![Just("auto"), Just("relaxation"), Just("newton"), Just("nesterov")]
+            .prop_map(|word| format!("set method {word}")),
+        1 => (1..3u32).prop_map(|n| format!("undo {n}")),
+        1 => Just("redo".to_owned()),
+    ]
+}
+
+/// Points all over the place, a few of them frozen.
+fn scene() -> impl Strategy<Value = Vec<String>> {
+    let places = prop::collection::vec((-50..50i32, -50..50i32, 0..4u32), N_POINTS);
+    let points = places.prop_map(|places| {
+        let lines = places.into_iter().enumerate().map(|(k, (x, y, frozen))| {
+            let frozen = if frozen == 0 { " frozen" } else { "" };
+            format!("point p{k} = ({}, {}){frozen}", f64::from(x) / 10.0, f64::from(y) / 10.0)
+        });
+        lines.collect::<Vec<_>>()
+    });
+    (points, prop::collection::vec(constraint(), 0..N_CONSTRAINTS))
+        .prop_map(|(points, constraints)| [points, constraints].concat())
+}
+
+fn assert_finite(session: &Session) {
+    let points = session.world().points();
+    for p in points.ids() {
+        assert!(points.at(p).is_finite(), "{} is at {:?}", points.name(p), points.at(p));
+    }
+}
+
+/// Half the sum of squares of the distances to satisfaction.
+fn energy(session: &Session) -> f64 {
+    let world = session.world();
+    let x = world.points().column();
+    let all = (0..x.len()).map(linkwork::world::PointId::new);
+    let w: Vec<f64> = all
+        .map(|p| if world.points().is_alive(p) { world.points().inverse_mass(p) } else { 0.0 })
+        .collect();
+    let on = world.constraints().filter(|(_, record)| record.is_on);
+    0.5 * on.map(|(_, record)| record.constraint.violation(x, &w).powi(2)).sum::<f64>()
+}
+
+fn after(statements: &[String]) -> Talking {
+    let mut talking = Talking::after("");
+    for statement in statements {
+        // A refusal is an answer too.
+        let _ = talking.execute(statement);
+    }
+    talking
+}
+
+proptest! {
+    #![proptest_config(Config::with_cases(60))]
+
+    #[test]
+    fn whatever_is_edited_all_is_finite_and_a_refusal_changes_nothing(
+        scene in scene(),
+        edits in prop::collection::vec(edit(), 1..25),
+    ) {
+        let mut talking = after(&scene);
+        for edit in &edits {
+            let before = talking.session.to_script();
+            let result = talking.execute(edit);
+            assert_finite(&talking.session);
+            if let Err(why) = result {
+                prop_assert_eq!(talking.session.to_script(), before, "{}: {}", edit, why.message);
+            }
+        }
+    }
+
+    #[test]
+    fn undo_brings_everything_back_to_the_bit(
+        scene in scene(),
+        edits in prop::collection::vec(edit(), 1..15),
+    ) {
+        let mut talking = after(&scene);
+        for edit in edits.iter().filter(|e| !e.starts_with("undo") && !e.starts_with("redo")) {
+            let before = talking.session.to_script();
+            if talking.execute(edit).is_err() {
+                continue;
+            }
+            let after = talking.session.to_script();
+            if after == before {
+                continue;
+            }
+            talking.run("undo");
+            prop_assert_eq!(talking.session.to_script(), before, "undo {}", edit);
+            talking.run("redo");
+            prop_assert_eq!(talking.session.to_script(), after, "redo {}", edit);
+        }
+    }
+
+    #[test]
+    fn a_session_goes_on_from_its_file_to_the_same_bits(
+        scene in scene(),
+        edits in prop::collection::vec(edit(), 1..15),
+    ) {
+        let mut talking = after(&scene);
+        for edit in &edits {
+            let _ = talking.execute(edit);
+        }
+        let kept = talking.session.to_script();
+        let mut again = Talking::after(&kept);
+        prop_assert_eq!(again.session.to_script(), kept);
+        for session in [&mut talking, &mut again] {
+            let _ = session.execute("step 3");
+        }
+        prop_assert_eq!(again.session.to_script(), talking.session.to_script());
+    }
+
+    #[test]
+    fn auto_never_ends_with_more_energy_than_relaxation(scene in scene()) {
+        let begun = after(&scene);
+        let kept = begun.session.to_script();
+        let end = |method: &str| {
+            let mut talking = Talking::after(&kept);
+            talking.run(&format!("set method {method}; solve"));
+            assert_finite(&talking.session);
+            energy(&talking.session)
+        };
+        let (auto, relaxation) = (end("auto"), end("relaxation"));
+        prop_assert!(auto <= relaxation * (1.0 + 1e-6) + 1e-18, "{auto:e} {relaxation:e}\n{kept}");
+    }
+
+    #[test]
+    fn every_question_has_an_answer(scene in scene(), edits in prop::collection::vec(edit(), 1..8)) {
+        let mut talking = after(&[scene, edits].concat());
+        let before = talking.session.to_script();
+        talking.run("check");
+        let names: Vec<(String, bool)> = talking.session.world().constraints()
+            .map(|(id, record)| {
+                let is_motor = record.constraint.kind() == linkwork::constraint::Kind::Motor;
+                (talking.session.world().name_of(Entity::Constraint(id)).to_owned(), is_motor)
+            })
+            .collect();
+        for (name, is_motor) in names {
+            talking.run(&format!("why {name}"));
+            if is_motor {
+                talking.run(&format!("limits {name}"));
+            }
+        }
+        prop_assert_eq!(talking.session.to_script(), before);
+    }
+}
