@@ -56,7 +56,7 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
         && (island.has_velocities()
             || attempt.is_safe(motion_since(island, island.history.origin()), limits)
-                && island.watch.turned_over(&island.x).is_none())
+                && island.watched_point_over().is_none())
     {
         return accept(island, attempt);
     }
