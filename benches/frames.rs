@@ -186,7 +186,7 @@ fn statement(c: &mut Criterion) {
         });
     }
     group.throughput(Throughput::Elements(n));
-    let lines: String = (0..n).map(|i| format!("point q[{i}] = ({i}, 0)\n")).collect();
+    let lines = (0..n).map(|i| format!("point q[{i}] = ({i}, 0)\n")).collect::<Vec<_>>().concat();
     group.bench_function("point on a line of its own", |b| {
         b.iter_custom(|times| {
             (0..times).map(|_| timed(&mut Session::new(Box::new(Nowhere)), &lines)).sum()

@@ -160,7 +160,7 @@ fn saved_goes_on(before: &[String], after: &[String]) {
 
 /// As many cases as a test run has time for; `PROPTEST_CASES` asks for more.
 fn config() -> ProptestConfig {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64);
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24);
     let failure_persistence = None;
     ProptestConfig {
         cases,

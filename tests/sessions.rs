@@ -36,7 +36,11 @@ fn check(file: &Path) {
             writeln!(got, "{line}").expect("writing to a string");
         }
         seat.talk(&typed);
-        got.push_str(&seat.said());
+        // How many iterations a run took is the solver's affair, not the session's.
+        let is_receipt = |line: &&str| line.contains(" by ") && line.contains(" a frame, ");
+        for line in seat.said().lines().filter(|line| !is_receipt(line)) {
+            writeln!(got, "{line}").expect("writing to a string");
+        }
     }
     check_golden(file, &got);
 }

@@ -132,8 +132,8 @@ impl Session {
         }
         if done < n {
             self.note(format!(
-                "only {done} commands could be taken {}",
-                if is_undo { "back" } else { "again" }
+                "only {done} commands could be {}",
+                if is_undo { "taken back" } else { "done again" }
             ));
         }
         Ok(())

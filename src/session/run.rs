@@ -266,7 +266,7 @@ impl Session {
             format_rounded(report.residual),
             report.iterations
         );
-        if limits.tolerance.is_some() && report.status != Status::Converged {
+        if limits.tolerance.is_some_and(|tolerance| report.residual > tolerance) {
             return Err(Diagnostic::error("the tolerance was not reached")
                 .kind(Kind::Promise)
                 .at(span, text));

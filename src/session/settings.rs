@@ -107,8 +107,10 @@ impl Session {
                     }
                     _ => return Err(unknown_setting(setting)),
                 }
+                // What was edited before is taken in as it was set then; what counted as solved
+                // may not any more, and that is part of this command.
+                self.attend();
                 self.change(Change::Preferences(Box::new(new)));
-                // What counted as solved may not any more; that is part of this command.
                 self.attend();
                 Ok(())
             }

@@ -54,9 +54,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         restrain(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
-        && (attempt.is_safe(motion_since(island, island.history.origin()), limits)
-            || island.has_velocities())
-        && island.watched_point_over().is_none()
+        && (island.has_velocities()
+            || attempt.is_safe(motion_since(island, island.history.origin()), limits)
+                && island.watched_point_over().is_none())
     {
         return accept(island, attempt);
     }
@@ -91,7 +91,7 @@ fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome 
 /// where they leave a choice, points stay where they are, whatever their past. Takes back what
 /// is no better than the places they come from.
 fn restrain(island: &mut Island, limits: &Limits, work: &mut Counters) {
-    let mut rooms = std::mem::take(&mut island.part_rooms);
+    let mut rooms = take_part_rooms(island);
     for room in &mut rooms {
         room.equations.gather(&island.x, &mut room.expected);
         let points = room.equations.points().iter();
@@ -153,14 +153,8 @@ pub(super) fn attempt(
     Some(sum)
 }
 
-/// The same for the parts that are solved as a whole.
-fn attempt_rest(
-    island: &mut Island,
-    is_predicted: bool,
-    limits: &Limits,
-    work: &mut Counters,
-    sum: &mut Attempt,
-) -> Option<()> {
+/// The room of each part that is solved as a whole, made when it is needed first.
+fn take_part_rooms(island: &mut Island) -> Vec<Workspace> {
     let mut rooms = std::mem::take(&mut island.part_rooms);
     if rooms.is_empty() {
         rooms.extend(island.plan.rest.iter().map(|part| {
@@ -170,6 +164,18 @@ fn attempt_rest(
             Workspace::new(equations)
         }));
     }
+    rooms
+}
+
+/// The same for the parts that are solved as a whole.
+fn attempt_rest(
+    island: &mut Island,
+    is_predicted: bool,
+    limits: &Limits,
+    work: &mut Counters,
+    sum: &mut Attempt,
+) -> Option<()> {
+    let mut rooms = take_part_rooms(island);
     let mut is_found = true;
     for room in &mut rooms {
         let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };

@@ -319,6 +319,7 @@ impl Solver {
                 && is_doubtful(island)
             {
                 island.status = Status::Stalled;
+                island.remembered.take();
                 self.wake(k);
             }
         }

@@ -103,7 +103,7 @@ impl Island {
         let over = |((a, b), point): ((&f64, &f64), Option<PointIdx>)| {
             point.filter(|_| a * b < 0.0 && a.abs().min(b.abs()) > FLAT)
         };
-        both.filter_map(over).next()
+        both.find_map(over)
     }
 
     /// Notes what is on the other side at a pose that was tried, as against the last that

@@ -1,0 +1,165 @@
+//! The walls between the rooms hold: imports run one way, a foreign crate has one home, and no
+//! file is two.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Each room with the rooms it may use; `diag` lies below all.
+const ROOMS: [(&str, &[&str]); 10] = [
+    ("diag", &[]),
+    ("lang", &["diag"]),
+    ("constraint", &["diag"]),
+    ("world", &["diag", "constraint"]),
+    ("solve", &["diag", "constraint", "world"]),
+    ("render", &["diag", "constraint", "world"]),
+    ("study", &["diag", "constraint", "world", "solve", "render"]),
+    ("session", &["diag", "lang", "constraint", "world", "solve", "render", "study"]),
+    (
+        "repl",
+        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "cli"],
+    ),
+    (
+        "cli",
+        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "repl"],
+    ),
+];
+
+/// Each foreign crate with the only places that may name it.
+const HOMES: [(&str, &[&str]); 9] = [
+    ("annotate_snippets", &["diag/render.rs"]),
+    ("clap", &["cli/args.rs"]),
+    ("ctrlc", &["cli/interrupt.rs"]),
+    ("nalgebra", &["solve/"]),
+    ("pest", &["lang/lower/"]),
+    ("pest_derive", &["lang/lower/"]),
+    ("rustc_hash", &["world/names.rs"]),
+    ("rustyline", &["repl/"]),
+    ("tempfile", &["cli/files.rs"]),
+];
+
+/// Lines of a file that is still one thing, its tests left out.
+const MOST_LINES: usize = 500;
+
+#[test]
+fn imports_run_one_way() {
+    for (path, text) in sources() {
+        let room = room_of(&path);
+        let Some((_, may_use)) = ROOMS.iter().find(|(name, _)| *name == room) else { continue };
+        for used in rooms_used(&text) {
+            assert!(
+                used == room || may_use.contains(&used.as_str()),
+                "{path}: `{room}` must not use `{used}`"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_foreign_crate_has_one_home() {
+    for (path, text) in sources() {
+        for (name, homes) in HOMES {
+            let is_at_home = homes.iter().any(|home| path.starts_with(home));
+            let is_named = code(&text).any(|line| names_crate(line, name));
+            assert!(is_at_home || !is_named, "{path} names `{name}`, which lives in {homes:?}");
+        }
+    }
+}
+
+#[test]
+fn no_file_is_two() {
+    for (path, text) in sources() {
+        let n_lines = text.split("#[cfg(test)]").next().map_or(0, |code| code.lines().count());
+        assert!(n_lines <= MOST_LINES, "{path} has {n_lines} lines: split it");
+    }
+}
+
+#[test]
+fn every_file_says_what_it_is_for() {
+    for (path, text) in sources() {
+        assert!(text.starts_with("//! "), "{path} does not open with what it is for");
+    }
+}
+
+#[test]
+fn the_check_sees_what_it_should() {
+    let used = rooms_used(
+        "use crate::world::World;\nlet x = crate::solve::Solver::new();\n// crate::cli\n",
+    );
+    assert_eq!(used, BTreeSet::from(["solve".to_owned(), "world".to_owned()]));
+    let used = rooms_used("use crate::{diag::Span, lang::ast};\n");
+    assert_eq!(used, BTreeSet::from(["diag".to_owned(), "lang".to_owned()]));
+    assert!(names_crate("use rustyline::Editor;", "rustyline"));
+    assert!(!names_crate("let myclap::x", "clap"));
+}
+
+/// The sources, each with its path below `src`.
+fn sources() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    files.sort();
+    assert!(files.len() > 50, "the sources are found");
+    files
+        .into_iter()
+        .map(|path| {
+            let text = fs::read_to_string(&path).expect("a source can be read");
+            let path = path.strip_prefix(&root).expect("it lies below src");
+            (path.to_string_lossy().replace('\\', "/"), text)
+        })
+        .collect()
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder can be listed") {
+        let path = entry.expect("it can be listed").path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+fn room_of(path: &str) -> String {
+    path.split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned()
+}
+
+/// The lines that are code.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.trim_start().starts_with("//"))
+}
+
+/// The rooms that a source names: `crate::room` and `crate::{room, ...}`.
+fn rooms_used(text: &str) -> BTreeSet<String> {
+    let mut used = BTreeSet::new();
+    let text: String = code(text).flat_map(|line| [line, "\n"]).collect();
+    for (_, rest) in
+        text.match_indices("crate::").map(|(at, found)| (at, &text[at + found.len()..]))
+    {
+        let list = match rest.strip_prefix('{') {
+            Some(rest) => rest.split_once("};").map_or(rest, |(list, _)| list),
+            None => rest.split(|c: char| !is_word(c)).next().unwrap_or_default(),
+        };
+        let mut depth = 0;
+        for part in list.split_inclusive(['{', '}', ',']) {
+            let word: String = part.trim().chars().take_while(|&c| is_word(c)).collect();
+            let is_room = ROOMS.iter().any(|(name, _)| *name == word);
+            if depth == 0 && is_room {
+                used.insert(word);
+            }
+            depth += i32::from(part.ends_with('{')) - i32::from(part.ends_with('}'));
+        }
+    }
+    used
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Whether a line of code names a crate by a path.
+fn names_crate(line: &str, name: &str) -> bool {
+    line.match_indices(&format!("{name}::"))
+        .any(|(at, _)| !line[..at].ends_with(|c: char| is_word(c) || c == ':'))
+}

@@ -1,0 +1,257 @@
+//! The program as a shell sees it: arguments, exit statuses, pipes, signals, files.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_linkwork");
+
+/// A folder with these files.
+fn folder(files: &[(&str, &str)]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("it has a folder")).expect("a folder");
+        fs::write(path, text).expect("a file");
+    }
+    folder
+}
+
+/// Runs the program in a folder with a text on standard input.
+fn run(folder: &Path, args: &[&str], input: &str) -> Output {
+    let mut command = Command::new(PROGRAM);
+    let command = command.current_dir(folder).args(args).env("RUST_BACKTRACE", "0");
+    let mut child = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut stdin = child.stdin.take().expect("it is piped");
+    // A program that has read enough closes its end.
+    drop(stdin.write_all(input.as_bytes()));
+    drop(stdin);
+    child.wait_with_output().expect("the program ends")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("the program writes text")
+}
+
+/// A script in batch: its exit status, what it answers, and a part of what it says.
+fn check(script: &str, status: i32, answer: &str, says: &str) {
+    let folder = folder(&[("a.link", script)]);
+    let out = run(folder.path(), &["run", "a.link"], "");
+    let said = text(&out.stderr);
+    assert_eq!(out.status.code(), Some(status), "of {script:?}: {said}");
+    assert_eq!(text(&out.stdout), answer, "of {script:?}");
+    assert!(said.contains(says), "of {script:?}: {said}");
+}
+
+#[test]
+fn exit_statuses_say_how_a_batch_went() {
+    check("print 1\n", 0, "1\n", "");
+    check("assert 1 = 2\nprint 3", 1, "", "a.link:1:1");
+    check("print 1\nlenght A B\nprint 2", 2, "1\n", "did you mean `length`?");
+    check("include \"b.link\"", 3, "", "no such file");
+    check("point A = (0, 0)\nsvg \"a.link/x.svg\"", 3, "", "cannot write `a.link/x.svg`");
+    check("quit\nprint 1", 0, "", "");
+    check(
+        "point A = (0, 0) frozen, B = (1, 0) frozen\nlength A B = 2\nstep within 1e-9",
+        1,
+        "",
+        "did not reach",
+    );
+    let folder = folder(&[]);
+    let out = run(folder.path(), &["run", "missing.link"], "");
+    assert_eq!(out.status.code(), Some(3));
+    assert_eq!(text(&out.stderr), "error: cannot read `missing.link`: no such file or folder\n");
+    assert_eq!(run(folder.path(), &["run"], "").status.code(), Some(2));
+    assert_eq!(run(folder.path(), &["--version"], "").status.code(), Some(0));
+}
+
+#[test]
+fn standard_input_is_a_script_too() {
+    let folder = folder(&[("lib/leg.link", "print \"leg\"")]);
+    let out = run(folder.path(), &["run", "-"], "include \"lib/leg.link\"\nnonsense\nprint 2");
+    assert_eq!(out.status.code(), Some(2));
+    assert_eq!(text(&out.stdout), "leg\n");
+    assert!(text(&out.stderr).contains("<stdin>:2:1"));
+}
+
+#[test]
+fn a_pipe_goes_on_after_a_mistake_as_a_terminal_would() {
+    let folder = folder(&[]);
+    let typed =
+        "let r = 2\nprint s; print \"left out\"\n)\nprint r\nfor i in 1..2 {\n  print i\n}\n";
+    let out = run(folder.path(), &[], typed);
+    assert_eq!(out.status.code(), Some(2));
+    assert_eq!(text(&out.stdout), "2\n1\n2\n");
+    let said = text(&out.stderr);
+    assert!(said.contains("<stdin>:2:7") && said.contains("<stdin>:3:1"), "{said}");
+    let out = run(folder.path(), &[], "print 1\nquit\nprint 2");
+    assert_eq!((out.status.code(), text(&out.stdout)), (Some(0), "1\n".to_owned()));
+    let out = run(folder.path(), &[], "print (1,\n  2");
+    assert_eq!(out.status.code(), Some(2));
+}
+
+#[test]
+fn a_pipe_is_answered_line_by_line() {
+    let folder = folder(&[]);
+    let mut command = Command::new(PROGRAM);
+    let mut child = command
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut stdin = child.stdin.take().expect("it is piped");
+    let mut answers = BufReader::new(child.stdout.take().expect("it is piped"));
+    for k in 0..3 {
+        writeln!(stdin, "print {k} + 1").expect("it reads");
+        let mut line = String::new();
+        answers.read_line(&mut line).expect("it answers");
+        assert_eq!(line, format!("{}\n", k + 1));
+    }
+    drop(stdin);
+    assert!(child.wait().expect("it ends").success());
+}
+
+#[test]
+fn values_from_outside_win_over_a_let() {
+    let folder = folder(&[("a.link", "let r = 3, s = 2 * r\nprint r, s\nlet r = 4\nprint r")]);
+    let out = run(folder.path(), &["run", "a.link", "--set", "r=90deg / 2", "--set", "q=1"], "");
+    assert_eq!(text(&out.stdout), "0.7853981633974483 1.5707963267948966\n0.7853981633974483\n");
+    assert!(text(&out.stderr).contains("no `let` took `--set q=...`"));
+    let quiet = run(folder.path(), &["run", "-q", "a.link", "--set", "q=1"], "");
+    assert_eq!(text(&quiet.stderr), "");
+    for wrong in ["r", "r=", "=3", "r=s", "r=1; print 2", "r=1, s=2", "1=2", "r=(1, 2)"] {
+        let out = run(folder.path(), &["run", "a.link", "--set", wrong], "");
+        assert_eq!(out.status.code(), Some(2), "for {wrong:?}");
+    }
+}
+
+#[test]
+fn files_are_included_beside_who_includes_them_and_written_below_the_output_folder() {
+    let folder = folder(&[
+        ("scripts/a.link", "include \"parts/b.link\"\nsvg \"now.svg\"\nsave \"s/kept.link\""),
+        ("scripts/parts/b.link", "include \"c.link\""),
+        ("scripts/parts/c.link", "point A = (1, 2)"),
+        ("scripts/later.link", "load \"s/kept.link\"\nprint A"),
+        ("up.link", "svg \"../x.svg\""),
+    ]);
+    let out = run(folder.path(), &["run", "scripts/a.link", "--out", "out/deep"], "");
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+    let written = folder.path().join("out/deep");
+    assert!(fs::read_to_string(written.join("now.svg")).expect("a picture").starts_with("<svg"));
+    assert!(written.join("s/kept.link").exists() && !folder.path().join("s").exists());
+    assert_eq!(fs::read_dir(&written).expect("a folder").count(), 2, "nothing is left behind");
+    let out = run(folder.path(), &["run", "scripts/later.link", "--out", "out/deep"], "");
+    assert_eq!(text(&out.stdout), "(1, 2)\n");
+    let args = ["run", "up.link", "--out", "out"];
+    assert_eq!(run(folder.path(), &args, "").status.code(), Some(2));
+    assert!(!folder.path().join("x.svg").exists());
+    let out = run(folder.path(), &["run", "up.link", "--out", "out", "--allow-any-path"], "");
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+    assert!(folder.path().join("x.svg").exists());
+}
+
+/// A crank that turns by 45 degrees a frame, recorded in all three ways.
+const RECORDED: &str = "
+    point A = (0, 0) frozen, B = (1, 0)
+    motor A B speed 1rev
+    set dt 1/8
+    trace B
+    record \"paths.csv\" every 2
+    record \"frames/\" every 4
+    record \"motion.svg\"
+    step 8
+";
+
+#[test]
+fn recordings_are_written_by_the_end_of_the_script_and_after_a_mistake() {
+    for (ending, status) in
+        [("", 0), ("record stop", 0), ("nonsense", 2), ("clear", 0), ("quit", 0)]
+    {
+        let folder = folder(&[("a.link", &format!("{RECORDED}\n{ending}"))]);
+        let out = run(folder.path(), &["run", "a.link"], "");
+        assert_eq!(out.status.code(), Some(status));
+        let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect("it is there");
+        let table = read("paths.csv");
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(lines.len(), 5, "after {ending:?}: {table}");
+        assert_eq!(lines[0], "time,B.x,B.y");
+        assert!(lines[4].starts_with("1,"));
+        assert!(read("motion.svg").starts_with("<svg"));
+        let frames = fs::read_dir(folder.path().join("frames")).expect("frames").count();
+        assert_eq!(frames, 2);
+        assert!(read("frames/frame-0001.svg").starts_with("<svg"));
+    }
+}
+
+#[test]
+fn the_same_script_writes_the_same_bytes() {
+    let folder = folder(&[("a.link", RECORDED)]);
+    let written = |out: &str| {
+        run(folder.path(), &["run", "a.link", "--out", out], "");
+        let file = |name| fs::read(folder.path().join(out).join(name)).expect("it is there");
+        ["paths.csv", "motion.svg", "frames/frame-0000.svg"].map(file)
+    };
+    assert!(written("one") == written("two"));
+}
+
+#[test]
+fn nothing_is_coloured_on_a_pipe() {
+    let folder = folder(&[]);
+    let out = run(folder.path(), &["run", "-"], "solve\nlenght A B");
+    assert!(!text(&out.stderr).contains('\u{1b}'));
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::*;
+
+    /// Starts a script that says when it is about to run for ever.
+    fn endless(folder: &Path) -> std::process::Child {
+        Command::new(PROGRAM)
+            .current_dir(folder)
+            .args(["run", "a.link"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts")
+    }
+
+    #[test]
+    fn ctrl_c_stops_between_frames_and_keeps_what_was_recorded() {
+        let script = format!("{RECORDED}\nsvg \"begun.svg\"\nstep 1e9\nprint \"never\"");
+        let folder = folder(&[("a.link", &script)]);
+        let child = endless(folder.path());
+        while !folder.path().join("begun.svg").exists() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.expect("there is a kill").success());
+        let out = child.wait_with_output().expect("it ends");
+        let said = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(130), "{said}");
+        assert!(said.contains("of 1000000000 frames"), "{said}");
+        assert_eq!(text(&out.stdout), "");
+        assert!(folder.path().join("paths.csv").exists());
+    }
+
+    #[test]
+    fn a_reader_that_goes_away_ends_the_program_quietly() {
+        let folder = folder(&[("a.link", "for i in 1..200000 { print i }")]);
+        let mut child = endless(folder.path());
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("a line");
+        assert_eq!(line, "1\n");
+        let out = child.wait_with_output().expect("it ends");
+        assert_eq!((out.status.code(), text(&out.stderr)), (Some(0), String::new()));
+    }
+}
