@@ -99,7 +99,7 @@ impl Island {
         let blocks = self.plan.blocks.iter();
         let blocks = blocks.map(|block| block.is_determined.then_some(block.point));
         let watched = self.watch.triangles.iter().map(|t| self.is_smooth().then_some(t[0]));
-        let both = before.0.iter().zip(&now.0).zip(blocks.chain(watched));
+        let mut both = before.0.iter().zip(&now.0).zip(blocks.chain(watched));
         let over = |((a, b), point): ((&f64, &f64), Option<PointIdx>)| {
             point.filter(|_| a * b < 0.0 && a.abs().min(b.abs()) > FLAT)
         };
