@@ -217,7 +217,13 @@ proptest! {
             energy(&talking.session)
         };
         let (auto, relaxation) = (end("auto"), end("relaxation"));
-        prop_assert!(auto <= relaxation * (1.0 + 1e-6) + 1e-18, "{auto:e} {relaxation:e}\n{kept}");
+        // Below the tolerance of the default, 1e-12 of the scene's size, one is as good as
+        // the other.
+        let points = begun.session.world().points();
+        let places = points.ids().map(|id| points.at(id).to_vector().norm());
+        let size = places.fold(1e6, f64::max);
+        let slack = (1e-11 * size).powi(2);
+        prop_assert!(auto <= relaxation * (1.0 + 1e-6) + slack, "{auto:e} {relaxation:e}\n{kept}");
     }
 
     #[test]
