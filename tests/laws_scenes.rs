@@ -2,7 +2,6 @@
 
 mod talk;
 
-use linkwork::constraint::Relation as _;
 use linkwork::session::Session;
 use linkwork::world::Entity;
 use proptest::prelude::*;
