@@ -2,11 +2,12 @@
 //!
 //! The scripts of `scripts/bench` in a session with default settings and no output. All of a
 //! script but its last statement is setting up and not timed; one iteration is one frame, of as
-//! many as the bench asks for in one statement. Further: a sweep of the method `relaxation`, and
+//! many as the bench asks for in one statement. Times are of the processor. Further: a sweep of the method `relaxation`, and
 //! what a statement costs.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use cpu_time::ProcessTime;
 use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group,
@@ -52,7 +53,7 @@ fn set_up(script: &str, n: Option<usize>) -> Session {
 }
 
 fn timed(session: &mut Session, text: &str) -> Duration {
-    let begun = Instant::now();
+    let begun = ProcessTime::now();
     execute(session, text);
     begun.elapsed()
 }
