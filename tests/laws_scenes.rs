@@ -213,3 +213,24 @@ proptest! {
         prop_assert_eq!(talking.session.to_script(), before);
     }
 }
+
+#[test]
+fn a_session_saved_after_a_change_of_settings_solves_anew_as_the_one_it_was_saved_from() {
+    for change in ["set tolerance 1e-12", "set method relaxation"] {
+        let mut talking = Talking::after(
+            "set tolerance 1e-3
+             point A = (0, 0) frozen, B = (1.5, 0), C = (1, 1), D = (3, 0) frozen
+             length A B = 1; length B C = 2; length C D = 1.5
+             solve; step 2",
+        );
+        talking.run(change);
+        let kept = talking.session.to_script();
+        let mut again = Talking::after(&kept);
+        assert_eq!(again.session.to_script(), kept);
+        for session in [&mut talking, &mut again] {
+            session.run("step 3");
+        }
+        assert_eq!(again.session.to_script(), talking.session.to_script());
+        assert_ne!(again.session.to_script(), kept);
+    }
+}

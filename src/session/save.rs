@@ -57,7 +57,9 @@ impl Session {
         }
         self.save_constraints(&mut script);
         self.save_looks(&mut script);
-        for (owner, values) in self.solver.memory().to_numbers() {
+        for (owner, values) in
+            self.solver.memory().for_settings(&self.preferences.solve).to_numbers()
+        {
             // What was remembered of things that are deleted since is lost on all others.
             let points = self.world.points();
             let Some(name) = owner.filter(|id| points.is_alive(*id)).map(|id| points.name(id))

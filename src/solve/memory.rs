@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::fingerprint::Fingerprint;
 use super::history::History;
 use super::island::Island;
+use super::settings::{Method, Settings};
 use super::spectrum::Spectrum;
 use super::status::Status;
 use crate::constraint::Point;
@@ -18,6 +19,8 @@ pub struct Memory {
     /// By the first free point of each island. All numbers are finite; what they mean is the
     /// solver's own affair.
     islands: BTreeMap<PointId, Arc<[f64]>>,
+    /// With which settings: under others what counted as solved may not any more.
+    made_by: Option<(Method, f64)>,
 }
 
 /// The places of the numbers that do not belong to points.
@@ -45,16 +48,47 @@ impl Memory {
 
     /// All of it, each part with the point it is filed under.
     pub fn to_numbers(&self) -> Vec<(Option<PointId>, Vec<f64>)> {
-        self.islands.iter().map(|(first, numbers)| (Some(*first), numbers.to_vec())).collect()
+        let made_by = self.made_by.map(|(method, tolerance)| {
+            let place = Method::ALL.iter().position(|other| *other == method);
+            (None, vec![place.unwrap_or_default() as f64, tolerance])
+        });
+        let islands = self.islands.iter();
+        made_by
+            .into_iter()
+            .chain(islands.map(|(first, numbers)| (Some(*first), numbers.to_vec())))
+            .collect()
     }
 
     /// Adds a part that [`Memory::to_numbers`] gave; false if it cannot be one.
     pub fn restore(&mut self, owner: Option<PointId>, numbers: &[f64]) -> bool {
-        let is_sound = Parts::split(numbers).is_some();
-        if let (true, Some(first)) = (is_sound, owner) {
-            self.islands.insert(first, numbers.into());
+        match (owner, numbers) {
+            (Some(first), _) if Parts::split(numbers).is_some() => {
+                self.islands.insert(first, numbers.into());
+            }
+            (None, &[method, tolerance]) if tolerance > 0.0 && tolerance.is_finite() => {
+                let Some(&method) = Method::ALL.get(method as usize) else { return false };
+                self.made_by = Some((method, tolerance));
+            }
+            _ => return false,
         }
-        is_sound && owner.is_some()
+        true
+    }
+
+    /// The same without its settings where they are these.
+    #[must_use]
+    pub fn for_settings(mut self, settings: &Settings) -> Self {
+        self.made_by = self.made_by.filter(|by| *by != (settings.method, settings.tolerance));
+        self
+    }
+
+    /// Notes with which settings it was made.
+    pub(super) fn sign(&mut self, settings: Option<&Settings>) {
+        self.made_by = settings.map(|s| (s.method, s.tolerance)).or(self.made_by);
+    }
+
+    /// The settings, as far as they matter, that it was made with.
+    pub(super) fn made_by(&self) -> Option<(Method, f64)> {
+        self.made_by
     }
 
     /// Adds what is remembered of an island; nothing of one that was never solved.

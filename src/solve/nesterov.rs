@@ -9,6 +9,10 @@ use crate::world::PointId;
 /// A pose that moves by less, relative to the size, has come to rest.
 const STILL: f64 = 1e-15;
 
+/// Momentum that has led to so many times the energy leads nowhere: the distance that belongs to
+/// an angle grows with the way out.
+const FAR_UP: f64 = 4.0;
+
 /// Improves a pose; gives how it ended.
 pub(super) fn solve(
     room: &mut Workspace,
@@ -21,6 +25,7 @@ pub(super) fn solve(
     let mut spectrum = Spectrum::new(points);
     let mut here: Vec<Point> = Vec::new();
     room.equations.gather(pose.x, &mut here);
+    let (start, energy_at_start) = (here.clone(), room.rows.energy);
     let mut last = here.clone();
     let mut momentum = 1.0_f64;
     for n in 0..limits.n_iterations {
@@ -66,6 +71,10 @@ pub(super) fn solve(
     room.evaluate(pose, work);
     if extrapolated < room.rows.worst {
         room.equations.scatter(&here, pose.x);
+        room.evaluate(pose, work);
+    }
+    if !(room.rows.energy <= FAR_UP * energy_at_start) {
+        room.equations.scatter(&start, pose.x);
         room.evaluate(pose, work);
     }
     let status = if room.is_met(limits) { Status::Converged } else { Status::Stalled };

@@ -8,7 +8,7 @@ use super::rates;
 use super::settings::{Method, Settings};
 use super::status::{Budget, Counters, Report, Status};
 use super::topology::{Home, Topology};
-use super::visit::{Task, begin, check, solve, turn_back, write_back};
+use super::visit::{Task, begin, check, confirm, solve, turn_back, write_back};
 use crate::constraint::Vector;
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
@@ -90,6 +90,7 @@ impl Solver {
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
         let mut memory = self.pending.clone();
+        memory.sign(self.settings.as_ref());
         // What was brought back counts, not what was there before.
         if !self.is_stale {
             for (_, island) in self.topology.iter() {
@@ -101,7 +102,13 @@ impl Solver {
 
     /// Brings back what was remembered, for a world that is as it was then.
     pub fn set_memory(&mut self, memory: Memory) {
-        *self = Self { pending: memory, settings: self.settings, is_stale: true, ..Self::new() };
+        let settings = match memory.made_by() {
+            Some((method, tolerance)) => {
+                Some(Settings { method, tolerance, ..self.settings.unwrap_or_default() })
+            }
+            None => self.settings,
+        };
+        *self = Self { pending: memory, settings, is_stale: true, ..Self::new() };
     }
 
     /// Whether what was remembered waits for [`Solver::attend`].
@@ -229,9 +236,11 @@ impl Solver {
         cause: Cause,
         work: &mut Counters,
     ) -> Vec<u32> {
-        if let Some(before) = self.settings.replace(*settings)
-            && (before.method, before.tolerance) != (settings.method, settings.tolerance)
-        {
+        let before = self.settings.replace(*settings);
+        let is_doubtful = before.is_some_and(|before| {
+            (before.method, before.tolerance) != (settings.method, settings.tolerance)
+        });
+        if is_doubtful {
             self.doubt(|_| true);
         }
         let mut touched = world.take_touched();
@@ -263,6 +272,10 @@ impl Solver {
             }
             for &k in &made {
                 self.wake(k);
+            }
+            if is_doubtful {
+                // What was brought back is as doubtful as what was there.
+                self.doubt(|_| true);
             }
             let topology = &self.topology;
             // An island that takes the place of one that was awake is to be woken again.
@@ -412,7 +425,9 @@ impl Solver {
         {
             begin(island, &limits, &mut report.counters);
         }
-        let (outcome, lowered) = solve(island, settings, &limits, task, &mut report.counters);
+        let work = &mut report.counters;
+        let (mut outcome, lowered) = solve(island, settings, &limits, task, work);
+        confirm(island, &mut outcome, settings, &limits, work);
         island.is_new = false;
         island.is_edited = false;
         island.status = outcome.status;

@@ -46,6 +46,37 @@ pub(super) fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
     }
 }
 
+/// How often a pose is solved anew because its island became smaller.
+const MOST_CONFIRMATIONS: u32 = 4;
+
+/// Sees to it that what counts as solved does so by the size of the island as it is now: it may
+/// have been much larger before.
+pub(super) fn confirm(
+    island: &mut Island,
+    outcome: &mut Outcome,
+    settings: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) {
+    for n in 0..=MOST_CONFIRMATIONS {
+        // What is far below the tolerance is so whatever the size.
+        if !outcome.is_converged() || outcome.worst <= 1e-4 * limits.tolerance {
+            return;
+        }
+        let now = island.limits(settings, limits.budget);
+        if outcome.worst <= now.tolerance {
+            return;
+        }
+        if n == MOST_CONFIRMATIONS || limits.budget.is_spent() {
+            outcome.status = Status::Stalled;
+            return;
+        }
+        let n_iterations = outcome.n_iterations;
+        *outcome = solve(island, settings, &now, Task::Settle, work).0;
+        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
+    }
+}
+
 /// Solves an island by the chosen method; gives the coefficient of relaxation too, if it had
 /// to be lowered.
 pub(super) fn solve(

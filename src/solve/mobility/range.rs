@@ -253,7 +253,9 @@ impl<'a> Tour<'a> {
         let is_straight = along * along > 1.0 - SHARPEST_BEND * SHARPEST_BEND && along > 0.0;
         // Freedoms besides the motor's turn the motion as they like.
         let is_safe = is_straight || next.n_freedoms > 1;
-        (is_safe && correction <= LONGEST_CORRECTION * h).then_some(next)
+        // A step that rounding could take back is none.
+        let longest = (LONGEST_CORRECTION * h).max(self.mechanism.noise().min(0.5 * h));
+        (is_safe && correction <= longest).then_some(next)
     }
 
     /// Notes a change point that lies right ahead; whether there is one.

@@ -100,6 +100,11 @@ impl<'a> Mechanism<'a> {
         }
     }
 
+    /// Corrections up to this are rounding.
+    pub fn noise(&self) -> f64 {
+        10.0 * self.tolerance
+    }
+
     /// Whether anything of it can move.
     pub fn can_move(&self) -> bool {
         !self.points.is_empty()
@@ -235,7 +240,7 @@ impl<'a> Mechanism<'a> {
     pub fn step(&mut self, from: &Node, h: f64) -> Option<(Node, f64)> {
         let mut stand = from.stand.clone();
         self.displace(&mut stand, h, &from.tangent);
-        self.node(stand, Some(&from.tangent), h.abs())
+        self.node(stand, Some(&from.tangent), h.abs() + self.noise())
     }
 }
 
