@@ -4,7 +4,7 @@ mod solve_scene;
 
 use linkwork::constraint::{Cog, Field};
 use linkwork::solve::{Memory, Method, Solver};
-use linkwork::world::Edit;
+use linkwork::world::{Edit, Touched};
 use solve_scene::{Scene, four_bar, jansen, peaucellier};
 
 fn through_numbers(memory: &Memory) -> Memory {
@@ -27,7 +27,7 @@ fn check(mut s: Scene, n: usize, edit: impl Fn(&mut Scene)) {
     run(&mut s, n);
     edit(&mut s);
     let mut loaded = Scene { world: s.world.clone(), solver: Solver::new(), settings: s.settings };
-    loaded.world.take_touched();
+    loaded.world.take_touched(Touched::default());
     loaded.solver.set_memory(through_numbers(&s.solver.memory()));
     for frame in 0..n {
         let (one, other) = (s.step(), loaded.step());

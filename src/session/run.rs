@@ -144,19 +144,18 @@ impl Session {
         let leaves_nothing = self.world.traces().is_empty()
             && self.recorders.is_empty()
             && self.preferences.expose_every.is_none();
-        let mut lookout = self.lookout();
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
-            self.look_out(&mut lookout);
+            let before = self.before_frame();
             self.attend();
             hand(self, k);
             let mut report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
             if report.status != Status::Converged {
-                match self.met(&lookout, k, n) {
+                match self.met(before, k, n) {
                     Next::On => {}
                     Next::Again => {
                         self.attend();

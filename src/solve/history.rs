@@ -9,8 +9,11 @@ const WEIGHTS: [[f64; 4]; 4] =
 /// The last converged poses of the free points of an island, one a frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct History {
-    /// Four poses in a ring, one after the other; empty until a frame was solved.
+    /// Four poses in a ring, one after the other; only one where nothing is to be expected from
+    /// them, none until a frame was solved.
     poses: Vec<Point>,
+    /// The points of a pose.
+    n_points: usize,
     /// Which of them the present frame began with.
     head: usize,
     /// How many before that are known.
@@ -35,12 +38,19 @@ impl History {
 
     /// Keeps the pose that a frame begins with.
     pub fn begin(&mut self, free: &[Point]) {
-        if self.poses.len() != 4 * free.len() {
-            self.poses = vec![Point::ORIGIN; 4 * free.len()];
-            self.n_past = 0;
-        }
         let n = free.len();
+        if self.poses.len() != 4 * n {
+            *self = Self { poses: vec![Point::ORIGIN; 4 * n], n_points: n, ..Self::default() };
+        }
         self.poses[self.head * n..][..n].copy_from_slice(free);
+    }
+
+    /// Keeps the pose that a frame begins with, and no other.
+    pub fn begin_anew(&mut self, free: &[Point]) {
+        let mut poses = std::mem::take(&mut self.poses);
+        poses.clear();
+        poses.extend_from_slice(free);
+        *self = Self { poses, n_points: free.len(), ..Self::default() };
     }
 
     /// The pose the frame began with.
@@ -50,7 +60,7 @@ impl History {
 
     /// The pose of `k` frames before that.
     pub fn past(&self, k: usize) -> &[Point] {
-        let n = self.poses.len() / 4;
+        let n = self.n_points;
         &self.poses[((self.head + 4 - k) & 3) * n..][..n]
     }
 
@@ -90,7 +100,8 @@ impl History {
         if past.is_empty() || n_free == 0 {
             return Self::default();
         }
-        let mut history = Self { poses: vec![Point::ORIGIN; 4 * n_free], head: 3, n_past: 0 };
+        let poses = vec![Point::ORIGIN; 4 * n_free];
+        let mut history = Self { poses, n_points: n_free, head: 3, n_past: 0 };
         for (k, pose) in past.chunks_exact(n_free).take(3).enumerate() {
             history.poses[(2 - k) * n_free..][..n_free].copy_from_slice(pose);
             history.n_past = k + 1;

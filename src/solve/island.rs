@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::halt::Before;
 use super::history::History;
 use super::method::{Limits, Workspace};
 use super::plan::{Plan, n_firm_rows};
@@ -62,6 +63,10 @@ pub(super) struct Island {
     pub turned_over: Option<u32>,
     /// What drives the island in this frame, as it was before.
     pub inputs: Inputs,
+    /// How it was before the last frame, if that could not be solved and the one before could.
+    pub before: Option<Box<Before>>,
+    /// The longest length that a constraint asks for; none once it may have changed.
+    wanted: Option<f64>,
     /// The room for the island as a whole, while it is needed.
     pub room: Option<Box<Workspace>>,
     /// The room for each part the plan leaves to be solved as a whole; once needed.
@@ -175,6 +180,8 @@ impl Island {
             is_edited: false,
             is_probed: false,
             inputs: Inputs::default(),
+            before: None,
+            wanted: None,
             room: None,
             part_rooms: Vec::new(),
             remembered: OnceLock::new(),
@@ -212,6 +219,9 @@ impl Island {
             *to = *from;
         }
         self.remembered.take();
+        if wanted_length(&new) != wanted_length(&self.constraints[c]) {
+            self.wanted = None;
+        }
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.constraints.push((c as u32, old));
     }
@@ -277,21 +287,43 @@ impl Island {
 
     /// How large the island is: its extent, or the lengths it is to have. Never 0.
     pub fn size(&self) -> f64 {
+        self.size_between(self.corners())
+    }
+
+    fn size_between(&self, (lo, hi): (Point, Point)) -> f64 {
+        let extent = (hi.x - lo.x).max(hi.y - lo.y);
+        let size = extent.max(self.wanted());
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+    }
+
+    /// The longest length that a constraint asks for, 0 if none does. The size is no less.
+    pub fn wanted(&self) -> f64 {
+        self.wanted
+            .unwrap_or_else(|| self.constraints.iter().map(wanted_length).fold(0.0, f64::max))
+    }
+
+    /// Keeps what is asked of it often and does not change until its values do.
+    pub fn prepare(&mut self) {
+        self.wanted = Some(self.wanted());
+    }
+
+    /// The least and the greatest coordinates of its points.
+    fn corners(&self) -> (Point, Point) {
         let (mut lo, mut hi) = (self.x[0], self.x[0]);
         for p in &self.x[1..] {
-            lo = Point::new(lo.x.min(p.x), lo.y.min(p.y));
-            hi = Point::new(hi.x.max(p.x), hi.y.max(p.y));
+            lo.x = if p.x < lo.x { p.x } else { lo.x };
+            lo.y = if p.y < lo.y { p.y } else { lo.y };
+            hi.x = if p.x > hi.x { p.x } else { hi.x };
+            hi.y = if p.y > hi.y { p.y } else { hi.y };
         }
-        let extent = (hi.x - lo.x).max(hi.y - lo.y);
-        let wanted = self.constraints.iter().map(wanted_length).fold(0.0, f64::max);
-        let size = extent.max(wanted);
-        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+        (lo, hi)
     }
 
     /// How far a method is to go on this island.
     pub fn limits<'a>(&self, settings: &Settings, budget: &'a Budget<'a>) -> Limits<'a> {
-        let size = self.size();
-        let farthest = self.x.iter().fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()));
+        let (lo, hi) = self.corners();
+        let size = self.size_between((lo, hi));
+        let farthest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
         // A distance between numbers of this magnitude is not known any better.
         let rounding = 8.0 * f64::EPSILON * farthest;
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;

@@ -12,6 +12,7 @@ pub mod mobility;
 mod ends;
 mod fingerprint;
 mod footprint;
+mod halt;
 mod history;
 mod island;
 mod memory;
@@ -45,6 +46,7 @@ mod status;
 mod visit;
 
 pub use footprint::{Effect, is_inequality, is_wheel};
+pub use halt::Halt;
 pub use memory::Memory;
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;

@@ -8,7 +8,7 @@ use super::rates;
 use super::settings::{Method, Settings};
 use super::status::{Budget, Counters, Report, Status};
 use super::topology::{Home, Topology};
-use super::visit::{Task, begin, check, confirm, solve, turn_back, write_back};
+use super::visit::{Task, Visit, check, turn_back, visit, write_back};
 use crate::constraint::Vector;
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
@@ -24,6 +24,12 @@ pub struct Solver {
     /// Islands to be visited in the next frame, each once.
     awake: Vec<u32>,
     is_awake: Vec<bool>,
+    /// Room for the lists of what changed.
+    touched: Touched,
+    /// Room for the list of those that are visited now.
+    due: Vec<u32>,
+    /// Islands that could follow until the last frame and could not in it.
+    missed: Vec<u32>,
     /// Islands that are not at a solution.
     unsolved: BTreeSet<u32>,
     /// Constraints that hold only frozen points and are not satisfied, and how far not.
@@ -167,6 +173,10 @@ impl Solver {
         world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
     }
 
+    pub(super) fn missed_islands(&self) -> impl Iterator<Item = &Island> {
+        self.missed.iter().filter_map(|&k| self.topology.get(k))
+    }
+
     pub(super) fn islands(&self) -> impl Iterator<Item = &Island> {
         self.topology.iter().map(|(_, island)| island)
     }
@@ -198,20 +208,23 @@ impl Solver {
         {
             self.doubt(|island| island.residual > tolerance);
         }
-        let visit = std::mem::take(&mut self.awake);
-        for &k in &visit {
+        self.missed.clear();
+        let mut due = std::mem::take(&mut self.due);
+        std::mem::swap(&mut due, &mut self.awake);
+        for &k in &due {
             self.is_awake[k as usize] = false;
         }
-        for (nth, &k) in visit.iter().enumerate() {
+        for &k in &due {
             if budget.is_spent() {
                 report.is_interrupted = true;
-                for &k in &visit[nth..] {
-                    self.wake(k);
-                }
-                break;
+                self.wake(k);
+            } else if let Some(island) = self.topology.get_mut(k) {
+                let visit = visit(island, settings, budget, task);
+                self.close(k, &visit, world, &mut report);
             }
-            self.visit(k, world, settings, budget, task, &mut report);
         }
+        due.clear();
+        self.due = due;
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
         for &violation in self.unsatisfiable.values() {
             let is_met = violation <= tolerance;
@@ -243,21 +256,21 @@ impl Solver {
         if is_doubtful {
             self.doubt(|_| true);
         }
-        let mut touched = world.take_touched();
+        let mut touched = world.take_touched(std::mem::take(&mut self.touched));
         if std::mem::take(&mut self.is_stale) {
             // What is remembered is what counts: forget the rest.
             self.topology = Topology::default();
             touched = Touched::everything();
         }
-        if touched.is_empty() {
-            return Vec::new();
+        if !touched.constraints.is_empty() {
+            // A constraint that was changed but holds as many equations on the same points as
+            // before leaves its island as it is.
+            let (values, others): (Vec<_>, Vec<_>) =
+                touched.constraints.iter().partition(|&&id| self.is_same_but_for_values(world, id));
+            touched.values.extend(values);
+            touched.constraints = others;
         }
-        // A constraint that was changed but holds as many equations on the same points as
-        // before leaves its island as it is.
-        let (values, others): (Vec<_>, Vec<_>) =
-            touched.constraints.iter().partition(|&&id| self.is_same_but_for_values(world, id));
-        touched.values.extend(values);
-        touched.constraints = others;
+        let is_changed = !touched.is_empty();
         let mut made = Vec::new();
         if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
             made = self.topology.update(&touched, world, &mut self.pending);
@@ -301,7 +314,7 @@ impl Solver {
         for &p in &touched.moved {
             self.take_in_move(world, p, settings);
         }
-        if cause == Cause::Hand {
+        if cause == Cause::Hand && is_changed {
             for k in self.awake.clone() {
                 if let Some(island) = self.topology.get_mut(k)
                     && !island.inputs.is_empty()
@@ -310,6 +323,7 @@ impl Solver {
                 }
             }
         }
+        self.touched = touched;
         made
     }
 
@@ -398,59 +412,35 @@ impl Solver {
         }
     }
 
-    fn visit(
-        &mut self,
-        k: u32,
-        world: &mut World,
-        settings: &Settings,
-        budget: &Budget,
-        task: Task,
-        report: &mut Report,
-    ) {
-        let Some(island) = self.topology.get_mut(k) else { return };
-        report.counters.islands_visited += 1;
-        island.remembered.take();
-        let is_driven = !island.inputs.is_empty();
-        let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
-        if task == Task::Frame && !is_driven && is_at_rest {
-            // Nothing moved it for a whole frame: what comes next does not go on from before.
-            island.history.forget();
-            report.include(Status::Converged, 0, 0.0);
+    /// Takes in what a visit came to.
+    fn close(&mut self, k: u32, visit: &Visit, world: &mut World, report: &mut Report) {
+        report.counters.add(&visit.counters);
+        let (Some(island), Some(outcome)) = (self.topology.get_mut(k), visit.outcome) else {
             return;
-        }
-        let limits = island.limits(settings, budget);
-        if (island.is_new || island.is_edited)
-            && task == Task::Frame
-            && settings.method == Method::Auto
-        {
-            begin(island, &limits, &mut report.counters);
-        }
-        let work = &mut report.counters;
-        let (mut outcome, lowered) = solve(island, settings, &limits, task, work);
-        confirm(island, &mut outcome, settings, &limits, work);
-        island.is_new = false;
-        island.is_edited = false;
-        island.status = outcome.status;
-        island.residual = outcome.worst / limits.size;
-        island.settle_inputs();
+        };
         write_back(island, world);
         if let Some(p) = island.turned_over.take() {
             let id = island.points[p as usize];
             report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
         }
-        let status = island.status;
-        if outcome.status == Status::Converged {
-            self.unsolved.remove(&k);
-            report.include(status, outcome.n_iterations.into(), outcome.worst / limits.size);
+        if island.before.is_some() {
+            self.missed.push(k);
+        }
+        if outcome.is_converged() {
+            if !self.unsolved.is_empty() {
+                self.unsolved.remove(&k);
+            }
+            let residual = outcome.worst / visit.size;
+            report.include(Status::Converged, outcome.n_iterations.into(), residual);
         } else {
             self.unsolved.insert(k);
             report.iterations = report.iterations.max(outcome.n_iterations.into());
         }
-        report.lowered_rho = match (report.lowered_rho, lowered) {
+        report.lowered_rho = match (report.lowered_rho, visit.lowered) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        if is_driven || status == Status::Stalled {
+        if visit.is_awake {
             self.wake(k);
         }
     }

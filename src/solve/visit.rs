@@ -4,7 +4,7 @@ use super::island::{Island, wanted_length};
 use super::method::{Limits, Outcome, Pose};
 use super::relaxation::Coefficient;
 use super::settings::{Method, Settings};
-use super::status::{Counters, Status};
+use super::status::{Budget, Counters, Status};
 use super::{
     anderson, auto, conjugate, descent, nesterov, newton, relaxation, struggle, successive,
 };
@@ -23,6 +23,74 @@ pub(super) enum Task {
     Relax,
     /// Until solved or at rest, at the present time.
     Settle,
+}
+
+/// What a visit came to.
+pub(super) struct Visit {
+    /// How solving ended; none if there was nothing to solve.
+    pub outcome: Option<Outcome>,
+    /// The size of the island, length units.
+    pub size: f64,
+    /// The coefficient of relaxation, if it had to be lowered.
+    pub lowered: Option<f64>,
+    /// Whether the next frame is to visit it again.
+    pub is_awake: bool,
+    /// The work done.
+    pub counters: Counters,
+}
+
+/// Solves an island. Touches nothing else: visits may be made in any order, or side by side.
+pub(super) fn visit(
+    island: &mut Island,
+    settings: &Settings,
+    budget: &Budget,
+    task: Task,
+) -> Visit {
+    let mut visit = Visit {
+        outcome: None,
+        size: 1.0,
+        lowered: None,
+        is_awake: false,
+        counters: Counters { islands_visited: 1, ..Counters::default() },
+    };
+    island.remembered.take();
+    island.before = None;
+    let is_driven = !island.inputs.is_empty();
+    let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
+    if task == Task::Frame && !is_driven && is_at_rest {
+        // Nothing moved it for a whole frame: what comes next does not go on from before.
+        island.history.forget();
+        return visit;
+    }
+    island.prepare();
+    let limits = island.limits(settings, budget);
+    let work = &mut visit.counters;
+    let is_first = island.is_new;
+    if (island.is_new || island.is_edited) && task == Task::Frame && settings.method == Method::Auto
+    {
+        begin(island, &limits, work);
+    }
+    let could_follow = task == Task::Frame
+        && is_driven
+        && (island.status == Status::Converged || is_first && settings.method != Method::Auto);
+    if could_follow && settings.method != Method::Auto {
+        island.history.begin_anew(&island.x[..island.n_free]);
+    }
+    let (mut outcome, lowered) = solve(island, settings, &limits, task, work);
+    confirm(island, &mut outcome, settings, &limits, work);
+    if could_follow && !outcome.is_converged() {
+        island.note_halt(is_first);
+    }
+    island.is_new = false;
+    island.is_edited = false;
+    island.status = outcome.status;
+    island.residual = outcome.worst / limits.size;
+    island.settle_inputs();
+    visit.size = limits.size;
+    visit.lowered = lowered;
+    visit.is_awake = is_driven || outcome.status == Status::Stalled;
+    visit.outcome = Some(outcome);
+    visit
 }
 
 /// Works out what drove an island at the beginning of a frame that it was made in.
@@ -59,8 +127,9 @@ pub(super) fn confirm(
     work: &mut Counters,
 ) {
     for n in 0..=MOST_CONFIRMATIONS {
-        // What is far below the tolerance is so whatever the size.
-        if !outcome.is_converged() || outcome.worst <= 1e-4 * limits.tolerance {
+        let tolerance = limits.budget.tolerance.unwrap_or(settings.tolerance);
+        // The size is never below what the constraints ask for.
+        if !outcome.is_converged() || outcome.worst <= tolerance * island.wanted() {
             return;
         }
         let now = island.limits(settings, limits.budget);

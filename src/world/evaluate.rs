@@ -109,11 +109,15 @@ impl World {
     /// Where an expression has no value, or one that its constraint cannot have.
     pub fn refresh(&mut self) -> Result<(), Diagnostic> {
         self.live.note_change();
+        self.sort_parameters();
+        self.sort_constraints();
+        if self.live.is_idle() {
+            return Ok(());
+        }
         self.refresh_parameters();
         if let Some(why) = self.live.first_failure() {
             return Err(why.clone());
         }
-        self.sort_constraints();
         for k in 0..self.live.driven().len() {
             self.refresh_constraint(self.live.driven()[k])?;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::records::Dependent;
 use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
-use crate::constraint::Kind;
+use crate::constraint::{Field, Kind, Relation as _};
 use crate::diag::Diagnostic;
 
 /// What was worked out about live expressions; a scene without any keeps nothing here.
@@ -20,7 +20,7 @@ pub(super) struct Live {
     driven: Vec<ConstraintId>,
     /// Those among them that points drive.
     measured: Vec<ConstraintId>,
-    /// Motors that are switched on.
+    /// Motors that are switched on and turn.
     motors: Vec<ConstraintId>,
     /// Whether `order` has to be made anew.
     is_order_dirty: bool,
@@ -56,7 +56,7 @@ impl Live {
         &self.measured
     }
 
-    /// Motors that are switched on.
+    /// Motors that are switched on and turn.
     pub fn motors(&self) -> &[ConstraintId] {
         &self.motors
     }
@@ -74,6 +74,11 @@ impl Live {
     /// Notes why a live parameter has no value now.
     pub fn fail(&mut self, id: ParameterId, why: Diagnostic) {
         self.failures.insert(id, why);
+    }
+
+    /// Whether no value depends on time or points.
+    pub fn is_idle(&self) -> bool {
+        self.order.is_empty() && self.driven.is_empty() && self.failures.is_empty()
     }
 
     /// Forgets why parameters had no values.
@@ -166,6 +171,13 @@ fn is_motor(record: &Record) -> bool {
     record.constraint.kind() == Kind::Motor
 }
 
+/// Whether a motor turns: its speed is not 0, or may not be 0 at another time.
+fn is_turning(record: &Record) -> bool {
+    is_motor(record)
+        && (record.constraint.get(Field::Speed) != Some(0.0)
+            || record.driver(Field::Speed).is_some())
+}
+
 impl World {
     /// Brings the order of live parameters up to date.
     pub(super) fn sort_parameters(&mut self) {
@@ -203,7 +215,7 @@ impl World {
         }
         let (mut driven, mut measured, mut motors) = (Vec::new(), Vec::new(), Vec::new());
         for (id, record) in self.constraints() {
-            if record.is_on && is_motor(record) {
+            if record.is_on && is_turning(record) {
                 motors.push(id);
             }
             let formulas = record.drivers.iter().map(|(_, formula)| self.depends(formula));
@@ -218,6 +230,12 @@ impl World {
         self.live.driven = driven;
         self.live.measured = measured;
         self.live.motors = motors;
+    }
+
+    /// Whether some motor is switched on and turns.
+    pub fn has_running_motors(&mut self) -> bool {
+        self.sort_constraints();
+        !self.live.motors().is_empty()
     }
 
     /// What can change a formula, its parameters' own formulas included.

@@ -158,10 +158,15 @@ impl World {
         self.touched.is_empty()
     }
 
-    /// What changed since this was last asked for.
-    pub fn take_touched(&mut self) -> Touched {
-        let touched = std::mem::take(&mut self.touched);
-        if touched.all { Touched::everything() } else { touched }
+    /// What changed since this was last asked for. `room` lends its lists to what comes next.
+    pub fn take_touched(&mut self, mut room: Touched) -> Touched {
+        room.clear();
+        let mut touched = std::mem::replace(&mut self.touched, room);
+        if touched.all {
+            touched.clear();
+            touched.all = true;
+        }
+        touched
     }
 
     /// Puts a point where the solver found it. A position that is not finite is refused and

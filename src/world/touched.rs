@@ -27,6 +27,16 @@ impl Touched {
             && self.values.is_empty()
     }
 
+    /// Nothing changed; the lists keep their room.
+    pub fn clear(&mut self) {
+        let Self { all, points, moved, constraints, values } = self;
+        *all = false;
+        points.clear();
+        moved.clear();
+        constraints.clear();
+        values.clear();
+    }
+
     /// Everything changed.
     pub fn everything() -> Self {
         Self { all: true, ..Self::default() }
