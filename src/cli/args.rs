@@ -101,5 +101,5 @@ pub fn parse() -> Arguments {
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
 fn parse_setting(text: &str) -> Result<(String, f64), String> {
-    crate::session::evaluate_binding(text).map_err(|problem| problem.message.into())
+    crate::session::evaluate_binding(text).map_err(|problem| problem.message.to_string())
 }

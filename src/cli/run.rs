@@ -29,7 +29,7 @@ pub enum Status {
 }
 
 impl Status {
-    pub const fn of(problem: &Diagnostic) -> Self {
+    pub fn of(problem: &Diagnostic) -> Self {
         match problem.kind {
             Kind::Promise => Self::BrokenPromise,
             Kind::Mistake => Self::Mistake,

@@ -58,7 +58,8 @@ impl Vector {
 
     /// The vector of length `r` in direction `phi`, radians.
     pub fn polar(r: f64, phi: f64) -> Self {
-        Self::new(r * libm::cos(phi), r * libm::sin(phi))
+        let (s, c) = libm::sincos(phi);
+        Self::new(r * c, r * s)
     }
 
     /// The point this vector leads to from the origin.

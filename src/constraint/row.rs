@@ -25,6 +25,7 @@ pub struct Row {
 
 impl Row {
     /// An equation with value `f` and no points yet.
+    #[inline]
     pub fn new(f: f64) -> Self {
         Self {
             f,
@@ -37,6 +38,7 @@ impl Row {
     }
 
     /// A row that asks for nothing at this pose but keeps its place among `points`.
+    #[inline]
     pub fn inactive(points: &[PointIdx]) -> Self {
         let mut row = points.iter().fold(Self::new(0.0), |row, &p| row.with(p, Vector::ZERO));
         row.is_active = false;
@@ -45,26 +47,32 @@ impl Row {
 
     /// Adds the derivative by a point; a point that occurs twice is merged.
     #[must_use]
+    #[inline]
     pub fn with(mut self, point: PointIdx, gradient: Vector) -> Self {
-        for k in 0..self.n_points {
-            if self.points[k] == point {
-                let size = self.gradient[k].norm() + gradient.norm();
-                self.gradient[k] += gradient;
-                // Derivatives that cancel leave their rounding; dividing by that would
-                // throw the point across the plane.
-                if self.gradient[k].norm() <= 4.0 * f64::EPSILON * size {
-                    self.gradient[k] = Vector::ZERO;
-                }
-                return self;
+        match self.points[..self.n_points].iter().position(|p| *p == point) {
+            Some(k) => self.merge(k, gradient),
+            None => {
+                self.points[self.n_points] = point;
+                self.gradient[self.n_points] = gradient;
+                self.n_points += 1;
             }
         }
-        self.points[self.n_points] = point;
-        self.gradient[self.n_points] = gradient;
-        self.n_points += 1;
         self
     }
 
+    #[cold]
+    fn merge(&mut self, k: usize, gradient: Vector) {
+        let size = self.gradient[k].norm() + gradient.norm();
+        self.gradient[k] += gradient;
+        // Derivatives that cancel leave their rounding; dividing by that would throw the
+        // point across the plane.
+        if self.gradient[k].norm() <= 4.0 * f64::EPSILON * size {
+            self.gradient[k] = Vector::ZERO;
+        }
+    }
+
     /// The points with their derivatives.
+    #[inline]
     pub fn terms(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
         (0..self.n_points).map(|k| (self.points[k], self.gradient[k]))
     }

@@ -1,5 +1,7 @@
 //! One problem: a message, the places it is about, and what to do.
 
+use std::ops::{Deref, DerefMut};
+
 use super::Span;
 
 /// Something to tell the user, with the places it is about.
@@ -14,8 +16,14 @@ use super::Span;
 ///     .help("did you mean `length`?");
 /// assert_eq!(&*problem.message, "unknown command `lenght`");
 /// ```
+///
+/// No larger than a pointer: results that may fail are as cheap as those that cannot.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Diagnostic {
+pub struct Diagnostic(Box<Problem>);
+
+/// What a [`Diagnostic`] says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
     /// How bad it is.
     pub severity: Severity,
     /// What sort of failure it is to a batch.
@@ -67,6 +75,20 @@ pub struct Label {
     pub primary: bool,
 }
 
+impl Deref for Diagnostic {
+    type Target = Problem;
+
+    fn deref(&self) -> &Problem {
+        &self.0
+    }
+}
+
+impl DerefMut for Diagnostic {
+    fn deref_mut(&mut self) -> &mut Problem {
+        &mut self.0
+    }
+}
+
 impl Diagnostic {
     /// An error of kind [`Kind::Mistake`].
     pub fn error(message: impl Into<String>) -> Self {
@@ -84,7 +106,7 @@ impl Diagnostic {
     }
 
     fn new(severity: Severity, message: impl Into<String>) -> Self {
-        Self {
+        Self(Box::new(Problem {
             severity,
             kind: Kind::Mistake,
             message: message.into().into_boxed_str(),
@@ -92,7 +114,7 @@ impl Diagnostic {
             helps: Vec::new(),
             notes: Vec::new(),
             via: Vec::new(),
-        }
+        }))
     }
 
     /// Sets the kind.

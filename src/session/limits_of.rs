@@ -6,7 +6,7 @@ use crate::constraint::{Kind, geometry::wrap};
 use crate::diag::format_number;
 use crate::lang::ast::Name;
 use crate::solve::mobility::{End, Range, Reach, range};
-use crate::world::{ConstraintId, Entity, Formula, Mention};
+use crate::world::{ConstraintId, Entity};
 
 /// An angle in degrees, to 1e-9.
 pub(super) fn degrees(radians: f64) -> String {
@@ -115,22 +115,8 @@ impl Session {
     fn measured(&self) -> Option<&str> {
         let measured = self.world.constraints().find(|(_, record)| {
             let mut formulas = record.drivers.iter().map(|(_, formula)| formula);
-            record.is_on && formulas.any(|formula| self.is_measured(formula))
+            record.is_on && formulas.any(|formula| self.world.follows_motion(formula))
         });
         measured.map(|(_, record)| &*record.name)
-    }
-
-    /// Whether a point that can move is mentioned, at any depth.
-    fn is_measured(&self, formula: &Formula) -> bool {
-        let mut is_measured = false;
-        formula.mentions(&mut |mention| {
-            is_measured |= match mention {
-                Mention::Point(id) => !self.world.points().is_frozen(id),
-                Mention::Parameter(id) => {
-                    self.world.parameter(id).is_some_and(|p| self.is_measured(&p.formula))
-                }
-            };
-        });
-        is_measured
     }
 }

@@ -26,7 +26,7 @@ impl Solver {
         }
         world.advance()?;
         let mut report = self.frame(world, settings, budget);
-        if world.is_measured() {
+        if world.is_mutual() {
             self.agree(world, settings, budget, &mut report)?;
         }
         Ok(report)

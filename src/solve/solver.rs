@@ -139,7 +139,7 @@ impl Solver {
         let still = || vec![Vector::ZERO; n];
         let mut rates = Rates { velocity: still(), acceleration: still() };
         // What is measured on moving points changes as they move, which moves them.
-        let n_rounds = if world.is_measured() { MEASURED_ROUNDS } else { 1 };
+        let n_rounds = if world.is_mutual() { MEASURED_ROUNDS } else { 1 };
         for _ in 0..n_rounds {
             let mut fields = world.field_rates(&rates)?;
             fields.sort_by_key(|(id, ..)| *id);

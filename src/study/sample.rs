@@ -67,7 +67,7 @@ impl Subject<'_> {
             let is_sane = |value: f64| value <= BLOWN;
             is_sane(report.residual) && error.is_none_or(is_sane)
         };
-        let no_value = |problem: Diagnostic| Why::NoValue(problem.message.into());
+        let no_value = |problem: Diagnostic| Why::NoValue(problem.message.to_string());
         if self.is_still {
             let (world, report, seconds) =
                 self.solve(&settings, rung.step, &budget, outside).map_err(no_value)?;

@@ -81,6 +81,7 @@ impl World {
             }
             Edit::Freeze(id, frozen) => {
                 self.touched.points.push(id);
+                self.live.note_freeze();
                 Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
             }
             Edit::Weight(id, weight) => {
@@ -134,6 +135,7 @@ impl World {
         record: Option<Box<PointRecord>>,
     ) -> Option<Box<PointRecord>> {
         self.touched.points.push(id);
+        self.live.note_freeze();
         let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
             let old = self.points.remove(id);
             self.names.remove(&old.name);

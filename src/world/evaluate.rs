@@ -171,8 +171,14 @@ impl World {
         Ok(change)
     }
 
-    /// Whether some constraint's value is measured on the pose itself, so that a frame has to
-    /// be solved until both agree.
+    /// Whether some constraint's value is measured on points that the solver moves, so that a
+    /// frame has to be solved until both agree.
+    pub fn is_mutual(&mut self) -> bool {
+        self.sort_constraints();
+        self.live.is_mutual()
+    }
+
+    /// Whether some constraint's value is measured on points, of whatever kind.
     pub fn is_measured(&mut self) -> bool {
         self.sort_constraints();
         !self.live.measured().is_empty()

@@ -20,6 +20,8 @@ pub(super) struct Live {
     driven: Vec<ConstraintId>,
     /// Those among them that points drive.
     measured: Vec<ConstraintId>,
+    /// Whether the solver moves such a point: values and pose have to agree then.
+    is_mutual: bool,
     /// Motors that are switched on and turn.
     motors: Vec<ConstraintId>,
     /// Whether `order` has to be made anew.
@@ -79,6 +81,16 @@ impl Live {
     /// Whether no value depends on time or points.
     pub fn is_idle(&self) -> bool {
         self.order.is_empty() && self.driven.is_empty() && self.failures.is_empty()
+    }
+
+    /// Whether the solver moves a point that drives a constraint.
+    pub fn is_mutual(&self) -> bool {
+        self.is_mutual
+    }
+
+    /// A point was made, deleted, frozen or thawed.
+    pub fn note_freeze(&mut self) {
+        self.are_lists_dirty |= !self.measured.is_empty();
     }
 
     /// Forgets why parameters had no values.
@@ -214,6 +226,7 @@ impl World {
             return;
         }
         let (mut driven, mut measured, mut motors) = (Vec::new(), Vec::new(), Vec::new());
+        let mut is_mutual = false;
         for (id, record) in self.constraints() {
             if record.is_on && is_turning(record) {
                 motors.push(id);
@@ -225,11 +238,27 @@ impl World {
             }
             if depends.on_points {
                 measured.push(id);
+                is_mutual |= record.drivers.iter().any(|(_, f)| self.follows_motion(f));
             }
         }
+        self.live.is_mutual = is_mutual;
         self.live.driven = driven;
         self.live.measured = measured;
         self.live.motors = motors;
+    }
+
+    /// Whether a formula mentions a point that can move, at any depth.
+    pub fn follows_motion(&self, formula: &Formula) -> bool {
+        let mut follows = false;
+        formula.mentions(&mut |mention| {
+            follows |= match mention {
+                Mention::Point(id) => !self.points.is_frozen(id),
+                Mention::Parameter(id) => {
+                    self.parameter(id).is_some_and(|p| self.follows_motion(&p.formula))
+                }
+            };
+        });
+        follows
     }
 
     /// Whether some motor is switched on and turns.

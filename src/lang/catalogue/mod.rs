@@ -95,7 +95,7 @@ mod tests {
     fn every_example_parses() {
         for entry in commands().chain(topics()) {
             for statement in parse(SourceId(0), entry.example) {
-                let problem = statement.err().map(|problem| problem.message);
+                let problem = statement.err().map(|problem| problem.message.clone());
                 assert_eq!(problem, None, "in the example of `{}`", entry.keyword);
             }
         }
