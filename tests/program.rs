@@ -204,6 +204,42 @@ fn the_same_script_writes_the_same_bytes() {
 }
 
 #[test]
+fn any_number_of_cores_gives_the_same_bits() {
+    // Many islands; and one with many constraints, by sweeps and by a matrix.
+    let islands = "for i in 1..1400 {
+           point A[i] = (0, 6 * i) frozen, D[i] = (4, 6 * i) frozen
+           point B[i] = (1, 6 * i), C[i] = (3, 6 * i + 2.9)
+           motor A[i] B[i] radius 1 speed (1 + i / 7)
+           length B[i] C[i] = 3.5; length C[i] D[i] = 3
+         }
+         set dt 1/360; step 3";
+    let sheet = "for i in 0..72 { for j in 0..72 { point p[i][j] = (i, j) } }
+         for i in 0..72 { for j in 1..72 {
+           length p[i][j-1] p[i][j] = 1; length p[j-1][i] p[j][i] = 1
+         } }
+         for i in 1..72 { for j in 1..72 {
+           length p[i-1][j-1] p[i][j] = sqrt(2); length p[i-1][j] p[i][j-1] = 1.4
+         } }
+         freeze p[0][0], p[72][3]
+         drag p[0][0] to (0.1, 0.05) over 1";
+    let scenes = [
+        islands.to_owned(),
+        format!("set method relaxation; set iterations 2; {sheet}"),
+        format!("set method newton; set iterations 1; {sheet}"),
+    ];
+    for scene in scenes {
+        let folder = folder(&[("a.link", &format!("{scene}\nsave \"end.link\""))]);
+        let [one, many] = ["1", "3"].map(|n| {
+            let out = run(folder.path(), &["run", "--threads", n, "a.link"], "");
+            assert!(out.status.success(), "{}", text(&out.stderr));
+            fs::read(folder.path().join("end.link")).expect("it was saved")
+        });
+
+        assert!(one == many, "of {scene}");
+    }
+}
+
+#[test]
 fn nothing_is_coloured_on_a_pipe() {
     let folder = folder(&[]);
     let out = run(folder.path(), &["run", "-"], "solve\nlenght A B");

@@ -89,6 +89,9 @@ pub struct Outside {
     /// Say nothing on standard error but errors.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Work with so many cores, not with all; the results are the same to the bit.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// Let scripts write anywhere, not only below the output folder.
     #[arg(long)]
     pub allow_any_path: bool,

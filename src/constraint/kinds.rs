@@ -5,145 +5,21 @@ use super::{
     Length, Motor, Orientation, Place, Point, PointIdx, Rack, Real, Relation, Rigid, Row, Vector,
 };
 
-/// Hands the table of kinds to a macro: the place among the batches, the kind, its word in
-/// the command language. A new kind is one more line, at the end.
-macro_rules! with_kinds {
-    ($then:ident) => {
-        $then! {
-            coordinate Coordinate "coordinate",
-            coincidence Coincidence "coincidence",
-            equivalence Equivalence "equivalence",
-            equal Equal "equal",
-            length Length "length",
-            orientation Orientation "orientation",
-            motor Motor "motor",
-            glider Glider "glider",
-            hinge Hinge "hinge",
-            cog Cog "cog",
-            cog_velocity CogVelocity "cog",
-            distance Distance "distance",
-            rigid Rigid "rigid",
-            rack Rack "rack",
-        }
-    };
-}
-pub(super) use with_kinds;
-
-/// The methods of [`Relation`] that only look, for an enum with one variant a kind.
-macro_rules! reads {
-    ($vis:vis [$($Name:ident)*]) => {
-        /// See [`Relation::points`].
-        $vis fn points(&self) -> &[PointIdx] {
-            match self { $(Self::$Name(c) => c.points(),)* }
-        }
-        /// See [`Relation::n_rows`].
-        $vis fn n_rows(&self) -> usize {
-            match self { $(Self::$Name(c) => c.n_rows(),)* }
-        }
-        /// See [`Relation::residual`].
-        $vis fn residual(&self, x: &[Point]) -> f64 {
-            match self { $(Self::$Name(c) => c.residual(x),)* }
-        }
-        /// See [`Relation::correct`].
-        $vis fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
-            match self { $(Self::$Name(c) => c.correct(x, w, move_by),)* }
-        }
-        /// See [`Relation::jacobian`].
-        $vis fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
-            match self { $(Self::$Name(c) => c.jacobian(x, row),)* }
-        }
-        /// See [`Relation::equations`].
-        $vis fn equations<T: Real>(
-            &self,
-            x: &impl Fn(PointIdx) -> Place<T>,
-            field: &impl Fn(Field, f64) -> T,
-            equation: &mut impl FnMut(T),
-        ) {
-            match self { $(Self::$Name(c) => c.equations(x, field, equation),)* }
-        }
-        /// See [`Relation::get`].
-        $vis fn get(&self, field: Field) -> Option<f64> {
-            match self { $(Self::$Name(c) => c.get(field),)* }
-        }
-        /// See [`Relation::state`].
-        $vis fn state(&self) -> Option<Vec<f64>> {
-            match self { $(Self::$Name(c) => c.state(),)* }
-        }
-        /// See [`Relation::captured`].
-        $vis fn captured(&self) -> Vec<f64> {
-            match self { $(Self::$Name(c) => c.captured(),)* }
-        }
-        /// See [`Relation::violation`].
-        $vis fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
-            match self { $(Self::$Name(c) => c.violation(x, w),)* }
-        }
-    };
-}
-
-/// The methods of [`Relation`] that change something.
-macro_rules! writes {
-    ($vis:vis [$($Name:ident)*]) => {
-        /// See [`Relation::points_mut`].
-        $vis fn points_mut(&mut self) -> &mut [PointIdx] {
-            match self { $(Self::$Name(c) => c.points_mut(),)* }
-        }
-        /// See [`Relation::set`].
-        $vis fn set(&mut self, field: Field, value: f64) -> bool {
-            match self { $(Self::$Name(c) => c.set(field, value),)* }
-        }
-        /// See [`Relation::set_state`].
-        $vis fn set_state(&mut self, state: &[f64]) {
-            match self { $(Self::$Name(c) => c.set_state(state),)* }
-        }
-        /// See [`Relation::set_captured`].
-        $vis fn set_captured(&mut self, captured: &[f64]) {
-            match self { $(Self::$Name(c) => c.set_captured(captured),)* }
-        }
-        /// See [`Relation::pick_up`].
-        $vis fn pick_up(&mut self, x: &[Point]) {
-            match self { $(Self::$Name(c) => c.pick_up(x),)* }
-        }
-        /// See [`Relation::advance`].
-        $vis fn advance(&mut self, dt: f64) -> bool {
-            match self { $(Self::$Name(c) => c.advance(dt),)* }
-        }
-        /// See [`Relation::begin_frame`].
-        $vis fn begin_frame(&mut self, x: &[Point], dt: f64) {
-            match self { $(Self::$Name(c) => c.begin_frame(x, dt),)* }
-        }
-        /// See [`Relation::accept`].
-        $vis fn accept(&mut self, x: &[Point]) {
-            match self { $(Self::$Name(c) => c.accept(x),)* }
-        }
+/// Hands a call on to whatever kind a constraint is of.
+macro_rules! each {
+    ($self:ident [$($Name:ident)*] $c:ident => $call:expr) => {
+        match $self { $(Self::$Name($c) => $call,)* }
     };
 }
 
 macro_rules! define {
-    ($($batch:ident $Name:ident $word:literal,)*) => {
+    ($($Name:ident $word:literal,)*) => {
         /// A constraint of any kind.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Constraint {
             $(
                 #[doc = concat!("See [`", stringify!($Name), "`](super::", stringify!($Name), ").")]
                 $Name($Name),
-            )*
-        }
-
-        /// A constraint of any kind, borrowed.
-        #[derive(Debug, Clone, Copy)]
-        pub enum ConstraintRef<'a> {
-            $(
-                #[doc = concat!("See [`", stringify!($Name), "`](super::", stringify!($Name), ").")]
-                $Name(&'a $Name),
-            )*
-        }
-
-        /// A constraint of any kind, borrowed for a change.
-        #[derive(Debug)]
-        pub enum ConstraintMut<'a> {
-            $(
-                #[doc = concat!("See [`", stringify!($Name), "`](super::", stringify!($Name), ").")]
-                $Name(&'a mut $Name),
             )*
         }
 
@@ -178,16 +54,70 @@ macro_rules! define {
         )*
 
         impl Relation for Constraint {
-            reads!([$($Name)*]);
-            writes!([$($Name)*]);
-        }
-
-        impl ConstraintRef<'_> {
-            reads!(pub [$($Name)*]);
-        }
-
-        impl ConstraintMut<'_> {
-            writes!(pub [$($Name)*]);
+            fn points(&self) -> &[PointIdx] {
+                each!(self [$($Name)*] c => c.points())
+            }
+            fn points_mut(&mut self) -> &mut [PointIdx] {
+                each!(self [$($Name)*] c => c.points_mut())
+            }
+            fn n_rows(&self) -> usize {
+                each!(self [$($Name)*] c => c.n_rows())
+            }
+            fn residual(&self, x: &[Point]) -> f64 {
+                each!(self [$($Name)*] c => c.residual(x))
+            }
+            fn correct(
+                &self,
+                x: &[Point],
+                w: &[f64],
+                move_by: &mut impl FnMut(PointIdx, Vector),
+            ) {
+                each!(self [$($Name)*] c => c.correct(x, w, move_by))
+            }
+            fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
+                each!(self [$($Name)*] c => c.jacobian(x, row))
+            }
+            fn equations<T: Real>(
+                &self,
+                x: &impl Fn(PointIdx) -> Place<T>,
+                field: &impl Fn(Field, f64) -> T,
+                equation: &mut impl FnMut(T),
+            ) {
+                each!(self [$($Name)*] c => c.equations(x, field, equation))
+            }
+            fn get(&self, field: Field) -> Option<f64> {
+                each!(self [$($Name)*] c => c.get(field))
+            }
+            fn set(&mut self, field: Field, value: f64) -> bool {
+                each!(self [$($Name)*] c => c.set(field, value))
+            }
+            fn state(&self) -> Option<Vec<f64>> {
+                each!(self [$($Name)*] c => c.state())
+            }
+            fn set_state(&mut self, state: &[f64]) {
+                each!(self [$($Name)*] c => c.set_state(state))
+            }
+            fn captured(&self) -> Vec<f64> {
+                each!(self [$($Name)*] c => c.captured())
+            }
+            fn set_captured(&mut self, captured: &[f64]) {
+                each!(self [$($Name)*] c => c.set_captured(captured))
+            }
+            fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
+                each!(self [$($Name)*] c => c.violation(x, w))
+            }
+            fn pick_up(&mut self, x: &[Point]) {
+                each!(self [$($Name)*] c => c.pick_up(x))
+            }
+            fn advance(&mut self, dt: f64) -> bool {
+                each!(self [$($Name)*] c => c.advance(dt))
+            }
+            fn begin_frame(&mut self, x: &[Point], dt: f64) {
+                each!(self [$($Name)*] c => c.begin_frame(x, dt))
+            }
+            fn accept(&mut self, x: &[Point]) {
+                each!(self [$($Name)*] c => c.accept(x))
+            }
         }
 
         impl Constraint {
@@ -198,13 +128,6 @@ macro_rules! define {
                 }
             }
 
-            /// The same, borrowed.
-            pub const fn as_ref(&self) -> ConstraintRef<'_> {
-                match self {
-                    $(Self::$Name(c) => ConstraintRef::$Name(c),)*
-                }
-            }
-
             /// Renumbers its points.
             pub fn map_points(&mut self, mut renumber: impl FnMut(PointIdx) -> PointIdx) {
                 for p in self.points_mut() {
@@ -212,22 +135,23 @@ macro_rules! define {
                 }
             }
         }
-
-        impl ConstraintRef<'_> {
-            /// Its kind.
-            pub const fn kind(&self) -> Kind {
-                match self {
-                    $(Self::$Name(_) => Kind::$Name,)*
-                }
-            }
-
-            /// A copy of its own.
-            pub fn to_constraint(&self) -> Constraint {
-                match self {
-                    $(Self::$Name(c) => Constraint::$Name((*c).clone()),)*
-                }
-            }
-        }
     };
 }
-with_kinds!(define);
+
+// A new kind is one more line, at the end.
+define! {
+    Coordinate "coordinate",
+    Coincidence "coincidence",
+    Equivalence "equivalence",
+    Equal "equal",
+    Length "length",
+    Orientation "orientation",
+    Motor "motor",
+    Glider "glider",
+    Hinge "hinge",
+    Cog "cog",
+    CogVelocity "cog",
+    Distance "distance",
+    Rigid "rigid",
+    Rack "rack",
+}

@@ -46,10 +46,8 @@ mod rack;
 mod rigid;
 
 // All kinds together.
-mod batches;
 mod kinds;
 
-pub use batches::{Batches, Slot, Visitor, VisitorMut};
 pub use bounds::Bounds;
 pub use cog::Cog;
 pub use cog_velocity::CogVelocity;
@@ -62,7 +60,7 @@ pub use geometry::{Point, Vector};
 pub use glider::Glider;
 pub use hinge::Hinge;
 pub use jet::{Jet, Real};
-pub use kinds::{Constraint, ConstraintMut, ConstraintRef, Kind};
+pub use kinds::{Constraint, Kind};
 pub use length::Length;
 pub use motor::Motor;
 pub use orientation::{Orientation, Period};

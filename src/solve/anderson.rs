@@ -21,7 +21,7 @@ pub(super) fn solve(
     work: &mut Counters,
 ) -> Outcome {
     let n_free = island.n_free;
-    let sweep = Sweep::new(island, coefficient);
+    let mut sweep = Sweep::new(island, coefficient);
     let mut d = vec![Vector::ZERO; island.x.len()];
     let mut last: Option<(Vec<Point>, Vec<Vector>)> = None;
     // Changes of the pose and of its correction from one sweep to the next.

@@ -122,6 +122,7 @@ pub(super) fn find(
 ) -> Option<Found> {
     let p = block.point;
     work.evaluations += which.len() as u64;
+    work.wheel_evaluations += u64::from(block.n_wheels);
     let mut reference = x[p as usize];
     match block.form {
         Form::Assignment => {
@@ -159,6 +160,7 @@ pub(super) fn find(
         let before = sum.worst;
         sum = evaluate(p, which, all, x);
         work.evaluations += which.len() as u64;
+        work.wheel_evaluations += u64::from(block.n_wheels);
         if sum.worst > (SLOWEST * before).max(limits.tolerance) {
             return None;
         }

@@ -223,6 +223,10 @@ impl Island {
             self.wanted = None;
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
+        if self.inputs.constraints.capacity() == 0 {
+            // Most islands are driven by one motor.
+            self.inputs.constraints.reserve_exact(1);
+        }
         self.inputs.constraints.push((c as u32, old));
     }
 
@@ -340,7 +344,28 @@ impl Island {
 
     /// The room for methods that solve the island as a whole.
     pub fn take_room(&mut self) -> Box<Workspace> {
+        if self.plan.is_one_part()
+            && let Some(room) = self.part_rooms.pop()
+        {
+            return Box::new(room);
+        }
         self.room.take().unwrap_or_else(|| Box::new(Workspace::new(self.equations())))
+    }
+
+    /// Keeps the room for what comes next.
+    pub fn put_room(&mut self, room: Box<Workspace>) {
+        if self.plan.is_one_part() {
+            // What is solved as one part is the island itself.
+            self.part_rooms = vec![*room];
+        } else {
+            self.room = Some(room);
+        }
+    }
+
+    /// Gives up the room for the island as a whole, which is not needed while it can be
+    /// followed part by part.
+    pub fn drop_room(&mut self) {
+        self.room = None;
     }
 
     /// The blocks are on the sides they were found on.

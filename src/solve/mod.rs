@@ -9,6 +9,7 @@ pub mod linear;
 pub mod mobility;
 
 // What the methods work on.
+mod crew;
 mod ends;
 mod fingerprint;
 mod footprint;

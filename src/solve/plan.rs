@@ -4,6 +4,7 @@
 //! theirs is. What is found is known, and so on. Most mechanisms fall apart into such
 //! blocks of one point; what is left is solved as a whole.
 
+use super::rows::is_wheel;
 use crate::constraint::{Constraint, PointIdx, Relation};
 
 /// The blocks of an island, each solvable when those before it are.
@@ -26,6 +27,8 @@ pub(super) struct Block {
     pub first: u32,
     /// See `first`.
     pub end: u32,
+    /// How many of them hold wheels.
+    pub n_wheels: u32,
     /// What of the constraints is known beforehand.
     pub form: Form,
     /// Whether the constraints leave it no freedom.
@@ -71,27 +74,35 @@ impl Plan {
                 continue;
             }
             let ready = search.take(p);
-            plan.push(p, &ready, true);
+            plan.push(constraints, p, &ready, true);
             plan.blocks.last_mut().expect("just pushed").form = form(constraints, &ready, p);
             queue.extend(search.learn(constraints, p));
         }
         for part in search.rest(constraints, n_free) {
             if let &[point] = &*part.points {
-                plan.push(point, &part.constraints, false);
+                plan.push(constraints, point, &part.constraints, false);
             } else {
                 plan.rest.push(part);
             }
         }
+        plan.blocks.shrink_to_fit();
+        plan.constraints.shrink_to_fit();
         plan
     }
 
-    fn push(&mut self, point: PointIdx, constraints: &[u32], is_determined: bool) {
+    fn push(&mut self, all: &[Constraint], point: PointIdx, which: &[u32], is_determined: bool) {
         let first = self.constraints.len() as u32;
-        self.constraints.extend(constraints);
+        self.constraints.extend(which);
         let end = self.constraints.len() as u32;
+        let n_wheels = which.iter().filter(|&&c| is_wheel(&all[c as usize])).count() as u32;
         let (side, next_side, form) = (0.0, 0.0, Form::Any);
-        let block = Block { point, first, end, form, is_determined, side, next_side };
+        let block = Block { point, first, end, n_wheels, form, is_determined, side, next_side };
         self.blocks.push(block);
+    }
+
+    /// Whether all of it is solved as one.
+    pub fn is_one_part(&self) -> bool {
+        self.blocks.is_empty() && self.rest.len() == 1
     }
 
     /// Whether every point is found one by one.

@@ -39,7 +39,7 @@ pub(super) fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates)
         rates.velocity[id.idx()] = velocity;
         rates.acceleration[id.idx()] = acceleration;
     }
-    island.room = Some(room);
+    island.put_room(room);
 }
 
 /// What the rows of J times the unknown rates have to be.

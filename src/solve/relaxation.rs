@@ -40,7 +40,7 @@ impl Coefficient {
         let largest = spectrum
             .largest(&room.equations, &room.rows, |r| by_row.get(r).copied().unwrap_or(rho));
         island.spectrum = Some(spectrum);
-        island.room = Some(room);
+        island.put_room(room);
         let factor = if largest > MOST_RHO { MOST_RHO / largest } else { 1.0 };
         let lowered = (factor < 1.0).then_some(rho * factor);
         (Self { rho: rho * factor, factor }, lowered)
@@ -65,7 +65,7 @@ pub(super) fn solve(
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    let sweep = Sweep::new(island, coefficient);
+    let mut sweep = Sweep::new(island, coefficient);
     let mut d = vec![Vector::ZERO; island.x.len()];
     for n in 0..limits.n_iterations {
         let Island { constraints, x, w, n_free, .. } = &mut *island;

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::crew::{self, Guest};
 use super::island::Island;
 use super::memory::{self, Memory};
 use super::rates;
@@ -214,13 +215,17 @@ impl Solver {
         for &k in &due {
             self.is_awake[k as usize] = false;
         }
-        for &k in &due {
-            if budget.is_spent() {
-                report.is_interrupted = true;
-                self.wake(k);
-            } else if let Some(island) = self.topology.get_mut(k) {
-                let visit = visit(island, settings, budget, task);
-                self.close(k, &visit, world, &mut report);
+        if budget.stop.is_none() && crew::pays(self.topology.n_constraints_of(&due)) {
+            self.visit_side_by_side(&due, world, settings, budget, task, &mut report);
+        } else {
+            for &k in &due {
+                if budget.is_spent() {
+                    report.is_interrupted = true;
+                    self.wake(k);
+                } else if let Some(island) = self.topology.get_mut(k) {
+                    let visit = visit(island, settings, budget, task, &mut report.counters);
+                    self.close(k, &visit, world, &mut report);
+                }
             }
         }
         due.clear();
@@ -412,9 +417,31 @@ impl Solver {
         }
     }
 
+    /// Visits islands on all cores, and takes in what that came to in their order.
+    fn visit_side_by_side(
+        &mut self,
+        due: &[u32],
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        task: Task,
+        report: &mut Report,
+    ) {
+        let islands = due.iter().filter_map(|&k| Some((k, self.topology.lend(k)?)));
+        let mut guests: Vec<Guest> =
+            islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
+        let work = crew::visit_all(&mut guests, settings, budget.tolerance, task);
+        report.counters.add(&work);
+        for Guest { k, island, visit } in guests {
+            self.topology.give_back(k, island);
+            if let Some(visit) = visit {
+                self.close(k, &visit, world, report);
+            }
+        }
+    }
+
     /// Takes in what a visit came to.
     fn close(&mut self, k: u32, visit: &Visit, world: &mut World, report: &mut Report) {
-        report.counters.add(&visit.counters);
         let (Some(island), Some(outcome)) = (self.topology.get_mut(k), visit.outcome) else {
             return;
         };

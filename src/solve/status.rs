@@ -89,6 +89,13 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// The work of this call and another.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        self.add(other);
+        self
+    }
+
     /// Adds the work of another call.
     pub fn add(&mut self, other: &Self) {
         self.islands_visited += other.islands_visited;

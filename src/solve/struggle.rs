@@ -53,15 +53,13 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
             best = relax_first(island, &mut room, &start, best, limits, work);
         }
     }
-    island.room = Some(room);
+    island.put_room(room);
     if best.is_converged() {
         island.feasible = None;
         island.is_probed = false;
         island.accept_pose();
         island.update_sides();
-        if island.plan.is_complete() {
-            island.room = None;
-        }
+        island.drop_room();
     }
     best
 }

@@ -56,6 +56,22 @@ impl Topology {
         self.islands.get_mut(k as usize)?.as_deref_mut()
     }
 
+    /// How many constraints these islands hold together.
+    pub fn n_constraints_of(&self, islands: &[u32]) -> usize {
+        let each = islands.iter().filter_map(|&k| self.get(k));
+        each.map(|island| island.constraints.len()).sum()
+    }
+
+    /// Takes an island out, to be given back before anything else is asked.
+    pub fn lend(&mut self, k: u32) -> Option<Box<Island>> {
+        self.islands.get_mut(k as usize)?.take()
+    }
+
+    /// Puts a lent island back.
+    pub fn give_back(&mut self, k: u32, island: Box<Island>) {
+        self.islands[k as usize] = Some(island);
+    }
+
     /// The island a free point is in.
     pub fn island_of_point(&self, id: PointId) -> Option<u32> {
         self.of_point.get(id.idx()).copied().filter(|&k| k != NONE)

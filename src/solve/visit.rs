@@ -35,8 +35,6 @@ pub(super) struct Visit {
     pub lowered: Option<f64>,
     /// Whether the next frame is to visit it again.
     pub is_awake: bool,
-    /// The work done.
-    pub counters: Counters,
 }
 
 /// Solves an island. Touches nothing else: visits may be made in any order, or side by side.
@@ -45,14 +43,10 @@ pub(super) fn visit(
     settings: &Settings,
     budget: &Budget,
     task: Task,
+    work: &mut Counters,
 ) -> Visit {
-    let mut visit = Visit {
-        outcome: None,
-        size: 1.0,
-        lowered: None,
-        is_awake: false,
-        counters: Counters { islands_visited: 1, ..Counters::default() },
-    };
+    let mut visit = Visit { outcome: None, size: 1.0, lowered: None, is_awake: false };
+    work.islands_visited += 1;
     island.remembered.take();
     island.before = None;
     let is_driven = !island.inputs.is_empty();
@@ -64,7 +58,6 @@ pub(super) fn visit(
     }
     island.prepare();
     let limits = island.limits(settings, budget);
-    let work = &mut visit.counters;
     let is_first = island.is_new;
     if (island.is_new || island.is_edited) && task == Task::Frame && settings.method == Method::Auto
     {
@@ -216,7 +209,7 @@ fn iterate(
                 Method::Nesterov => nesterov::solve(&mut room, points, &mut pose, limits, work),
                 _ => newton::solve(&mut room, &mut pose, limits, work),
             };
-            island.room = Some(room);
+            island.put_room(room);
             outcome
         }
     }
