@@ -49,13 +49,12 @@ impl Row {
     #[must_use]
     #[inline]
     pub fn with(mut self, point: PointIdx, gradient: Vector) -> Self {
-        match self.points[..self.n_points].iter().position(|p| *p == point) {
-            Some(k) => self.merge(k, gradient),
-            None => {
-                self.points[self.n_points] = point;
-                self.gradient[self.n_points] = gradient;
-                self.n_points += 1;
-            }
+        if let Some(k) = self.points[..self.n_points].iter().position(|p| *p == point) {
+            self.merge(k, gradient);
+        } else {
+            self.points[self.n_points] = point;
+            self.gradient[self.n_points] = gradient;
+            self.n_points += 1;
         }
         self
     }

@@ -73,7 +73,7 @@ pub(super) fn solve(
         room.equations.scatter(&here, pose.x);
         room.evaluate(pose, work);
     }
-    if !(room.rows.energy <= FAR_UP * energy_at_start) {
+    if room.rows.energy.is_nan() || room.rows.energy > FAR_UP * energy_at_start {
         room.equations.scatter(&start, pose.x);
         room.evaluate(pose, work);
     }

@@ -293,7 +293,7 @@ struct Part<'a> {
     gradient: &'a mut [f64],
 }
 
-impl<'a> Part<'a> {
+impl Part<'_> {
     /// The parts of the shares of several cores.
     fn parted(self, equations: &Equations) -> Vec<Self> {
         let mut left = self;

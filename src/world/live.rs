@@ -9,6 +9,7 @@ use crate::diag::Diagnostic;
 
 /// What was worked out about live expressions; a scene without any keeps nothing here.
 #[derive(Debug, Clone, Default)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Live {
     /// By parameter, its users.
     dependents: Vec<Vec<Dependent>>,
