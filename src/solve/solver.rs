@@ -431,7 +431,9 @@ impl Solver {
         island.is_new = false;
         island.is_edited = false;
         island.status = outcome.status;
-        island.residual = outcome.worst / limits.size;
+        // What is not solved may have become much smaller.
+        let size = if outcome.is_converged() { limits.size } else { island.size() };
+        island.residual = outcome.worst / size;
         island.settle_inputs();
         write_back(island, world);
         if let Some(p) = island.turned_over.take() {

@@ -128,13 +128,14 @@ fn iterate(
     let rho = settings.rho;
     match settings.method {
         Method::Relaxation | Method::Anderson => {
-            let (coefficient, low) = Coefficient::new(island, rho, work);
-            *lowered = low;
-            if settings.method == Method::Relaxation {
-                relaxation::solve(island, coefficient, limits, work)
+            let mut coefficient = Coefficient::new(island, rho, work);
+            let outcome = if settings.method == Method::Relaxation {
+                relaxation::solve(island, &mut coefficient, limits, work)
             } else {
                 anderson::solve(island, coefficient, limits, work)
-            }
+            };
+            *lowered = coefficient.lowered();
+            outcome
         }
         Method::Successive => successive::solve(island, rho, limits, work),
         Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
