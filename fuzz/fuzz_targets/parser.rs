@@ -12,7 +12,7 @@ fuzz_target!(|text: &str| {
     for statement in parse(source, text) {
         let Ok(statement) = statement else { continue };
         let printed = statement.command.to_string();
-        let again = sources.add("printed", &printed);
+        let again = sources.add("printed", printed.as_str());
         let mut statements = parse(again, &printed);
         let read = statements.next().expect("a statement prints as one").unwrap_or_else(|why| {
             panic!("{text:?} prints as {printed:?}: {}", why.message)

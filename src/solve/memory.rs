@@ -131,7 +131,7 @@ impl<'a> Parts<'a> {
 fn recall(island: &Island) -> Arc<[f64]> {
     let numbers = || {
         let feasible = island.feasible.as_deref().unwrap_or_default();
-        let direction = island.spectrum.as_deref().map_or(&[][..], |spectrum| &spectrum.v);
+        let direction = island.spectrum.as_deref().map_or(&[][..], Spectrum::direction);
         let flag = |is: bool| f64::from(u8::from(is));
         let mut numbers = vec![0.0; head::LEN];
         numbers[head::N_FREE] = island.n_free as f64;

@@ -9,9 +9,8 @@ use crate::world::PointId;
 /// A pose that moves by less, relative to the size, has come to rest.
 const STILL: f64 = 1e-15;
 
-/// Momentum that has led to so many times the energy leads nowhere: the distance that belongs to
-/// an angle grows with the way out.
-const FAR_UP: f64 = 4.0;
+/// A step of descent longer than this part of the size is no longer a small change.
+const LONGEST_STEP: f64 = 0.1;
 
 /// Improves a pose; gives how it ended.
 pub(super) fn solve(
@@ -25,7 +24,10 @@ pub(super) fn solve(
     let mut spectrum = Spectrum::new(points);
     let mut here: Vec<Point> = Vec::new();
     room.equations.gather(pose.x, &mut here);
-    let (start, energy_at_start) = (here.clone(), room.rows.energy);
+    let energy_at_start = room.rows.energy;
+    // Momentum may lead up for as long as it likes: the distance that belongs to an angle grows
+    // with the way out. It then ends at the best pose on its way.
+    let (mut best, mut energy_at_best) = (here.clone(), energy_at_start);
     let mut last = here.clone();
     let mut momentum = 1.0_f64;
     for n in 0..limits.n_iterations {
@@ -41,7 +43,8 @@ pub(super) fn solve(
         room.remember(pose);
         let Workspace { step, slope, .. } = room;
         step.iter_mut().zip(&*slope).for_each(|(s, g)| *s = -g / largest);
-        if !room.equations.displace(pose.x, &room.before, &room.step, 1.0) {
+        let t = (LONGEST_STEP * limits.size / room.equations.reach(&room.step)).min(1.0);
+        if !room.equations.displace(pose.x, &room.before, &room.step, t) {
             room.reject(pose);
             return room.outcome(Status::Stalled, n);
         }
@@ -63,6 +66,10 @@ pub(super) fn solve(
         }
         std::mem::swap(&mut last, &mut here);
         room.evaluate(pose, work);
+        if room.rows.energy < energy_at_best {
+            energy_at_best = room.rows.energy;
+            room.equations.gather(pose.x, &mut best);
+        }
     }
     // The pose it stands for is the one without the momentum, if that is better.
     let extrapolated = room.rows.worst;
@@ -73,8 +80,8 @@ pub(super) fn solve(
         room.equations.scatter(&here, pose.x);
         room.evaluate(pose, work);
     }
-    if room.rows.energy.is_nan() || room.rows.energy > FAR_UP * energy_at_start {
-        room.equations.scatter(&start, pose.x);
+    if room.rows.energy.is_nan() || room.rows.energy > energy_at_start {
+        room.equations.scatter(&best, pose.x);
         room.evaluate(pose, work);
     }
     let status = if room.is_met(limits) { Status::Converged } else { Status::Stalled };

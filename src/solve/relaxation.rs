@@ -10,6 +10,11 @@ use crate::constraint::{Relation, Vector};
 
 /// Simultaneous corrections contract if rho < 2 / lambda; this keeps a tenth away from that.
 const MOST_RHO: f64 = 1.8;
+/// Sweeps whose moves grow by this factor, as a sum of squares, diverge: that of sweeps which
+/// contract can grow only where the constraints are far from linear.
+const GROWTH: f64 = 4.0;
+/// How often in a run that leads to a closer look at the coefficient.
+const MOST_LOOKS: u32 = 4;
 /// A pose that a sweep moves by less, relative to the size, is where the sweeps end.
 const STILL: f64 = 1e-15;
 
@@ -23,8 +28,8 @@ pub(super) struct Coefficient {
 }
 
 impl Coefficient {
-    /// The coefficient, and whether it had to be lowered.
-    pub fn new(island: &mut Island, rho: f64, work: &mut Counters) -> (Self, Option<f64>) {
+    /// The user's coefficient, or what contracts where that would diverge.
+    pub fn new(island: &mut Island, rho: f64, work: &mut Counters) -> Self {
         let mut room = island.take_room();
         room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
         let mut spectrum = island
@@ -42,8 +47,24 @@ impl Coefficient {
         island.spectrum = Some(spectrum);
         island.put_room(room);
         let factor = if largest > MOST_RHO { MOST_RHO / largest } else { 1.0 };
-        let lowered = (factor < 1.0).then_some(rho * factor);
-        (Self { rho: rho * factor, factor }, lowered)
+        Self { rho: rho * factor, factor }
+    }
+
+    /// The coefficient where sweeps with the present one diverge: the eigenvalue it was worked
+    /// out from is no longer the largest.
+    fn look_again(&mut self, island: &mut Island, work: &mut Counters) {
+        if let Some(spectrum) = &mut island.spectrum {
+            spectrum.forget();
+        }
+        let found = Self::new(island, self.rho / self.factor, work);
+        if found.rho < self.rho {
+            *self = found;
+        }
+    }
+
+    /// The coefficient, if it is lower than the user's.
+    pub fn lowered(self) -> Option<f64> {
+        (self.factor < 1.0).then_some(self.rho)
     }
 
     /// The coefficient `rho`, or what contracts where the largest eigenvalue is `largest`.
@@ -61,12 +82,13 @@ impl Coefficient {
 /// Improves the pose of an island; gives how it ended.
 pub(super) fn solve(
     island: &mut Island,
-    coefficient: Coefficient,
+    coefficient: &mut Coefficient,
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    let mut sweep = Sweep::new(island, coefficient);
+    let mut sweep = Sweep::new(island, *coefficient);
     let mut d = vec![Vector::ZERO; island.x.len()];
+    let (mut least, mut n_looks) = (f64::INFINITY, 0);
     for n in 0..limits.n_iterations {
         let Island { constraints, x, w, n_free, .. } = &mut *island;
         let worst = sweep.correct_all(constraints, x, w, &mut d, work);
@@ -76,7 +98,14 @@ pub(super) fn solve(
         if worst <= limits.tolerance || !is_finite || limits.budget.is_spent() {
             return ending(island, limits, n, f64::INFINITY, work);
         }
+        let square: f64 = d.iter().map(|d| d.norm_squared()).sum();
         free.iter_mut().zip(d).for_each(|(x, d)| *x += *d);
+        if square > GROWTH * least && n_looks < MOST_LOOKS {
+            n_looks += 1;
+            coefficient.look_again(island, work);
+            sweep = Sweep::new(island, *coefficient);
+        }
+        least = least.min(square);
         let longest = d.iter().fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()));
         if longest <= STILL * limits.size {
             return ending(island, limits, n + 1, longest, work);

@@ -13,7 +13,7 @@ pub(super) const MARGIN: f64 = 1.02;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Spectrum {
     /// The direction, (x, y) for each free point.
-    pub v: Vec<f64>,
+    v: Vec<f64>,
     scratch: Vec<f64>,
     /// Whether it was iterated before.
     is_warm: bool,
@@ -30,6 +30,18 @@ impl Spectrum {
     /// One that was carried over.
     pub fn from_direction(v: Vec<f64>) -> Self {
         Self { scratch: vec![0.0; v.len()], v, is_warm: true }
+    }
+
+    /// The direction, for keeping; nothing if it is no more than a start.
+    pub fn direction(&self) -> &[f64] {
+        if self.is_warm { &self.v } else { &[] }
+    }
+
+    /// Forgets the direction: it may have lost what leans toward an eigenvector that was not the
+    /// largest then.
+    pub fn forget(&mut self) {
+        (0..).zip(&mut self.v).for_each(|(k, v)| *v = noise(k));
+        self.is_warm = false;
     }
 
     /// The largest eigenvalue of `J^T R J`, an estimate with a margin; `weight` gives R by row.

@@ -133,8 +133,8 @@ fn relax_first(
     room.rows.evaluate(&room.equations, &island.constraints, &island.x, work);
     let mut spectrum = Spectrum::new(&island.points[..n_free]);
     let largest = spectrum.largest(&room.equations, &room.rows, |_| 1.0);
-    let coefficient = Coefficient::at_most(GENTLE, largest);
-    relaxation::solve(island, coefficient, limits, work);
+    let mut coefficient = Coefficient::at_most(GENTLE, largest);
+    relaxation::solve(island, &mut coefficient, limits, work);
     let after = descend(island, room, limits, work);
     if is_better(&after, &before) {
         return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };

@@ -77,9 +77,11 @@ pub(super) fn visit(
     island.is_new = false;
     island.is_edited = false;
     island.status = outcome.status;
-    island.residual = outcome.worst / limits.size;
+    // What is not solved may have become much smaller.
+    let size = if outcome.is_converged() { limits.size } else { island.size() };
+    island.residual = outcome.worst / size;
     island.settle_inputs();
-    visit.size = limits.size;
+    visit.size = size;
     visit.lowered = lowered;
     visit.is_awake = is_driven || outcome.status == Status::Stalled;
     visit.outcome = Some(outcome);
@@ -190,13 +192,14 @@ fn iterate(
     let rho = settings.rho;
     match settings.method {
         Method::Relaxation | Method::Anderson => {
-            let (coefficient, low) = Coefficient::new(island, rho, work);
-            *lowered = low;
-            if settings.method == Method::Relaxation {
-                relaxation::solve(island, coefficient, limits, work)
+            let mut coefficient = Coefficient::new(island, rho, work);
+            let outcome = if settings.method == Method::Relaxation {
+                relaxation::solve(island, &mut coefficient, limits, work)
             } else {
                 anderson::solve(island, coefficient, limits, work)
-            }
+            };
+            *lowered = coefficient.lowered();
+            outcome
         }
         Method::Successive => successive::solve(island, rho, limits, work),
         Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {

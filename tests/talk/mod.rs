@@ -1,7 +1,7 @@
 //! A session whose talk is kept, for tests.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -14,12 +14,19 @@ use linkwork::session::{Flow, Host, Session};
 pub struct Talk {
     printed: Rc<RefCell<Vec<String>>>,
     told: Rc<RefCell<Vec<String>>>,
+    clock: Rc<Cell<f64>>,
+    tick: Rc<Cell<f64>>,
 }
 
 impl Talk {
     /// The lines printed since this was last asked for.
     pub fn printed(&self) -> Vec<String> {
         self.printed.take()
+    }
+
+    /// Lets the clock go on so many seconds whenever it is looked at; it stands still otherwise.
+    pub fn tick(&self, seconds: f64) {
+        self.tick.set(seconds);
     }
 
     /// The notes and warnings since this was last asked for, first lines only.
@@ -50,7 +57,8 @@ impl Host for Talk {
     }
 
     fn seconds(&self) -> f64 {
-        0.0
+        self.clock.set(self.clock.get() + self.tick.get());
+        self.clock.get()
     }
 }
 
