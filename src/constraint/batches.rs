@@ -28,8 +28,26 @@ pub trait VisitorMut {
     fn visit<R: Relation>(&mut self, kind: Kind, items: &mut [R]);
 }
 
+/// A constraint as the enum of all kinds holds it: itself, or in a box.
+trait Held<T> {
+    /// The constraint itself.
+    fn open(self) -> T;
+}
+
+impl<T: Relation> Held<T> for T {
+    fn open(self) -> T {
+        self
+    }
+}
+
+impl<T: Relation> Held<T> for Box<T> {
+    fn open(self) -> T {
+        *self
+    }
+}
+
 macro_rules! define {
-    ($($batch:ident $Name:ident $word:literal,)*) => {
+    ($($batch:ident $Name:ident ($Held:ty) $word:literal,)*) => {
         /// Constraints, sorted by kind; within a kind in the order they were added.
         #[derive(Debug, Clone, PartialEq, Default)]
         pub struct Batches {
@@ -46,7 +64,7 @@ macro_rules! define {
                 let idx = match constraint {
                     $(
                         Constraint::$Name(c) => {
-                            self.$batch.push(c);
+                            self.$batch.push(Held::open(c));
                             self.$batch.len() - 1
                         }
                     )*

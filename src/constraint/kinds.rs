@@ -5,25 +5,26 @@ use super::{
     Length, Motor, Orientation, Place, Point, PointIdx, Rack, Real, Relation, Rigid, Row, Vector,
 };
 
-/// Hands the table of kinds to a macro: the place among the batches, the kind, its word in
-/// the command language. A new kind is one more line, at the end.
+/// Hands the table of kinds to a macro: the place among the batches, the kind, how a
+/// [`Constraint`] holds it, its word in the command language. Large ones are held in a box, so
+/// that a bar takes no more room than a bar. A new kind is one more line, at the end.
 macro_rules! with_kinds {
     ($then:ident) => {
         $then! {
-            coordinate Coordinate "coordinate",
-            coincidence Coincidence "coincidence",
-            equivalence Equivalence "equivalence",
-            equal Equal "equal",
-            length Length "length",
-            orientation Orientation "orientation",
-            motor Motor "motor",
-            glider Glider "glider",
-            hinge Hinge "hinge",
-            cog Cog "cog",
-            cog_velocity CogVelocity "cog",
-            distance Distance "distance",
-            rigid Rigid "rigid",
-            rack Rack "rack",
+            coordinate Coordinate (Coordinate) "coordinate",
+            coincidence Coincidence (Coincidence) "coincidence",
+            equivalence Equivalence (Equivalence) "equivalence",
+            equal Equal (Equal) "equal",
+            length Length (Length) "length",
+            orientation Orientation (Orientation) "orientation",
+            motor Motor (Box<Motor>) "motor",
+            glider Glider (Glider) "glider",
+            hinge Hinge (Hinge) "hinge",
+            cog Cog (Box<Cog>) "cog",
+            cog_velocity CogVelocity (Box<CogVelocity>) "cog",
+            distance Distance (Distance) "distance",
+            rigid Rigid (Box<Rigid>) "rigid",
+            rack Rack (Box<Rack>) "rack",
         }
     };
 }
@@ -119,13 +120,13 @@ macro_rules! writes {
 }
 
 macro_rules! define {
-    ($($batch:ident $Name:ident $word:literal,)*) => {
+    ($($batch:ident $Name:ident ($Held:ty) $word:literal,)*) => {
         /// A constraint of any kind.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Constraint {
             $(
                 #[doc = concat!("See [`", stringify!($Name), "`](super::", stringify!($Name), ").")]
-                $Name($Name),
+                $Name($Held),
             )*
         }
 
@@ -172,7 +173,7 @@ macro_rules! define {
         $(
             impl From<$Name> for Constraint {
                 fn from(c: $Name) -> Self {
-                    Self::$Name(c)
+                    Self::$Name(c.into())
                 }
             }
         )*
@@ -199,7 +200,7 @@ macro_rules! define {
             }
 
             /// The same, borrowed.
-            pub const fn as_ref(&self) -> ConstraintRef<'_> {
+            pub fn as_ref(&self) -> ConstraintRef<'_> {
                 match self {
                     $(Self::$Name(c) => ConstraintRef::$Name(c),)*
                 }
@@ -224,7 +225,7 @@ macro_rules! define {
             /// A copy of its own.
             pub fn to_constraint(&self) -> Constraint {
                 match self {
-                    $(Self::$Name(c) => Constraint::$Name((*c).clone()),)*
+                    $(Self::$Name(c) => (*c).clone().into(),)*
                 }
             }
         }

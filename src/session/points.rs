@@ -110,12 +110,12 @@ impl Session {
         for name in names {
             let ids = match self.instance(name)? {
                 Some(instance) => {
-                    let prefix = format!("{instance}.");
-                    let constraints = self.world.constraints();
-                    constraints
-                        .filter(|(_, r)| r.name.starts_with(&prefix))
-                        .map(|(id, _)| id)
-                        .collect()
+                    let members = self.world.names().members(&instance);
+                    let constraints = members.filter_map(|member| match member {
+                        Entity::Constraint(id) => Some(id),
+                        _ => None,
+                    });
+                    constraints.collect()
                 }
                 None => vec![self.constraint(name)?],
             };

@@ -54,6 +54,7 @@ pub struct World {
     traces: Vec<Trace>,
     ghosts: Vec<Ghost>,
     live: live::Live,
+    point_users: users::PointUsers,
     touched: Touched,
     revision: u64,
 }

@@ -1,17 +1,19 @@
 //! The one namespace of points, constraints and parameters.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
 use super::Entity;
+use crate::diag::push_integer;
 
 /// Who has which name.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
     of: FxHashMap<Rc<str>, Entity>,
-    /// How many names begin with this prefix and a dot: an instance of a definition.
-    instances: FxHashMap<Rc<str>, u32>,
+    /// What has names that begin with this prefix and a dot: an instance of a definition.
+    instances: FxHashMap<Rc<str>, BTreeSet<Entity>>,
     /// Under `prefix` + word, a number below which every numbered name is taken.
     numbered: FxHashMap<Box<str>, u32>,
 }
@@ -45,13 +47,12 @@ impl Names {
     /// The first of `{stem}1`, `{stem}2`, ... that is free. A function of what is taken now,
     /// so that a loaded world goes on numbering as the saved one would have.
     pub fn numbered(&mut self, stem: &str) -> String {
-        use std::fmt::Write;
         let mut number = self.numbered.get(stem).copied().unwrap_or(1);
         let mut name = String::with_capacity(stem.len() + 8);
+        name.push_str(stem);
         loop {
-            name.clear();
-            // Writing to a string cannot fail.
-            let _ = write!(name, "{stem}{number}");
+            name.truncate(stem.len());
+            push_integer(&mut name, i64::from(number));
             if self.is_free(&name) {
                 break;
             }
@@ -64,12 +65,17 @@ impl Names {
         name
     }
 
+    /// What has a name that begins with `instance.`, each sort in order of creation.
+    pub fn members(&self, instance: &str) -> impl Iterator<Item = Entity> {
+        self.instances.get(instance).into_iter().flatten().copied()
+    }
+
     /// Gives a free name to an entity.
     pub(super) fn insert(&mut self, name: Rc<str>, entity: Entity) {
-        for (dot, _) in name.match_indices('.') {
+        for dot in dots(&name) {
             match self.instances.get_mut(&name[..dot]) {
-                Some(count) => *count += 1,
-                None => drop(self.instances.insert(name[..dot].into(), 1)),
+                Some(members) => drop(members.insert(entity)),
+                None => drop(self.instances.insert(name[..dot].into(), [entity].into())),
             }
         }
         let taken = self.of.insert(name, entity);
@@ -78,11 +84,11 @@ impl Names {
 
     /// Frees a name.
     pub(super) fn remove(&mut self, name: &str) {
-        self.of.remove(name);
-        for (dot, _) in name.match_indices('.') {
-            if let Some(count) = self.instances.get_mut(&name[..dot]) {
-                *count -= 1;
-                if *count == 0 {
+        let Some(entity) = self.of.remove(name) else { return };
+        for dot in dots(name) {
+            if let Some(members) = self.instances.get_mut(&name[..dot]) {
+                members.remove(&entity);
+                if members.is_empty() {
                     self.instances.remove(&name[..dot]);
                 }
             }
@@ -94,6 +100,11 @@ impl Names {
             *hint = name[stem.len()..].parse().map_or(*hint, |number: u32| number.min(*hint));
         }
     }
+}
+
+/// Where the dots of a name are.
+fn dots(name: &str) -> impl Iterator<Item = usize> {
+    name.bytes().enumerate().filter(|&(_, byte)| byte == b'.').map(|(k, _)| k)
 }
 
 #[cfg(test)]
