@@ -232,3 +232,13 @@ macro_rules! define {
     };
 }
 with_kinds!(define);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_is_small() {
+        assert_eq!([size_of::<Length>(), size_of::<Constraint>()], [24, 48]);
+    }
+}

@@ -22,24 +22,27 @@ pub fn format_number(value: f64) -> String {
     }
 }
 
-/// Adds a whole number to a text, in a fifth of the time that the general formatting takes:
+/// Adds a whole number to a text, in a fraction of the time that the general formatting takes:
 /// a loop spells millions of names.
 pub fn push_integer(text: &mut String, value: i64) {
     if value < 0 {
         text.push('-');
     }
-    let mut digits = [0_u8; 20];
-    let mut first = digits.len();
-    let mut rest = value.unsigned_abs();
-    loop {
-        first -= 1;
-        digits[first] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
-        }
+    push_digits(text, value.unsigned_abs());
+}
+
+fn push_digits(text: &mut String, value: u64) {
+    /// The numbers below 100, two digits each.
+    const PAIRS: &str = "00010203040506070809101112131415161718192021222324252627282930313233\
+                         34353637383940414243444546474849505152535455565758596061626364656667\
+                         6869707172737475767778798081828384858687888990919293949596979899";
+    let pair = 2 * (value % 100) as usize;
+    if value >= 100 {
+        push_digits(text, value / 100);
+        text.push_str(&PAIRS[pair..pair + 2]);
+    } else {
+        text.push_str(&PAIRS[pair + usize::from(value < 10)..pair + 2]);
     }
-    text.push_str(std::str::from_utf8(&digits[first..]).expect("digits are ASCII"));
 }
 
 #[cfg(test)]

@@ -211,7 +211,7 @@ impl<'a> Plan<'a> {
     fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<Form>) {
         self.parts.push(Part {
             key: Key::Constraint(id),
-            name: record.name.clone(),
+            name: Rc::from(&*record.name),
             is_off: !record.is_on,
             form: form.into(),
         });
@@ -263,7 +263,7 @@ impl<'a> Plan<'a> {
         } else {
             gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
         }
-        self.meshes[usize::from(!record.is_on)].push((id, record.name.clone()));
+        self.meshes[usize::from(!record.is_on)].push((id, Rc::from(&*record.name)));
     }
 
     fn gears(&mut self) {

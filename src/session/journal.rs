@@ -30,7 +30,7 @@ pub enum Change {
     /// Sets all series.
     Series(Box<super::series::SeriesList>),
     /// Sets what the recorders have taken.
-    Reels(Box<Vec<Reel>>),
+    Reels(Box<[Reel]>),
 }
 
 impl Change {
@@ -114,6 +114,8 @@ impl Journal {
     pub fn see(&mut self, change: impl Fn() -> Change) {
         let n_unseen = std::mem::take(&mut self.n_unseen).min(self.done.len());
         for (entry, _) in self.done.range_mut(self.done.len() - n_unseen..) {
+            // A long entry was shrunk to what it holds: it needs no room for more than this.
+            entry.changes.reserve_exact(1);
             entry.changes.push(change());
         }
     }
@@ -157,5 +159,15 @@ impl Journal {
     /// The last command undone.
     pub fn pop_undone(&mut self) -> Option<Entry> {
         self.undone.pop()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_small() {
+        assert_eq!([size_of::<Edit>(), size_of::<Change>()], [24, 24]);
     }
 }

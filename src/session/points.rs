@@ -4,7 +4,7 @@ use super::{Diagnostic, Session};
 use crate::constraint::Relation as _;
 use crate::diag::nearest;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
-use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord};
+use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
 
 /// Names that have a meaning of their own in every expression.
 const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -72,7 +72,7 @@ impl Session {
     fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: std::rc::Rc<str>,
+        name: Word,
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();

@@ -56,7 +56,7 @@ impl Session {
             (what::FIRST_STATE, Some(name)) => {
                 let id = self.constraint(name)?;
                 let state = numbers(&values).ok_or_else(bad)?;
-                self.edit(Edit::StartState(id, Some(Box::new(state))));
+                self.edit(Edit::StartState(id, Some(state.into())));
             }
             (what::TRACE, Some(name)) => self.restore_trace(name, &values).ok_or_else(bad)??,
             (what::MISSED, Some(name)) => {

@@ -1,12 +1,11 @@
 //! What a name means where it stands: bindings of a block, members of an instance, the world.
 
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
 use crate::diag::{Diagnostic, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Name, PartKind};
-use crate::world::{ConstraintId, Entity, Formula, PointId};
+use crate::world::{ConstraintId, Entity, Formula, PointId, Word};
 
 /// The names that a block or an instance adds.
 #[derive(Debug, Default)]
@@ -189,7 +188,7 @@ impl Session {
     }
 
     /// The full text of a name to be given to something new.
-    pub(super) fn declare(&mut self, name: &Name) -> Result<Rc<str>, Diagnostic> {
+    pub(super) fn declare(&mut self, name: &Name) -> Result<Word, Diagnostic> {
         if self.binding(name).is_some() {
             return Err(Diagnostic::error(format!(
                 "`{}` stands for a value in this block",
@@ -203,7 +202,7 @@ impl Session {
             text.insert_str(0, prefix);
         }
         self.must_be_free(&text, name.span)?;
-        let name = Rc::from(text.as_str());
+        let name = Word::from(text.as_str());
         self.spelling = text;
         Ok(name)
     }

@@ -44,9 +44,9 @@ impl Session {
             Change::Series(new) => {
                 Change::Series(Box::new(std::mem::replace(&mut self.series, *new)))
             }
-            Change::Reels(reels) => Change::Reels(Box::new(
-                self.recorders.iter_mut().zip(*reels).map(|(r, reel)| r.wind(reel)).collect(),
-            )),
+            Change::Reels(reels) => Change::Reels(
+                self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
+            ),
         }
     }
 
@@ -112,9 +112,12 @@ impl Session {
         self.journal.covered.clear();
         let reels = self.recorders.iter().map(Recorder::mark).collect();
         self.attend();
-        let motion = Box::new(self.world.motion());
+        let motion = Box::new(match self.laps.latest() {
+            Some(latest) => self.world.motion_since(latest),
+            None => self.world.motion(),
+        });
         self.journal.current.push(Change::World(Edit::Motion(motion)));
-        self.journal.current.push(Change::Reels(Box::new(reels)));
+        self.journal.current.push(Change::Reels(reels));
     }
 
     /// Keeps what the solver remembers, before the command under way has it take in an edit.

@@ -36,7 +36,7 @@ pub enum Edit {
     /// Sets where `reset` puts a point.
     Start(PointId, Point),
     /// Sets the state that `reset` brings back to a constraint.
-    StartState(ConstraintId, Option<Box<Vec<f64>>>),
+    StartState(ConstraintId, Option<Box<[f64]>>),
     /// Sets all states that `reset` brings back.
     StartStates(Box<BTreeMap<ConstraintId, Vec<f64>>>),
     /// Sets all that running changes.
@@ -117,10 +117,10 @@ impl World {
             Edit::StartState(id, state) => Edit::StartState(
                 id,
                 match state {
-                    Some(state) => self.start_states.insert(id, *state),
+                    Some(state) => self.start_states.insert(id, state.into_vec()),
                     None => self.start_states.remove(&id),
                 }
-                .map(Box::new),
+                .map(Vec::into_boxed_slice),
             ),
             Edit::StartStates(states) => {
                 Edit::StartStates(Box::new(std::mem::replace(&mut self.start_states, *states)))
@@ -137,12 +137,12 @@ impl World {
         self.touched.points.push(id);
         let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
             let old = self.points.remove(id);
-            self.names.remove(&old.name);
+            self.index.remove(&old.name, Entity::Point(id));
             Box::new(old)
         });
         if let Some(record) = record {
             debug_assert!(record.at.is_finite(), "a position is finite");
-            self.names.insert(record.name.clone(), Entity::Point(id));
+            self.index.insert(&record.name, Entity::Point(id));
             self.points.insert(id, *record);
         }
         old
@@ -160,11 +160,11 @@ impl World {
         match (old, &record) {
             (None, Some(new)) => {
                 self.n_constraints += 1;
-                self.names.insert(new.name.clone(), Entity::Constraint(id));
+                self.index.insert(&new.name, Entity::Constraint(id));
             }
             (Some(old), None) => {
                 self.n_constraints -= 1;
-                self.names.remove(&old.name);
+                self.index.remove(&old.name, Entity::Constraint(id));
             }
             (Some(old), Some(new)) => debug_assert_eq!(old.name, new.name, "a name stays"),
             (None, None) => {}
@@ -191,8 +191,8 @@ impl World {
         let (was, is) = (old.map(|p| &p.formula), parameter.as_ref().map(|p| &p.formula));
         self.point_users.note_parameter(id, was, is);
         match (old, &parameter) {
-            (None, Some(new)) => self.names.insert(new.name.clone(), Entity::Parameter(id)),
-            (Some(old), None) => self.names.remove(&old.name),
+            (None, Some(new)) => self.index.insert(&new.name, Entity::Parameter(id)),
+            (Some(old), None) => self.index.remove(&old.name, Entity::Parameter(id)),
             _ => {}
         }
         self.parameters.swap(id.idx(), parameter.map(|p| *p)).map(Box::new)

@@ -2,7 +2,7 @@
 
 use super::environments::{Here, Moving};
 use super::{
-    ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, User, Value, World,
+    ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, User, Value, Word, World,
 };
 use crate::constraint::{Field, Jet, Real, Relation};
 use crate::diag::Diagnostic;
@@ -32,7 +32,7 @@ impl World {
     pub fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: std::rc::Rc<str>,
+        name: Word,
         formula: Formula,
         undo: &mut Vec<Edit>,
     ) -> Result<(), Diagnostic> {

@@ -1,8 +1,6 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
-use std::rc::Rc;
-
-use super::{Depends, Formula, Value};
+use super::{Depends, Formula, Value, Word};
 use crate::constraint::{Bounds, Constraint, Field, Relation};
 use crate::diag::{Diagnostic, format_number};
 
@@ -10,7 +8,7 @@ use crate::diag::{Diagnostic, format_number};
 #[derive(Debug, Clone)]
 pub struct Record {
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Word,
     /// The relation, over handles of points, with its values as of now.
     pub constraint: Constraint,
     /// The live expressions behind some of its values.
@@ -74,7 +72,7 @@ impl Record {
 #[derive(Debug, Clone)]
 pub struct Parameter {
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Word,
     /// What it stands for.
     pub formula: Formula,
     /// The value now; none while it needs velocities, which are computed when asked for.
