@@ -74,7 +74,7 @@ EFFECTS = {
     "ghosts and recordings": (["session/recorder.rs"], 'record "paths.csv"'),
 }
 
-linkwork = build()
+linkwork = build("profiling")
 room = pathlib.Path(tempfile.mkdtemp())
 
 

@@ -9,9 +9,10 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def build():
-    """Builds the program as its user gets it; its path."""
-    command = ["cargo", "build", "--release", "--bin", "linkwork", "--message-format=json"]
+def build(profile="release"):
+    """Builds the program, as its user gets it unless told otherwise; its path."""
+    command = ["cargo", "build", "--profile", profile, "--bin", "linkwork"]
+    command.append("--message-format=json")
     done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     for line in done.stdout.splitlines():
         message = json.loads(line)

@@ -48,7 +48,7 @@ impl From<Status> for ExitCode {
 /// Runs scripts up to the first error.
 pub fn batch(batch: &Batch) -> Status {
     let mut unused: Option<BTreeSet<String>> = None;
-    for file in &batch.files {
+    for (k, file) in batch.files.iter().enumerate() {
         let mut session = begin(&batch.outside);
         let status = script(file, &mut session);
         if status != Status::Fine {
@@ -56,6 +56,11 @@ pub fn batch(batch: &Batch) -> Status {
         }
         let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
         unused = Some(unused.map_or(here.clone(), |all| &all & &here));
+        if k + 1 == batch.files.len() {
+            // The process ends and its memory with it: taking a large scene apart piece by
+            // piece first would take as long as solving it.
+            std::mem::forget(session);
+        }
     }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));

@@ -11,6 +11,6 @@ mod source;
 
 pub use diagnostic::{Diagnostic, Kind, Label, Severity};
 pub use nearest::nearest;
-pub use number::format_number;
+pub use number::{format_number, push_integer};
 pub use render::{Paint, render};
 pub use source::{Place, Source, SourceId, Sources, Span};

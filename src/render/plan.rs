@@ -43,7 +43,7 @@ struct Plan<'a> {
     /// Rods that are on, lower end first.
     rods: BTreeSet<[PointIdx; 2]>,
     /// Centres of motors that have a disc.
-    driven: BTreeSet<PointIdx>,
+    driven: BTreeMap<PointIdx, u8>,
     equal: Marks,
     parallel: Marks,
     gears_on: Gears,
@@ -104,7 +104,7 @@ impl<'a> Plan<'a> {
             parts: Vec::new(),
             connected: BTreeSet::new(),
             rods: BTreeSet::new(),
-            driven: BTreeSet::new(),
+            driven: BTreeMap::new(),
             equal: Marks::default(),
             parallel: Marks::default(),
             gears_on: Gears::default(),
@@ -180,8 +180,10 @@ impl<'a> Plan<'a> {
             }
             Constraint::Motor(c) => {
                 let sense = Sense::of(record.constraint.get(Field::Speed).unwrap_or(0.0));
-                let is_bare = !self.driven.insert(c.points[0]);
-                self.add(id, record, Crank { points: c.points, sense, is_bare });
+                let n_motors = self.driven.entry(c.points[0]).or_default();
+                let rank = *n_motors;
+                *n_motors = n_motors.saturating_add(1);
+                self.add(id, record, Crank { points: c.points, sense, rank });
             }
             Constraint::Glider(c) => {
                 let [block, a, b] = c.points;
@@ -209,7 +211,7 @@ impl<'a> Plan<'a> {
     fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<Form>) {
         self.parts.push(Part {
             key: Key::Constraint(id),
-            name: record.name.clone(),
+            name: Rc::from(&*record.name),
             is_off: !record.is_on,
             form: form.into(),
         });
@@ -261,7 +263,7 @@ impl<'a> Plan<'a> {
         } else {
             gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
         }
-        self.meshes[usize::from(!record.is_on)].push((id, record.name.clone()));
+        self.meshes[usize::from(!record.is_on)].push((id, Rc::from(&*record.name)));
     }
 
     fn gears(&mut self) {
@@ -304,7 +306,7 @@ impl<'a> Plan<'a> {
     fn joints(&mut self) {
         let points = self.world.points();
         for id in points.ids() {
-            let is_driven = self.driven.contains(&id.0);
+            let is_driven = self.driven.contains_key(&id.0);
             let foot = match (points.is_frozen(id), is_driven) {
                 (false, _) => Foot::Free,
                 (true, false) => Foot::Frozen,

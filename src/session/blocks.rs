@@ -98,7 +98,7 @@ impl Session {
 
     pub(super) fn define(&mut self, definition: &Arc<Definition>) {
         let name = definition.name.text.clone();
-        self.change(Change::Definition(name, Some(definition.clone())));
+        self.change(Change::Definition(Box::new((name, Some(definition.clone())))));
     }
 
     pub(super) fn use_definition(

@@ -17,7 +17,7 @@ impl Session {
                         if self.definitions.contains_key(&word.text)
                             && self.world.names().is_free(&word.text) =>
                     {
-                        self.change(Change::Definition(word.text.clone(), None));
+                        self.change(Change::Definition(Box::new((word.text.clone(), None))));
                         continue;
                     }
                     _ => vec![self.entity(name)?],
@@ -45,22 +45,13 @@ impl Session {
 
     /// Everything whose name begins with `instance.`, constraints and parameters before points.
     fn members(&self, instance: &str) -> Vec<Entity> {
-        let prefix = format!("{instance}.");
-        let world = &self.world;
-        let constraints = world
-            .constraints()
-            .filter(|(_, r)| r.name.starts_with(&prefix))
-            .map(|(id, _)| Entity::Constraint(id));
-        let parameters = world
-            .parameters()
-            .filter(|(_, p)| p.name.starts_with(&prefix))
-            .map(|(id, _)| Entity::Parameter(id));
-        let points = world
-            .points()
-            .ids()
-            .filter(|&id| world.points().name(id).starts_with(&prefix))
-            .map(Entity::Point);
-        constraints.chain(parameters).chain(points).collect()
+        let mut members: Vec<Entity> = self.world.names().members(instance).collect();
+        members.sort_by_key(|entity| match entity {
+            Entity::Constraint(_) => 0,
+            Entity::Parameter(_) => 1,
+            Entity::Point(_) => 2,
+        });
+        members
     }
 
     /// Deletes entities that nothing else uses.
@@ -119,10 +110,10 @@ impl Session {
     fn stop_everything(&mut self) {
         self.stop_recording();
         self.set_memory(Memory::default());
-        self.change(Change::Series(Vec::new()));
+        self.change(Change::Series(Box::default()));
         let definitions: Vec<_> = self.definitions.keys().cloned().collect();
         for name in definitions {
-            self.change(Change::Definition(name, None));
+            self.change(Change::Definition(Box::new((name, None))));
         }
         self.change(Change::Preferences(Box::default()));
     }

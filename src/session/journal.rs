@@ -11,7 +11,8 @@ use crate::lang::ast::Definition;
 use crate::solve::Memory;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
 
-/// One reversible change of a session. Making it gives the change that takes it back.
+/// One reversible change of a session, small: a loop makes millions. Making it gives the change
+/// that takes it back.
 #[derive(Debug)]
 pub enum Change {
     /// An edit of the world.
@@ -19,17 +20,17 @@ pub enum Change {
     /// Sets all settings.
     Preferences(Box<Preferences>),
     /// Sets what a definition is, or that there is none.
-    Definition(Arc<str>, Option<Arc<Definition>>),
+    Definition(Box<(Arc<str>, Option<Arc<Definition>>)>),
     /// Sets what the solver remembers.
     Memory(Rc<Memory>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
     /// Appends a value to a series, or takes the last one away.
-    Sample(Arc<str>, Option<f64>),
+    Sample(Box<(Arc<str>, Option<f64>)>),
     /// Sets all series.
-    Series(super::series::SeriesList),
+    Series(Box<super::series::SeriesList>),
     /// Sets what the recorders have taken.
-    Reels(Vec<Reel>),
+    Reels(Box<[Reel]>),
 }
 
 impl Change {
@@ -96,9 +97,10 @@ pub struct Journal {
 impl Journal {
     /// Ends the command under way; what was undone before can no longer be redone.
     pub fn commit(&mut self, label: &str) {
-        let changes = self.take_current();
+        let mut changes = self.take_current();
         if !changes.is_empty() {
             self.undone.clear();
+            changes.shrink_to_fit();
             self.keep(Entry { label: label.to_owned(), changes });
         }
     }
@@ -112,6 +114,8 @@ impl Journal {
     pub fn see(&mut self, change: impl Fn() -> Change) {
         let n_unseen = std::mem::take(&mut self.n_unseen).min(self.done.len());
         for (entry, _) in self.done.range_mut(self.done.len() - n_unseen..) {
+            // A long entry was shrunk to what it holds: it needs no room for more than this.
+            entry.changes.reserve_exact(1);
             entry.changes.push(change());
         }
     }
@@ -155,5 +159,15 @@ impl Journal {
     /// The last command undone.
     pub fn pop_undone(&mut self) -> Option<Entry> {
         self.undone.pop()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_small() {
+        assert_eq!([size_of::<Edit>(), size_of::<Change>()], [24, 24]);
     }
 }

@@ -34,6 +34,11 @@ impl Laps {
         self.current = None;
     }
 
+    /// Where the command under way began to let time pass, or the longest did.
+    pub fn latest(&self) -> Option<&Motion> {
+        self.current.as_ref().or(self.longest.as_ref()).map(|lap| &lap.motion)
+    }
+
     fn n_longest(&self, revision: u64) -> u64 {
         self.longest.as_ref().filter(|lap| lap.revision == revision).map_or(0, |lap| lap.n_frames)
     }

@@ -72,6 +72,8 @@ pub struct Session {
     recorders: Vec<Recorder>,
     journal: Journal,
     scopes: Vec<Scope>,
+    /// Room for the text of a name.
+    spelling: String,
     /// Statements carried out by the command under way.
     n_statements: u64,
     /// Rounds of the loops under way, multiplied.
@@ -118,6 +120,7 @@ impl Session {
             recorders: Vec::new(),
             journal: Journal::default(),
             scopes: vec![Scope::default()],
+            spelling: String::new(),
             n_statements: 0,
             n_rounds: 1.0,
             included: Vec::new(),

@@ -4,7 +4,7 @@ use super::{Diagnostic, Session};
 use crate::constraint::Relation as _;
 use crate::diag::nearest;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
-use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord};
+use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
 
 /// Names that have a meaning of their own in every expression.
 const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -72,7 +72,7 @@ impl Session {
     fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: std::rc::Rc<str>,
+        name: Word,
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();
@@ -110,12 +110,12 @@ impl Session {
         for name in names {
             let ids = match self.instance(name)? {
                 Some(instance) => {
-                    let prefix = format!("{instance}.");
-                    let constraints = self.world.constraints();
-                    constraints
-                        .filter(|(_, r)| r.name.starts_with(&prefix))
-                        .map(|(id, _)| id)
-                        .collect()
+                    let members = self.world.names().members(&instance);
+                    let constraints = members.filter_map(|member| match member {
+                        Entity::Constraint(id) => Some(id),
+                        _ => None,
+                    });
+                    constraints.collect()
                 }
                 None => vec![self.constraint(name)?],
             };

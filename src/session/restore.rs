@@ -30,7 +30,7 @@ impl Session {
                     return Err(bad());
                 }
                 let (frame, base_frame) = (frame as u64, base_frame as u64);
-                self.edit(Edit::Clock(Clock { frame, dt, base_frame, base_time }));
+                self.edit(Edit::Clock(Box::new(Clock { frame, dt, base_frame, base_time })));
             }
             (what::START, Some(name)) => {
                 let id = self.point(name)?;
@@ -56,7 +56,7 @@ impl Session {
             (what::FIRST_STATE, Some(name)) => {
                 let id = self.constraint(name)?;
                 let state = numbers(&values).ok_or_else(bad)?;
-                self.edit(Edit::StartState(id, Some(state)));
+                self.edit(Edit::StartState(id, Some(state.into())));
             }
             (what::TRACE, Some(name)) => self.restore_trace(name, &values).ok_or_else(bad)??,
             (what::MISSED, Some(name)) => {

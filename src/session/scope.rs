@@ -1,13 +1,11 @@
 //! What a name means where it stands: bindings of a block, members of an instance, the world.
 
-use std::fmt::Write;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
 use crate::diag::{Diagnostic, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Name, PartKind};
-use crate::world::{ConstraintId, Entity, Formula, PointId};
+use crate::world::{ConstraintId, Entity, Formula, PointId, Word};
 
 /// The names that a block or an instance adds.
 #[derive(Debug, Default)]
@@ -50,7 +48,9 @@ impl Session {
 
     /// The text of the first `n_parts` parts of a name, indices evaluated.
     fn spell(&mut self, name: &Name, n_parts: usize) -> Result<String, Diagnostic> {
-        let mut text = String::with_capacity(24);
+        // A loop spells millions of names: each in the room of the one before.
+        let mut text = std::mem::take(&mut self.spelling);
+        text.clear();
         text.push_str(&name.head.text);
         for part in &name.parts[..n_parts] {
             match &part.kind {
@@ -64,8 +64,9 @@ impl Session {
                         return Err(Diagnostic::error("an index this large names nothing")
                             .at(index.span, "no more than 1e15"));
                     }
-                    // Writing to a string cannot fail.
-                    let _ = write!(text, "[{}]", value as i64);
+                    text.push('[');
+                    crate::diag::push_integer(&mut text, value as i64);
+                    text.push(']');
                 }
             }
         }
@@ -109,11 +110,13 @@ impl Session {
         }
         let whole = self.spell(name, name.parts.len())?;
         if let Some(entity) = self.find(&whole) {
+            self.spelling = whole;
             return Ok((Meaning::Entity(entity), None));
         }
         if axis.is_some() {
             let vector = self.spell(name, name.parts.len() - 1)?;
             if let Some(entity) = self.find(&vector) {
+                self.spelling = vector;
                 return Ok((Meaning::Entity(entity), axis));
             }
         }
@@ -185,7 +188,7 @@ impl Session {
     }
 
     /// The full text of a name to be given to something new.
-    pub(super) fn declare(&mut self, name: &Name) -> Result<Rc<str>, Diagnostic> {
+    pub(super) fn declare(&mut self, name: &Name) -> Result<Word, Diagnostic> {
         if self.binding(name).is_some() {
             return Err(Diagnostic::error(format!(
                 "`{}` stands for a value in this block",
@@ -199,7 +202,9 @@ impl Session {
             text.insert_str(0, prefix);
         }
         self.must_be_free(&text, name.span)?;
-        Ok(text.into())
+        let name = Word::from(text.as_str());
+        self.spelling = text;
+        Ok(name)
     }
 
     /// The full text of a name that may be taken already.
@@ -230,6 +235,9 @@ impl Session {
 
     /// Refuses a member of something that is no instance: `A.x` is a coordinate.
     fn must_have_no_owner(&self, text: &str, span: Span) -> Result<(), Diagnostic> {
+        if !text.as_bytes().contains(&b'.') {
+            return Ok(());
+        }
         let names = self.world.names();
         for (dot, _) in text.match_indices('.') {
             let owner = &text[..dot];

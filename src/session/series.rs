@@ -14,7 +14,7 @@ impl Session {
     pub(super) fn sample(&mut self, series: &Text, values: &[Expr]) -> Result<(), Diagnostic> {
         for value in values {
             let value = self.number(value)?;
-            self.change(Change::Sample(series.value.clone(), Some(value)));
+            self.change(Change::Sample(Box::new((series.value.clone(), Some(value)))));
         }
         Ok(())
     }
@@ -28,13 +28,13 @@ impl Session {
             if self.series[at].1.is_empty() {
                 self.series.remove(at);
             }
-            return Change::Sample(name, old);
+            return Change::Sample(Box::new((name, old)));
         };
         match at {
             Some(at) => self.series[at].1.push(value),
             None => self.series.push((name.clone(), vec![value])),
         }
-        Change::Sample(name, None)
+        Change::Sample(Box::new((name, None)))
     }
 
     pub(super) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {

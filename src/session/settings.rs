@@ -79,7 +79,7 @@ impl Session {
             }
             ("dt", []) => {
                 let dt = self.positive(value)?;
-                self.edit(Edit::Clock(self.world.clock().with_dt(dt)));
+                self.edit(Edit::Clock(Box::new(self.world.clock().with_dt(dt))));
                 Ok(())
             }
             (_, []) => {

@@ -16,13 +16,13 @@ impl Session {
             Change::Preferences(new) => {
                 Change::Preferences(Box::new(std::mem::replace(&mut self.preferences, *new)))
             }
-            Change::Definition(name, Some(new)) => {
-                let old = self.definitions.insert(name.clone(), new);
-                Change::Definition(name, old)
-            }
-            Change::Definition(name, None) => {
-                let old = self.definitions.remove(&name);
-                Change::Definition(name, old)
+            Change::Definition(mut definition) => {
+                let (name, it) = &mut *definition;
+                *it = match it.take() {
+                    Some(new) => self.definitions.insert(name.clone(), new),
+                    None => self.definitions.remove(name),
+                };
+                Change::Definition(definition)
             }
             Change::Memory(memory) => {
                 let old = Rc::new(self.solver.memory());
@@ -37,8 +37,13 @@ impl Session {
             Change::Recorder(idx, None) => {
                 Change::Recorder(idx, Some(Box::new(self.recorders.remove(idx))))
             }
-            Change::Sample(series, value) => self.swap_sample(series, value),
-            Change::Series(new) => Change::Series(std::mem::replace(&mut self.series, new)),
+            Change::Sample(sample) => {
+                let (series, value) = *sample;
+                self.swap_sample(series, value)
+            }
+            Change::Series(new) => {
+                Change::Series(Box::new(std::mem::replace(&mut self.series, *new)))
+            }
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),
@@ -107,7 +112,10 @@ impl Session {
         self.journal.covered.clear();
         let reels = self.recorders.iter().map(Recorder::mark).collect();
         self.attend();
-        let motion = Box::new(self.world.motion());
+        let motion = Box::new(match self.laps.latest() {
+            Some(latest) => self.world.motion_since(latest),
+            None => self.world.motion(),
+        });
         self.journal.current.push(Change::World(Edit::Motion(motion)));
         self.journal.current.push(Change::Reels(reels));
     }

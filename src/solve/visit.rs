@@ -123,8 +123,10 @@ pub(super) fn confirm(
 ) {
     for n in 0..=MOST_CONFIRMATIONS {
         let tolerance = limits.budget.tolerance.unwrap_or(settings.tolerance);
-        // The size is never below what the constraints ask for.
-        if !outcome.is_converged() || outcome.worst <= tolerance * island.wanted() {
+        // The size is never below what the constraints ask for; and what is far below the
+        // tolerance is so whatever the size.
+        let enough = (tolerance * island.wanted()).max(1e-4 * limits.tolerance);
+        if !outcome.is_converged() || outcome.worst <= enough {
             return;
         }
         let now = island.limits(settings, limits.budget);

@@ -138,7 +138,7 @@ impl<'a> Replay<'a> {
         } else {
             // What the solver remembers is from frames of another length.
             let clock = *world.clock();
-            world.apply(Edit::Clock(clock.with_dt(clock.dt / f64::from(n_parts))));
+            world.apply(Edit::Clock(Box::new(clock.with_dt(clock.dt / f64::from(n_parts)))));
         }
         let mut replay = Self { course, world, solver, leg: 0, n_done: 0, n_parts };
         replay.take_up();

@@ -9,8 +9,8 @@ use super::{
 };
 use crate::constraint::Point;
 
-/// One edit. What is boxed is moved, never copied, so taking an edit back costs no more than
-/// making it.
+/// One edit, small: a history may hold millions. What is boxed is moved, never copied, so taking
+/// an edit back costs no more than making it.
 #[derive(Debug, Clone)]
 pub enum Edit {
     /// Makes a point, or deletes it.
@@ -28,7 +28,7 @@ pub enum Edit {
     /// Makes a parameter, changes it, or deletes it.
     Parameter(ParameterId, Option<Box<Parameter>>),
     /// Sets the clock.
-    Clock(Clock),
+    Clock(Box<Clock>),
     /// Puts a trace at a place in the list of traces, or takes it out.
     Trace(usize, Option<Box<Trace>>),
     /// Adds a ghost, or takes the last one away.
@@ -36,9 +36,9 @@ pub enum Edit {
     /// Sets where `reset` puts a point.
     Start(PointId, Point),
     /// Sets the state that `reset` brings back to a constraint.
-    StartState(ConstraintId, Option<Vec<f64>>),
+    StartState(ConstraintId, Option<Box<[f64]>>),
     /// Sets all states that `reset` brings back.
-    StartStates(BTreeMap<ConstraintId, Vec<f64>>),
+    StartStates(Box<BTreeMap<ConstraintId, Vec<f64>>>),
     /// Sets all that running changes.
     Motion(Box<Motion>),
 }
@@ -100,7 +100,7 @@ impl World {
             }
             Edit::Clock(clock) => {
                 self.live.note_change();
-                Edit::Clock(std::mem::replace(&mut self.clock, clock))
+                Edit::Clock(Box::new(std::mem::replace(&mut self.clock, *clock)))
             }
             Edit::Trace(idx, Some(trace)) => {
                 self.traces.insert(idx, *trace);
@@ -118,12 +118,13 @@ impl World {
             Edit::StartState(id, state) => Edit::StartState(
                 id,
                 match state {
-                    Some(state) => self.start_states.insert(id, state),
+                    Some(state) => self.start_states.insert(id, state.into_vec()),
                     None => self.start_states.remove(&id),
-                },
+                }
+                .map(Vec::into_boxed_slice),
             ),
             Edit::StartStates(states) => {
-                Edit::StartStates(std::mem::replace(&mut self.start_states, states))
+                Edit::StartStates(Box::new(std::mem::replace(&mut self.start_states, *states)))
             }
             Edit::Motion(motion) => Edit::Motion(Box::new(self.swap_motion(*motion))),
         }
@@ -138,12 +139,12 @@ impl World {
         self.live.note_freeze();
         let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
             let old = self.points.remove(id);
-            self.names.remove(&old.name);
+            self.index.remove(&old.name, Entity::Point(id));
             Box::new(old)
         });
         if let Some(record) = record {
             debug_assert!(record.at.is_finite(), "a position is finite");
-            self.names.insert(record.name.clone(), Entity::Point(id));
+            self.index.insert(&record.name, Entity::Point(id));
             self.points.insert(id, *record);
         }
         old
@@ -157,14 +158,15 @@ impl World {
         self.touched.constraints.push(id);
         let old = self.constraints.get(id.idx());
         self.live.note_constraint(id, old, record.as_deref());
+        self.point_users.note_constraint(id, old, record.as_deref());
         match (old, &record) {
             (None, Some(new)) => {
                 self.n_constraints += 1;
-                self.names.insert(new.name.clone(), Entity::Constraint(id));
+                self.index.insert(&new.name, Entity::Constraint(id));
             }
             (Some(old), None) => {
                 self.n_constraints -= 1;
-                self.names.remove(&old.name);
+                self.index.remove(&old.name, Entity::Constraint(id));
             }
             (Some(old), Some(new)) => debug_assert_eq!(old.name, new.name, "a name stays"),
             (None, None) => {}
@@ -188,9 +190,11 @@ impl World {
             parameter.as_ref().map(|p| (&p.formula, p.depends)),
             id.idx() >= self.parameters.n_handles(),
         );
+        let (was, is) = (old.map(|p| &p.formula), parameter.as_ref().map(|p| &p.formula));
+        self.point_users.note_parameter(id, was, is);
         match (old, &parameter) {
-            (None, Some(new)) => self.names.insert(new.name.clone(), Entity::Parameter(id)),
-            (Some(old), None) => self.names.remove(&old.name),
+            (None, Some(new)) => self.index.insert(&new.name, Entity::Parameter(id)),
+            (Some(old), None) => self.index.remove(&old.name, Entity::Parameter(id)),
             _ => {}
         }
         self.parameters.swap(id.idx(), parameter.map(|p| *p)).map(Box::new)
@@ -207,8 +211,8 @@ impl World {
         parameters.reverse();
         edits.extend(parameters);
         edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));
-        edits.push(Edit::StartStates(BTreeMap::new()));
-        edits.push(Edit::Clock(Clock::default()));
+        edits.push(Edit::StartStates(Box::default()));
+        edits.push(Edit::Clock(Box::default()));
         edits
     }
 }

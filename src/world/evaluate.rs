@@ -1,8 +1,9 @@
 //! Evaluating live expressions: when looked at, when a parameter changes, and frame by frame.
 
 use super::environments::{Here, Moving};
-use super::records::Dependent;
-use super::{ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, Value, World};
+use super::{
+    ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, User, Value, Word, World,
+};
 use crate::constraint::{Field, Jet, Real, Relation};
 use crate::diag::Diagnostic;
 
@@ -31,7 +32,7 @@ impl World {
     pub fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: std::rc::Rc<str>,
+        name: Word,
         formula: Formula,
         undo: &mut Vec<Edit>,
     ) -> Result<(), Diagnostic> {
@@ -39,7 +40,7 @@ impl World {
         let value = if depends.on_rates { None } else { Some(self.evaluate(&formula, None)?) };
         let record = Parameter { name, formula, value, depends };
         undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
-        if self.live.dependents(id).is_empty() {
+        if self.live.users(id).next().is_none() {
             return Ok(());
         }
         self.refresh_parameters();
@@ -67,21 +68,19 @@ impl World {
         let mut finished: Vec<ParameterId> = Vec::new();
         let mut constraints: Vec<ConstraintId> = Vec::new();
         let mut is_seen = vec![false; self.parameters.n_handles()];
-        // Depth first: a parameter is finished after all its dependents, so that the reverse
-        // order is the order of evaluation.
-        let mut stack = vec![(id, 0)];
-        while let Some((at, next)) = stack.pop() {
-            match self.live.dependents(at).get(next) {
-                None => finished.push(at),
-                Some(user) => {
-                    stack.push((at, next + 1));
-                    match *user {
-                        Dependent::Constraint(c) => constraints.push(c),
-                        Dependent::Parameter(p) => {
-                            if !std::mem::replace(&mut is_seen[p.idx()], true) {
-                                stack.push((p, 0));
-                            }
-                        }
+        // Depth first: a parameter is finished after all its users, so that the reverse order
+        // is the order of evaluation.
+        let mut stack = vec![(id, self.live.users(id))];
+        while let Some((at, users)) = stack.last_mut() {
+            match users.next() {
+                None => {
+                    finished.push(*at);
+                    stack.pop();
+                }
+                Some(User::Constraint(c)) => constraints.push(c),
+                Some(User::Parameter(p)) => {
+                    if !std::mem::replace(&mut is_seen[p.idx()], true) {
+                        stack.push((p, self.live.users(p)));
                     }
                 }
             }

@@ -34,7 +34,7 @@ id!(
 );
 
 /// Anything that has a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entity {
     /// A point.
     Point(PointId),

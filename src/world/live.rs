@@ -1,9 +1,8 @@
 //! Live expressions: what depends on what, and the order in which values are brought up to date.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::records::Dependent;
-use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
+use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, User, World};
 use crate::constraint::{Field, Kind, Relation as _};
 use crate::diag::Diagnostic;
 
@@ -11,8 +10,8 @@ use crate::diag::Diagnostic;
 #[derive(Debug, Clone, Default)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Live {
-    /// By parameter, its users.
-    dependents: Vec<Vec<Dependent>>,
+    /// By parameter, what mentions it.
+    users: BTreeSet<(ParameterId, User)>,
     /// Live parameters, each after those it mentions.
     order: Vec<ParameterId>,
     /// Why live parameters have no value now.
@@ -104,9 +103,9 @@ impl Live {
         std::mem::take(&mut self.is_stale)
     }
 
-    /// Who uses a parameter.
-    pub fn dependents(&self, id: ParameterId) -> &[Dependent] {
-        self.dependents.get(id.idx()).map_or(&[], Vec::as_slice)
+    /// Who mentions a parameter, in order.
+    pub fn users(&self, id: ParameterId) -> impl Iterator<Item = User> {
+        self.users.range((id, User::FIRST)..=(id, User::LAST)).map(|(_, user)| *user)
     }
 
     /// A parameter was made, changed or deleted. One that was there before may come back with
@@ -120,11 +119,11 @@ impl Live {
     ) {
         let is_live = |of: Option<(&Formula, Depends)>| of.is_some_and(|(_, d)| d.is_live());
         self.is_stale |= !is_new && (is_live(old) || is_live(new));
-        if let Some((formula, _)) = new {
-            self.link(formula, Dependent::Parameter(id));
-        }
         if let Some((formula, _)) = old {
-            self.unlink(formula, Dependent::Parameter(id));
+            self.unlink(formula, User::Parameter(id));
+        }
+        if let Some((formula, _)) = new {
+            self.link(formula, User::Parameter(id));
         }
         match (old, new) {
             // It mentions only what was there before it, so it may stand last.
@@ -146,35 +145,29 @@ impl Live {
         old: Option<&Record>,
         new: Option<&Record>,
     ) {
-        for (_, formula) in new.iter().flat_map(|record| &record.drivers) {
-            self.link(formula, Dependent::Constraint(id));
-        }
         for (_, formula) in old.iter().flat_map(|record| &record.drivers) {
-            self.unlink(formula, Dependent::Constraint(id));
+            self.unlink(formula, User::Constraint(id));
+        }
+        for (_, formula) in new.iter().flat_map(|record| &record.drivers) {
+            self.link(formula, User::Constraint(id));
         }
         let is_listed = |record: &Record| !record.drivers.is_empty() || is_motor(record);
         self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
     }
 
-    fn link(&mut self, formula: &Formula, user: Dependent) {
+    fn link(&mut self, formula: &Formula, user: User) {
         formula.mentions(&mut |mention| {
             if let Mention::Parameter(used) = mention {
-                if used.idx() >= self.dependents.len() {
-                    self.dependents.resize_with(used.idx() + 1, Vec::new);
-                }
-                self.dependents[used.idx()].push(user);
+                self.users.insert((used, user));
             }
         });
     }
 
-    fn unlink(&mut self, formula: &Formula, user: Dependent) {
+    /// Before it is linked to what it mentions now.
+    fn unlink(&mut self, formula: &Formula, user: User) {
         formula.mentions(&mut |mention| {
-            if let Mention::Parameter(used) = mention
-                && let Some(users) = self.dependents.get_mut(used.idx())
-                && let Some(k) = users.iter().rposition(|u| *u == user)
-            {
-                // The order of users means nothing: what follows from them is sorted.
-                users.swap_remove(k);
+            if let Mention::Parameter(used) = mention {
+                self.users.remove(&(used, user));
             }
         });
     }

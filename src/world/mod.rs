@@ -19,6 +19,7 @@ mod records;
 mod touched;
 mod trace;
 mod users;
+mod word;
 
 pub use arithmetic::{call, operate};
 pub use clock::Clock;
@@ -34,6 +35,7 @@ pub use records::{Parameter, Record};
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use users::User;
+pub use word::Word;
 
 use std::collections::BTreeMap;
 
@@ -47,13 +49,14 @@ pub struct World {
     constraints: Table<Record>,
     n_constraints: usize,
     parameters: Table<Parameter>,
-    names: Names,
+    index: names::Index,
     clock: Clock,
     /// The state of motors and wheels when the clock left 0, or at birth if made later.
     start_states: BTreeMap<ConstraintId, Vec<f64>>,
     traces: Vec<Trace>,
     ghosts: Vec<Ghost>,
     live: live::Live,
+    point_users: users::PointUsers,
     touched: Touched,
     revision: u64,
 }
@@ -95,19 +98,18 @@ impl World {
     }
 
     /// Who has which name.
-    pub const fn names(&self) -> &Names {
-        &self.names
-    }
-
-    /// The first free name `{stem}1`, `{stem}2`, ...
-    pub fn numbered_name(&mut self, stem: &str) -> String {
-        self.names.numbered(stem)
+    pub const fn names(&self) -> Names<'_> {
+        Names(self)
     }
 
     /// The name of an entity.
     pub fn name_of(&self, entity: Entity) -> &str {
+        self.word_of(entity)
+    }
+
+    fn word_of(&self, entity: Entity) -> &Word {
         match entity {
-            Entity::Point(id) => self.points.name(id),
+            Entity::Point(id) => self.points.word(id),
             Entity::Constraint(id) => {
                 &self.constraint(id).expect("a handle of a living constraint").name
             }

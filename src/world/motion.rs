@@ -1,21 +1,25 @@
 //! Time going on: what a frame advances, and all that running changes as one piece of data.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
 use crate::constraint::{Constraint, Point, Relation};
 use crate::diag::Diagnostic;
 
+/// By constraint, the numbers that running changes of it.
+pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
+
 /// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.
-/// One of these takes a whole run back, however many frames it had.
+/// One of these takes a whole run back, however many frames it had. Copies share what is large.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    at: Vec<Point>,
-    start: Vec<Point>,
-    start_states: BTreeMap<ConstraintId, Vec<f64>>,
+    at: Rc<Vec<Point>>,
+    start: Rc<Vec<Point>>,
+    start_states: Rc<States>,
     clock: Clock,
-    states: BTreeMap<ConstraintId, Vec<f64>>,
+    states: Rc<States>,
     /// Constraints with live values, which a frame sets: whole.
     driven: Vec<(ConstraintId, Constraint)>,
     traces: Vec<Tail<Sample>>,
@@ -36,20 +40,33 @@ impl World {
     /// All that running changes, as it is now.
     pub fn motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
+        let at = Rc::new(self.points.at.clone());
+        let is_at_start = are_same_places(&self.points.start, &self.points.at);
+        let start = if is_at_start { at.clone() } else { Rc::new(self.points.start.clone()) };
         Motion {
-            at: self.points.at.clone(),
-            start: self.points.start.clone(),
-            start_states: self.start_states.clone(),
+            at,
+            start,
+            start_states: Rc::new(self.start_states.clone()),
             clock: self.clock,
-            states: self.states(),
+            states: Rc::new(self.states()),
             driven: self.driven(),
             traces,
             ghosts,
         }
     }
 
+    /// The same, sharing with an earlier one what did not change since.
+    pub fn motion_since(&self, earlier: &Motion) -> Motion {
+        let mut motion = self.motion();
+        share(&mut motion.at, &earlier.at, are_same_places);
+        share(&mut motion.start, &earlier.start, are_same_places);
+        share(&mut motion.start_states, &earlier.start_states, are_same_states);
+        share(&mut motion.states, &earlier.states, are_same_states);
+        motion
+    }
+
     /// The states of all constraints that running changes.
-    fn states(&self) -> BTreeMap<ConstraintId, Vec<f64>> {
+    fn states(&self) -> States {
         self.constraints().filter_map(|(id, r)| Some((id, r.constraint.state()?))).collect()
     }
 
@@ -66,7 +83,7 @@ impl World {
                 record.constraint = constraint;
             }
         }
-        for (id, state) in &motion.states {
+        for (id, state) in &*motion.states {
             self.restore_state(*id, state);
         }
         let mut traces: Vec<Tail<Sample>> = motion.traces;
@@ -75,11 +92,11 @@ impl World {
             *tail = wanted.swap(&mut trace.samples);
         }
         let old = Motion {
-            at: std::mem::replace(&mut self.points.at, motion.at),
-            start: std::mem::replace(&mut self.points.start, motion.start),
-            start_states: std::mem::replace(&mut self.start_states, motion.start_states),
+            at: exchange(&mut self.points.at, motion.at),
+            start: exchange(&mut self.points.start, motion.start),
+            start_states: exchange(&mut self.start_states, motion.start_states),
             clock: std::mem::replace(&mut self.clock, motion.clock),
-            states,
+            states: Rc::new(states),
             driven,
             traces,
             ghosts: motion.ghosts.swap(&mut self.ghosts),
@@ -101,8 +118,8 @@ impl World {
     pub fn start(&self) -> Motion {
         let mut motion = self.motion();
         if self.clock.frame > 0 {
-            motion.at.clone_from(&self.points.start);
-            motion.states.clone_from(&self.start_states);
+            motion.at = motion.start.clone();
+            motion.states = motion.start_states.clone();
         }
         motion.clock = self.clock.at_start();
         motion.traces.iter_mut().for_each(|tail| *tail = Tail::cleared());
@@ -162,4 +179,30 @@ impl World {
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
     }
+}
+
+/// Puts `new` in a place; gives what was there.
+fn exchange<T: Clone>(place: &mut T, new: Rc<T>) -> Rc<T> {
+    Rc::new(std::mem::replace(place, Rc::unwrap_or_clone(new)))
+}
+
+/// Gives up a copy for what it is equal to by this measure.
+fn share<T>(copy: &mut Rc<T>, with: &Rc<T>, is_same: impl Fn(&T, &T) -> bool) {
+    if is_same(copy, with) {
+        copy.clone_from(with);
+    }
+}
+
+/// The same to the bit: 0 and -0 differ.
+#[allow(clippy::ptr_arg, reason = "a measure for `share`")]
+fn are_same_places(a: &Vec<Point>, b: &Vec<Point>) -> bool {
+    let bits = |p: &Point| [p.x.to_bits(), p.y.to_bits()];
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bits(a) == bits(b))
+}
+
+/// The same to the bit.
+fn are_same_states(a: &States, b: &States) -> bool {
+    let bits = |state: &[f64]| state.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
+    let is_same = |((i, a), (j, b)): ((_, &Vec<f64>), (_, &Vec<f64>))| i == j && bits(a) == bits(b);
+    a.len() == b.len() && a.iter().zip(b).all(is_same)
 }

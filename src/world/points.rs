@@ -1,8 +1,6 @@
 //! The points, as columns of numbers.
 
-use std::rc::Rc;
-
-use super::PointId;
+use super::{PointId, Word};
 use crate::constraint::Point;
 
 /// Everything about the points; a handle is an index into each column.
@@ -16,7 +14,7 @@ pub struct Points {
     /// How strongly a point resists being moved; 1 unless the user says otherwise.
     pub(super) weight: Vec<f64>,
     /// None for a point that was deleted.
-    pub(super) name: Vec<Option<Rc<str>>>,
+    pub(super) name: Vec<Option<Word>>,
     pub(super) n_alive: usize,
 }
 
@@ -24,7 +22,7 @@ pub struct Points {
 #[derive(Debug, Clone)]
 pub struct PointRecord {
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Word,
     /// Where it is.
     pub at: Point,
     /// Where `reset` puts it.
@@ -83,7 +81,11 @@ impl Points {
 
     /// Its name.
     pub fn name(&self, id: PointId) -> &str {
-        self.name[id.idx()].as_deref().expect("a handle of a living point")
+        self.word(id)
+    }
+
+    pub(super) fn word(&self, id: PointId) -> &Word {
+        self.name[id.idx()].as_ref().expect("a handle of a living point")
     }
 
     /// The living points, in order of creation.

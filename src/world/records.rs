@@ -1,8 +1,6 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
-use std::rc::Rc;
-
-use super::{ConstraintId, Depends, Formula, ParameterId, Value};
+use super::{Depends, Formula, Value, Word};
 use crate::constraint::{Bounds, Constraint, Field, Relation};
 use crate::diag::{Diagnostic, format_number};
 
@@ -10,7 +8,7 @@ use crate::diag::{Diagnostic, format_number};
 #[derive(Debug, Clone)]
 pub struct Record {
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Word,
     /// The relation, over handles of points, with its values as of now.
     pub constraint: Constraint,
     /// The live expressions behind some of its values.
@@ -74,7 +72,7 @@ impl Record {
 #[derive(Debug, Clone)]
 pub struct Parameter {
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Word,
     /// What it stands for.
     pub formula: Formula,
     /// The value now; none while it needs velocities, which are computed when asked for.
@@ -83,47 +81,55 @@ pub struct Parameter {
     pub depends: Depends,
 }
 
-/// Rows by handle, in order of creation.
+/// Rows by handle, in order of creation, in pieces that stay where they are: room for a
+/// hundred thousand is neither made in advance nor copied when it grows.
 #[derive(Debug, Clone)]
-pub(super) struct Table<T>(Vec<Option<T>>);
+pub(super) struct Table<T> {
+    pieces: Vec<Vec<Option<T>>>,
+    n_handles: usize,
+}
+
+/// Rows of a piece of a table.
+const PIECE: usize = 256;
 
 impl<T> Default for Table<T> {
     fn default() -> Self {
-        Self(Vec::new())
+        Self { pieces: Vec::new(), n_handles: 0 }
     }
 }
 
 impl<T> Table<T> {
     pub fn n_handles(&self) -> usize {
-        self.0.len()
+        self.n_handles
     }
 
     pub fn get(&self, idx: usize) -> Option<&T> {
-        self.0.get(idx).and_then(Option::as_ref)
+        self.pieces.get(idx / PIECE)?.get(idx % PIECE)?.as_ref()
     }
 
     pub fn get_mut(&mut self, idx: usize) -> Option<&mut T> {
-        self.0.get_mut(idx).and_then(Option::as_mut)
+        self.pieces.get_mut(idx / PIECE)?.get_mut(idx % PIECE)?.as_mut()
     }
 
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (usize, &T)> {
-        self.0.iter().enumerate().filter_map(|(k, row)| row.as_ref().map(|row| (k, row)))
+        let pieces = self.pieces.iter().enumerate();
+        pieces.flat_map(|(p, piece)| {
+            let rows = piece.iter().enumerate();
+            rows.filter_map(move |(k, row)| row.as_ref().map(|row| (PIECE * p + k, row)))
+        })
     }
 
     /// Puts a row in a place, or empties it; gives what was there.
     pub fn swap(&mut self, idx: usize, row: Option<T>) -> Option<T> {
-        if idx >= self.0.len() {
-            self.0.resize_with(idx + 1, || None);
+        while self.n_handles <= idx {
+            if self.n_handles.is_multiple_of(PIECE) {
+                // The first piece grows with what is in it: most scenes are small.
+                let room = if self.n_handles == 0 { 0 } else { PIECE };
+                self.pieces.push(Vec::with_capacity(room));
+            }
+            self.pieces[self.n_handles / PIECE].push(None);
+            self.n_handles += 1;
         }
-        std::mem::replace(&mut self.0[idx], row)
+        std::mem::replace(&mut self.pieces[idx / PIECE][idx % PIECE], row)
     }
-}
-
-/// What follows when a parameter changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dependent {
-    /// A parameter whose expression mentions it.
-    Parameter(ParameterId),
-    /// A constraint with a value whose expression mentions it.
-    Constraint(ConstraintId),
 }

@@ -28,7 +28,7 @@ impl Scene {
     /// Sets the length of a frame.
     pub fn frames_per_unit(&mut self, n: f64) {
         let clock = self.world.clock().with_dt(1.0 / n);
-        self.world.apply(Edit::Clock(Clock { base_frame: 0, ..clock }));
+        self.world.apply(Edit::Clock(Box::new(Clock { base_frame: 0, ..clock })));
     }
 
     fn add_point(&mut self, x: f64, y: f64, is_frozen: bool) -> PointId {

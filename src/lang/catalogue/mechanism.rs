@@ -181,7 +181,8 @@ pub(super) const MECHANISM: &[Entry] = &[
         section: Section::Constraints,
         usage: "rack O A on P Q",
         summary: "a wheel rolls along a line without slipping",
-        help: "O is the centre of the wheel and A a point of its rim.",
+        help: "O is the centre of the wheel and A a point of its rim, or any other point that turns with \
+             it. The radius is the height of O over the line as it stands: where the rim touches.",
         example: "rack O A on P Q",
     },
     Entry {

@@ -41,8 +41,8 @@ pub struct Crank {
     pub points: [PointIdx; 2],
     /// Which way it turns.
     pub sense: Sense,
-    /// Whether another motor's disc is there already.
-    pub is_bare: bool,
+    /// How many motors on this centre come before it; their arrows lie within its own.
+    pub rank: u8,
 }
 
 impl Draw for Crank {
@@ -62,15 +62,17 @@ impl Draw for Crank {
         let centre = Placement::at(ink.px(o));
         ink.figure(Layer::Construction, centre).circle(Class::Orbit, Point::ORIGIN, span.length);
         outlined(ink, &span, [Class::CrankEdge, Class::Crank]);
-        if !self.is_bare {
-            let disc = ink.figure(Layer::Drive, centre).circle(Class::Motor, Point::ORIGIN, radius);
-            arrow(disc, self.sense, 1.8 * radius);
+        let symbol = ink.figure(Layer::Drive, centre);
+        if self.rank == 0 {
+            symbol.circle(Class::Motor, Point::ORIGIN, radius);
         }
+        arrow(symbol, self.sense, [1.8 * radius, 0.9 * radius], self.rank);
     }
 }
 
-/// An arrow over the top of the origin.
-fn arrow(figure: &mut Figure, sense: Sense, radius: f64) {
+/// An arrow over the top of the origin: the radius of the first, and by how much that of each
+/// next is greater.
+fn arrow(figure: &mut Figure, sense: Sense, [first, step]: [f64; 2], rank: u8) {
     /// From the vertical to either end, radians.
     const HALF: f64 = 1.1;
     let forward = match sense {
@@ -78,9 +80,12 @@ fn arrow(figure: &mut Figure, sense: Sense, radius: f64) {
         Sense::Clockwise => 1.0,
         Sense::Still => return,
     };
+    let radius = first + step * f64::from(rank);
+    // As long as the first: it ends nearer to the top.
+    let half = HALF * first / radius;
     // Page angles grow clockwise from the right: straight up is a quarter turn back.
-    let (from, tip) = (-FRAC_PI_2 - forward * HALF, -FRAC_PI_2 + forward * HALF);
-    let head = 0.5 * radius;
+    let (from, tip) = (-FRAC_PI_2 - forward * half, -FRAC_PI_2 + forward * half);
+    let head = 0.5 * first;
     // The line ends within the head, which lies along a chord of the arc.
     figure.path(Class::Turn, Path::arc(radius, from, tip - forward * 0.6 * head / radius));
     let direction = Vector::polar(1.0, tip - forward * 0.5 * head / radius).perp() * forward;
