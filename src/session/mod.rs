@@ -47,7 +47,7 @@ pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
 pub use receipt::{Summary, Way};
-pub use settings::Preferences;
+pub use settings::{Preferences, SETTINGS};
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
 use crate::lang::ast::{Definition, Statement};
