@@ -25,12 +25,14 @@ pub fn candidates(before: &str, names: &BTreeSet<String>) -> (usize, Vec<String>
         ["set"] => SETTINGS.iter().map(|(name, _)| *name).chain(["weight"]).collect(),
         ["set", "method"] => Method::ALL.iter().map(|method| method.word()).collect(),
         ["list"] => vec!["points", "constraints", "traces", "parameters", "definitions"],
-        _ => {
-            let mut all: Vec<&str> = Function::ALL.into_iter().map(Function::name).collect();
-            all.extend(names.iter().map(String::as_str));
-            all
-        }
+        _ => names.iter().map(String::as_str).collect(),
     };
+    // A value may be computed; what a command is about is named.
+    let is_value = before[statement..start].contains(['=', '('])
+        || matches!(said.first(), Some(&("print" | "assert" | "let" | "sample")));
+    if is_value {
+        Function::ALL.iter().for_each(|function| found.push(function.name()));
+    }
     found.retain(|candidate| candidate.starts_with(word));
     found.sort_unstable();
     found.dedup();
@@ -62,7 +64,9 @@ mod tests {
         check("  dr", (2, &["drag"]));
         check("step 3; und", (8, &["undo"]));
         check("bar: mot", (5, &["motor"]));
-        check("show c", (5, &["ceil", "cos", "coupler", "cross"]));
+        check("show c", (5, &["coupler"]));
+        check("print c", (6, &["ceil", "cos", "coupler", "cross"]));
+        check("length A coupler = co", (19, &["cos", "coupler"]));
         check("length A p[1", (9, &["p[10]", "p[1]"]));
         check("delete le", (7, &["left.P"]));
         check("set dead", (4, &["dead-points"]));

@@ -216,7 +216,11 @@ impl Session {
     /// # Errors
     /// Where a file cannot be written.
     pub fn finish(&mut self) -> Result<(), Diagnostic> {
-        self.stop_recording();
+        if !self.stop_recording() {
+            self.drop_recordings();
+            return Err(Diagnostic::error("stopped before the recording was written")
+                .kind(Kind::Interrupted));
+        }
         self.post()?;
         self.journal.commit("");
         Ok(())
