@@ -193,6 +193,18 @@ fn recordings_are_written_by_the_end_of_the_script_and_after_a_mistake() {
 }
 
 #[test]
+fn save_replaces_what_it_wrote_and_nothing_else() {
+    let folder = folder(&[("mine.link", "point A = (1, 2)  # by hand\n")]);
+    let out = run(folder.path(), &[], "point B = (3, 4)\nsave \"s.link\"\nsave \"s.link\"\n");
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+    let out = run(folder.path(), &[], "save \"mine.link\"\nprint 5\n");
+    assert_eq!((out.status.code(), text(&out.stdout)), (Some(2), "5\n".to_owned()));
+    assert!(text(&out.stderr).contains("`save` did not write it"), "{}", text(&out.stderr));
+    let mine = fs::read_to_string(folder.path().join("mine.link")).expect("it is still there");
+    assert_eq!(mine, "point A = (1, 2)  # by hand\n");
+}
+
+#[test]
 fn the_same_script_writes_the_same_bytes() {
     let folder = folder(&[("a.link", RECORDED)]);
     let written = |out: &str| {

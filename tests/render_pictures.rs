@@ -223,6 +223,16 @@ fn motors_turn_the_way_they_turn() {
 }
 
 #[test]
+fn motors_on_one_centre_have_an_arrow_each() {
+    let elements = check(&picture(
+        "point O = (0, 0) frozen, P = (2, 0), Q = (0, 1.5), R = (-1.5, -1)
+         motor O P speed 1; motor O Q speed -1; motor O R speed 2",
+    ));
+    assert_eq!(with_class(&elements, "motor").len(), 1);
+    assert_eq!(with_class(&elements, "turn-head").len(), 3);
+}
+
+#[test]
 fn what_is_off_is_faint() {
     let document = check(&picture(EVERY_KIND));
     assert_eq!(document.iter().filter(|e| e.get("opacity") == Some("0.3")).count(), 1);

@@ -1,5 +1,7 @@
 //! The motor constraint, section 3.7: a point that circulates around another.
 
+use std::sync::Arc;
+
 use super::linear::Linear;
 use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Turns, Vector};
 
@@ -12,14 +14,21 @@ use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Turns, Vector};
 pub struct Motor {
     /// The centre and the point driven around it.
     pub points: [PointIdx; 2],
+    turned: Turns,
+    /// Where the driven point belongs, from the centre.
+    target: Vector,
+    /// What stays from frame to frame: shared by copies, so that each is small and made at once.
+    drive: Arc<Drive>,
+}
+
+/// The values of a motor.
+#[derive(Debug, Clone, PartialEq)]
+struct Drive {
     radius: f64,
     phase: f64,
     speed: f64,
-    turned: Turns,
-    /// The last step of time, the angle it made at this speed, and the same in turns.
+    /// The angle that the last step of time made at this speed, and the same in turns.
     step: (f64, Turns),
-    /// Where the driven point belongs, from the centre.
-    target: Vector,
 }
 
 impl Motor {
@@ -28,17 +37,18 @@ impl Motor {
     pub fn new(points: [PointIdx; 2], radius: f64, phase: f64, speed: f64) -> Self {
         let target = Vector::polar(radius, phase);
         let step = (0.0, Turns::default());
-        Self { points, radius, phase, speed, turned: Turns::default(), step, target }
+        let drive = Arc::new(Drive { radius, phase, speed, step });
+        Self { points, turned: Turns::default(), target, drive }
     }
 
     /// The angle against the x axis without whole turns, radians.
     pub fn angle(&self) -> f64 {
-        super::geometry::wrap(self.phase + self.turned.angle())
+        super::geometry::wrap(self.drive.phase + self.turned.angle())
     }
 
     /// The angle with whole turns, `phase + turned`, radians.
     pub fn total(&self) -> f64 {
-        self.phase + self.turned.total()
+        self.drive.phase + self.turned.total()
     }
 
     /// How far it has turned since it was made.
@@ -58,7 +68,7 @@ impl Motor {
     }
 
     fn aim(&mut self) {
-        self.target = Vector::polar(self.radius, self.angle());
+        self.target = Vector::polar(self.drive.radius, self.angle());
     }
 
     fn linear(&self) -> Linear {
@@ -104,9 +114,9 @@ impl Relation for Motor {
         equation: &mut impl FnMut(T),
     ) {
         let [x1, x2] = self.points.map(x);
-        let turned = T::integral(self.turned.angle(), field(Field::Speed, self.speed));
-        let angle = field(Field::Phase, self.phase) + turned;
-        let radius = field(Field::Radius, self.radius);
+        let turned = T::integral(self.turned.angle(), field(Field::Speed, self.drive.speed));
+        let angle = field(Field::Phase, self.drive.phase) + turned;
+        let radius = field(Field::Radius, self.drive.radius);
         let v = x2 - x1;
         equation(v.x - radius * angle.cos());
         equation(v.y - radius * angle.sin());
@@ -114,19 +124,19 @@ impl Relation for Motor {
 
     fn get(&self, field: Field) -> Option<f64> {
         match field {
-            Field::Radius => Some(self.radius),
-            Field::Phase => Some(self.phase),
-            Field::Speed => Some(self.speed),
+            Field::Radius => Some(self.drive.radius),
+            Field::Phase => Some(self.drive.phase),
+            Field::Speed => Some(self.drive.speed),
             _ => None,
         }
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
         match field {
-            Field::Radius => self.radius = value,
-            Field::Phase => self.phase = value,
+            Field::Radius => Arc::make_mut(&mut self.drive).radius = value,
+            Field::Phase => Arc::make_mut(&mut self.drive).phase = value,
             // The angle so far stays: a change of speed is no jump.
-            Field::Speed => self.speed = value,
+            Field::Speed => Arc::make_mut(&mut self.drive).speed = value,
             _ => return false,
         }
         self.aim();
@@ -148,21 +158,21 @@ impl Relation for Motor {
     fn pick_up(&mut self, x: &[Point]) {
         let [x1, x2] = self.points.map(|p| x[p as usize]);
         if x1 != x2 {
-            self.turned = self.turned.pick_up((x2 - x1).angle() - self.phase);
+            self.turned = self.turned.pick_up((x2 - x1).angle() - self.drive.phase);
             self.aim();
         }
     }
 
     /// Turns on by `speed * dt`.
     fn advance(&mut self, dt: f64) -> bool {
-        let step = self.speed * dt;
+        let step = self.drive.speed * dt;
         if step == 0.0 {
             return false;
         }
-        if step != self.step.0 {
-            self.step = (step, Turns::from_radians(step));
+        if step != self.drive.step.0 {
+            Arc::make_mut(&mut self.drive).step = (step, Turns::from_radians(step));
         }
-        self.turned = self.turned.plus(self.step.1);
+        self.turned = self.turned.plus(self.drive.step.1);
         self.aim();
         true
     }

@@ -1,9 +1,13 @@
 //! The line editor: what it asks while a line is typed.
 
+use std::collections::BTreeSet;
+
+use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::history::FileHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
-use rustyline::{Completer, Config, Editor, Helper, Highlighter, Hinter};
+use rustyline::{CompletionType, Config, Context, Editor, Helper, Highlighter, Hinter};
 
+use super::complete::{MOST_NAMES, candidates};
 use crate::lang::is_incomplete;
 use crate::session::Session;
 
@@ -11,8 +15,13 @@ use crate::session::Session;
 pub type LineEditor = Editor<Prompt, FileHistory>;
 
 /// What the editor asks while a line is typed.
-#[derive(Debug, Default, Helper, Completer, Highlighter, Hinter)]
-pub struct Prompt;
+#[derive(Helper, Highlighter, Hinter)]
+pub struct Prompt {
+    files: FilenameCompleter,
+    /// The names of the world at this revision.
+    names: BTreeSet<String>,
+    revision: u64,
+}
 
 impl Validator for Prompt {
     fn validate(&self, line: &mut ValidationContext<'_>) -> rustyline::Result<ValidationResult> {
@@ -24,6 +33,26 @@ impl Validator for Prompt {
     }
 }
 
+impl Completer for Prompt {
+    type Candidate = Pair;
+
+    fn complete(
+        &self,
+        line: &str,
+        pos: usize,
+        ctx: &Context<'_>,
+    ) -> rustyline::Result<(usize, Vec<Pair>)> {
+        let before = &line[..pos];
+        let this_line = before.rsplit('\n').next().unwrap_or_default();
+        if this_line.matches('"').count() % 2 == 1 {
+            return self.files.complete(line, pos, ctx);
+        }
+        let (start, found) = candidates(before, &self.names);
+        let pairs = found.into_iter().map(|it| Pair { display: it.clone(), replacement: it });
+        Ok((start, pairs.collect()))
+    }
+}
+
 /// An editor on the terminal of the process.
 ///
 /// # Errors
@@ -32,11 +61,23 @@ pub fn open() -> rustyline::Result<LineEditor> {
     let config = Config::builder()
         .auto_add_history(false)
         .max_history_size(super::history::MOST_LINES)?
+        .completion_type(CompletionType::List)
         .build();
     let mut editor = Editor::with_config(config)?;
-    editor.set_helper(Some(Prompt));
+    let files = FilenameCompleter::new();
+    editor.set_helper(Some(Prompt { files, names: BTreeSet::new(), revision: 0 }));
     Ok(editor)
 }
 
 /// Tells the editor what there is in the session before a line is typed.
-pub fn prepare(_editor: &mut LineEditor, _session: &Session) {}
+pub fn prepare(editor: &mut LineEditor, session: &Session) {
+    let world = session.world();
+    if let Some(prompt) = editor.helper_mut()
+        && prompt.revision != world.revision()
+    {
+        prompt.revision = world.revision();
+        let names = world.names();
+        let all = names.instances().chain(names.iter().map(|(name, _)| name));
+        prompt.names = all.take(MOST_NAMES).map(str::to_owned).collect();
+    }
+}

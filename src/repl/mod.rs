@@ -1,5 +1,6 @@
-//! The prompt: reads statements line by line, with history and continuation lines.
+//! The prompt: reads statements line by line, with history, completion and continuation lines.
 
+mod complete;
 mod editor;
 mod history;
 

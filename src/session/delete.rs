@@ -108,7 +108,10 @@ impl Session {
 
     /// Ends recordings, forgets definitions and settings, and what the solver remembers.
     fn stop_everything(&mut self) {
-        self.stop_recording();
+        if !self.stop_recording() {
+            self.note("stopped: what was recorded is not written");
+            self.drop_recordings();
+        }
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
         let definitions: Vec<_> = self.definitions.keys().cloned().collect();

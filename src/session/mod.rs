@@ -47,7 +47,7 @@ pub use effects::{Effects, Row as EffectRow};
 pub use host::{Host, Nowhere, reason};
 pub use outside::evaluate_binding;
 pub use receipt::{Summary, Way};
-pub use settings::Preferences;
+pub use settings::{Preferences, SETTINGS};
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
 use crate::lang::ast::{Definition, Statement};
@@ -216,7 +216,11 @@ impl Session {
     /// # Errors
     /// Where a file cannot be written.
     pub fn finish(&mut self) -> Result<(), Diagnostic> {
-        self.stop_recording();
+        if !self.stop_recording() {
+            self.drop_recordings();
+            return Err(Diagnostic::error("stopped before the recording was written")
+                .kind(Kind::Interrupted));
+        }
         self.post()?;
         self.journal.commit("");
         Ok(())

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use super::journal::Change;
 use super::recorder::{Format, Recorder};
 use super::{Diagnostic, Session};
-use crate::diag::Span;
+use crate::diag::{Kind, Span};
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
 use crate::render::{Animation, Scene, View, svg, svg_with_view};
 use crate::world::{Edit, Trace};
@@ -178,16 +178,27 @@ impl Session {
         if self.recorders.is_empty() {
             return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
         }
-        self.stop_recording();
-        Ok(())
+        if self.stop_recording() {
+            return Ok(());
+        }
+        Err(Diagnostic::error("stopped before the recording was written")
+            .kind(Kind::Interrupted)
+            .at(span, "it goes on")
+            .help("`undo` takes back a run that was too long, and what was recorded of it"))
     }
 
-    /// Ends all recordings and hands over their files.
-    pub(super) fn stop_recording(&mut self) {
+    /// Ends all recordings and hands over their files, unless the user stops that: false then,
+    /// and they are as they were.
+    pub(super) fn stop_recording(&mut self) -> bool {
         if self.recorders.is_empty() {
-            return;
+            return true;
         }
         let options = self.picture_options();
+        // Who stopped a run still wants what it recorded.
+        let was_stopped = self.host.is_interrupted();
+        let host = &self.host;
+        let is_stopped = || host.is_interrupted() && !was_stopped;
+        let n_before = self.outbox.len();
         for recorder in &self.recorders {
             match recorder.format {
                 Format::Table => {
@@ -198,6 +209,9 @@ impl Session {
                 Format::Frames => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
                     for (k, (scene, _)) in recorder.scenes().enumerate() {
+                        if is_stopped() {
+                            break;
+                        }
                         let picture = svg_with_view(scene, &view, &options);
                         let path = recorder.path.join(format!("frame-{k:04}.svg"));
                         self.outbox.push((path, picture.into_bytes(), recorder.span));
@@ -207,6 +221,9 @@ impl Session {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
                     let mut movie = Animation::new(view, &options);
                     for (scene, time) in recorder.scenes() {
+                        if is_stopped() {
+                            break;
+                        }
                         movie.push(scene, time);
                     }
                     let file = (recorder.path.clone(), movie.finish().into_bytes(), recorder.span);
@@ -214,6 +231,16 @@ impl Session {
                 }
             }
         }
+        if is_stopped() {
+            self.outbox.truncate(n_before);
+            return false;
+        }
+        self.drop_recordings();
+        true
+    }
+
+    /// Ends all recordings as they are.
+    pub(super) fn drop_recordings(&mut self) {
         for idx in (0..self.recorders.len()).rev() {
             self.change(Change::Recorder(idx, None));
         }

@@ -10,6 +10,9 @@ use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
 use crate::solve::CogForm;
 use crate::world::{PointId, World};
 
+/// How a file that `save` wrote begins.
+const FIRST_WORDS: &str = "# A linkwork session.";
+
 /// What `restore` brings back.
 pub(super) mod what {
     /// Frame, time of a frame, and the frame and time at which that took its value.
@@ -37,6 +40,16 @@ pub(super) mod what {
 impl Session {
     pub(super) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
         let file = self.output_file(path)?;
+        let there = self.host.read(&self.host.written(&file));
+        // What a hand wrote cannot be written anew by a machine.
+        if there.is_ok_and(|text| !text.trim().is_empty() && !text.starts_with(FIRST_WORDS)) {
+            let name = &path.value;
+            return Err(Diagnostic::error(format!(
+                "`{name}` is there, and `save` did not write it"
+            ))
+            .at(path.span, "it would be lost")
+            .help("choose another name, or remove the file first"));
+        }
         let text = self.to_script();
         self.hand_over(file, text.into_bytes(), path.span);
         Ok(())
@@ -44,7 +57,7 @@ impl Session {
 
     /// The script that makes this world, its settings and its state.
     pub fn to_script(&self) -> String {
-        let mut script = String::from("# A linkwork session. `load` it, or run it as a script.\n");
+        let mut script = format!("{FIRST_WORDS} `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
             line(&mut script, Command::Define(definition.clone()));

@@ -21,7 +21,7 @@ pub struct Preferences {
 }
 
 /// The settings, in the order in which they are printed, with what each is.
-pub(super) const SETTINGS: [(&str, &str); 7] = [
+pub const SETTINGS: [(&str, &str); 7] = [
     ("dt", "time of one frame"),
     ("method", "how frames are solved"),
     ("rho", "relaxation coefficient"),

@@ -86,8 +86,6 @@ pub(super) struct Inputs {
     pub points: Vec<(u32, Point)>,
     /// Whether a free point was put elsewhere.
     pub is_disturbed: bool,
-    /// Motors that are no longer needed: the next frame takes their room.
-    spare: Vec<Constraint>,
 }
 
 impl Inputs {
@@ -104,23 +102,8 @@ impl Inputs {
         self.points.dedup_by_key(|(p, _)| *p);
     }
 
-    /// A copy of a constraint, without an allocation where that can be.
-    fn copy(&mut self, constraint: &Constraint) -> Constraint {
-        match (constraint, self.spare.pop()) {
-            (Constraint::Motor(motor), Some(Constraint::Motor(mut copy))) => {
-                copy.clone_from(motor);
-                Constraint::Motor(copy)
-            }
-            _ => constraint.clone(),
-        }
-    }
-
     fn clear(&mut self) {
-        for (_, constraint) in self.constraints.drain(..) {
-            if matches!(constraint, Constraint::Motor(_)) {
-                self.spare.push(constraint);
-            }
-        }
+        self.constraints.clear();
         self.points.clear();
         self.is_disturbed = false;
     }
@@ -231,7 +214,7 @@ impl Island {
 
     /// Puts a constraint's values in place of those it has; it has the same points as before.
     pub fn set_values(&mut self, c: usize, constraint: &Constraint) {
-        let mut new = self.inputs.copy(constraint);
+        let mut new = constraint.clone();
         for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
             *to = *from;
         }
@@ -243,7 +226,6 @@ impl Island {
         if self.inputs.constraints.capacity() == 0 {
             // Most islands are driven by one motor.
             self.inputs.constraints.reserve_exact(1);
-            self.inputs.spare.reserve_exact(1);
         }
         self.inputs.constraints.push((c as u32, old));
     }

@@ -379,7 +379,7 @@ impl Solver {
             return;
         }
         let at = world.points().at(p);
-        for id in self.topology.users(p).to_vec() {
+        for id in world.holders(p) {
             match self.topology.home(id) {
                 Home::None => {}
                 Home::Checked => self.check(world, id, settings),

@@ -33,10 +33,8 @@ pub(super) struct Topology {
     /// By handle of a constraint: its island, and its local index there.
     of_constraint: Vec<u32>,
     local_constraint: Vec<u32>,
-    /// By handle of a point: the constraints that hold it and are switched on.
-    users: Vec<Vec<ConstraintId>>,
-    /// Constraints that hold only frozen points, with these.
-    checked: BTreeMap<ConstraintId, Vec<PointId>>,
+    /// Constraints that hold only frozen points.
+    checked: BTreeSet<ConstraintId>,
 }
 
 impl Topology {
@@ -91,14 +89,9 @@ impl Topology {
         self.local_constraint[id.idx()] as usize
     }
 
-    /// The constraints that hold a point and are switched on.
-    pub fn users(&self, id: PointId) -> &[ConstraintId] {
-        self.users.get(id.idx()).map_or(&[], Vec::as_slice)
-    }
-
     /// The constraints that hold only frozen points.
     pub fn checked(&self) -> impl Iterator<Item = ConstraintId> {
-        self.checked.keys().copied()
+        self.checked.iter().copied()
     }
 
     /// Takes apart what an edit touched and puts it together anew; gives the new islands.
@@ -106,7 +99,6 @@ impl Topology {
     pub fn update(&mut self, touched: &Touched, world: &World, memory: &mut Memory) -> Vec<u32> {
         let n_points = world.points().column().len();
         self.of_point.resize(n_points, NONE);
-        self.users.resize_with(n_points, Vec::new);
         self.of_constraint.resize(world.next_constraint().idx(), NONE);
         self.local_constraint.resize(world.next_constraint().idx(), NONE);
         let mut loose = Loose { memory: std::mem::take(memory), ..Loose::default() };
@@ -115,8 +107,7 @@ impl Topology {
                 loose.memory.insert(island);
             }
             self.clear();
-            for (id, record) in world.constraints().filter(|(_, record)| record.is_on) {
-                self.enter(id, record.constraint.points());
+            for (id, _) in world.constraints().filter(|(_, record)| record.is_on) {
                 loose.constraints.insert(id);
             }
         } else {
@@ -132,26 +123,7 @@ impl Topology {
         self.vacant.clear();
         self.of_point.fill(NONE);
         self.of_constraint.fill(NONE);
-        self.users.iter_mut().for_each(Vec::clear);
         self.checked.clear();
-    }
-
-    fn enter(&mut self, id: ConstraintId, points: &[u32]) {
-        for (k, &p) in points.iter().enumerate() {
-            if !points[..k].contains(&p) {
-                self.users[p as usize].push(id);
-            }
-        }
-    }
-
-    fn leave(&mut self, id: ConstraintId, points: &[PointId]) {
-        for p in points {
-            let users = &mut self.users[p.idx()];
-            if let Some(k) = users.iter().position(|user| *user == id) {
-                // The order means nothing: islands sort their constraints.
-                users.swap_remove(k);
-            }
-        }
     }
 
     /// Collects all constraints whose island may change.
@@ -159,14 +131,10 @@ impl Topology {
         let changed: BTreeSet<ConstraintId> = touched.constraints.iter().copied().collect();
         for &id in &changed {
             self.dissolve_home(id, loose);
-            if let Some(points) = loose.points_of.remove(&id) {
-                self.leave(id, &points);
-            }
             loose.constraints.remove(&id);
         }
         for &id in &changed {
-            if let Some(record) = world.constraint(id).filter(|record| record.is_on) {
-                self.enter(id, record.constraint.points());
+            if world.constraint(id).is_some_and(|record| record.is_on) {
                 loose.constraints.insert(id);
             }
         }
@@ -174,9 +142,11 @@ impl Topology {
             if let Some(k) = self.island_of_point(p) {
                 self.dissolve(k, loose);
             }
-            for id in self.users(p).to_vec() {
-                self.dissolve_home(id, loose);
-                loose.constraints.insert(id);
+            for id in world.holders(p) {
+                if self.home(id) != Home::None {
+                    self.dissolve_home(id, loose);
+                    loose.constraints.insert(id);
+                }
             }
         }
         // What a loose constraint ties to an island becomes part of the same.
@@ -199,9 +169,7 @@ impl Topology {
             Home::Island(k) => drop(self.dissolve(k, loose)),
             Home::Checked => {
                 self.of_constraint[id.idx()] = NONE;
-                if let Some(points) = self.checked.remove(&id) {
-                    loose.points_of.insert(id, points);
-                }
+                self.checked.remove(&id);
                 loose.constraints.insert(id);
             }
         }
@@ -215,11 +183,9 @@ impl Topology {
         for p in &island.points[..island.n_free] {
             self.of_point[p.idx()] = NONE;
         }
-        for (id, constraint) in island.ids.iter().zip(&island.constraints) {
+        for id in &island.ids {
             self.of_constraint[id.idx()] = NONE;
             loose.constraints.insert(*id);
-            let points = constraint.points().iter().map(|&p| island.points[p as usize]);
-            loose.points_of.insert(*id, points.collect());
         }
         island.ids
     }
@@ -235,7 +201,7 @@ impl Topology {
             let mut free = constraint.points().iter().copied().filter(|&p| is_free(p));
             let Some(first) = free.next() else {
                 self.of_constraint[id.idx()] = CHECKED;
-                self.checked.insert(id, constraint.points().iter().map(|&p| PointId(p)).collect());
+                self.checked.insert(id);
                 continue;
             };
             let set = sets.enter(first);
@@ -281,8 +247,6 @@ impl Topology {
 #[derive(Default)]
 struct Loose {
     constraints: BTreeSet<ConstraintId>,
-    /// The points they held, for those that were somewhere.
-    points_of: BTreeMap<ConstraintId, Vec<PointId>>,
     /// What is remembered of the islands they were in.
     memory: Memory,
 }

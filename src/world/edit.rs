@@ -86,7 +86,7 @@ impl World {
             }
             Edit::Weight(id, weight) => {
                 self.touched.points.push(id);
-                Edit::Weight(id, std::mem::replace(&mut self.points.weight[id.idx()], weight))
+                Edit::Weight(id, self.points.set_weight(id, weight))
             }
             Edit::Constraint(id, record) => Edit::Constraint(id, self.swap_constraint(id, record)),
             Edit::Switch(id, on) => {

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher, Hasher};
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::{Entity, World};
+use super::{ConstraintId, Entity, ParameterId, PointId, World};
 use crate::diag::push_integer;
 
 /// Who has which name. The texts lie with those who have them.
@@ -77,7 +77,7 @@ impl World {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Index {
     /// A power of two of them, or none.
-    places: Vec<Option<Place>>,
+    places: Vec<Place>,
     n_taken: usize,
     /// What has names that begin with this prefix and a dot: an instance of a definition.
     instances: FxHashMap<Box<str>, BTreeSet<Entity>>,
@@ -85,25 +85,49 @@ pub(super) struct Index {
     numbered: FxHashMap<Box<str>, u32>,
 }
 
-#[derive(Debug, Clone, Copy)]
+/// A place of the table: the sort in the two highest bits of `code`, the handle below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Place {
     hash: u32,
-    entity: Entity,
+    code: u32,
+}
+
+impl Place {
+    const EMPTY: Self = Self { hash: 0, code: u32::MAX };
+
+    fn new(hash: u32, entity: Entity) -> Self {
+        let (sort, id) = match entity {
+            Entity::Point(id) => (0, id.0),
+            Entity::Constraint(id) => (1, id.0),
+            Entity::Parameter(id) => (2, id.0),
+        };
+        assert!(id < 1 << 30, "a world holds fewer than 2^30 of a kind");
+        Self { hash, code: sort << 30 | id }
+    }
+
+    fn entity(self) -> Option<Entity> {
+        let id = self.code & ((1 << 30) - 1);
+        match self.code >> 30 {
+            0 => Some(Entity::Point(PointId(id))),
+            1 => Some(Entity::Constraint(ConstraintId(id))),
+            2 => Some(Entity::Parameter(ParameterId(id))),
+            _ => None,
+        }
+    }
 }
 
 impl Index {
     /// The first that `is_it` among those with the hash of this name.
     fn find(&self, name: &str, is_it: impl Fn(Entity) -> bool) -> Option<Entity> {
         let hash = hash_of(name);
-        let place = self.places.get(self.position(hash, is_it)?)?;
-        place.map(|place| place.entity)
+        self.places[self.position(hash, is_it)?].entity()
     }
 
     fn position(&self, hash: u32, is_it: impl Fn(Entity) -> bool) -> Option<usize> {
         let last = self.places.len().checked_sub(1)?;
         let mut k = hash as usize & last;
-        while let Some(place) = self.places[k] {
-            if place.hash == hash && is_it(place.entity) {
+        while self.places[k] != Place::EMPTY {
+            if self.places[k].hash == hash && self.places[k].entity().is_some_and(&is_it) {
                 return Some(k);
             }
             k = (k + 1) & last;
@@ -114,10 +138,10 @@ impl Index {
     fn put(&mut self, new: Place) {
         let last = self.places.len() - 1;
         let mut k = new.hash as usize & last;
-        while self.places[k].is_some() {
+        while self.places[k] != Place::EMPTY {
             k = (k + 1) & last;
         }
-        self.places[k] = Some(new);
+        self.places[k] = new;
     }
 
     /// Gives a free name to an entity.
@@ -125,11 +149,12 @@ impl Index {
         // A quarter stays empty, so that a search is short.
         if 4 * (self.n_taken + 1) > 3 * self.places.len() {
             let room = (2 * self.places.len()).max(16);
-            let old = std::mem::replace(&mut self.places, vec![None; room]);
-            old.into_iter().flatten().for_each(|place| self.put(place));
+            let old = std::mem::replace(&mut self.places, vec![Place::EMPTY; room]);
+            let taken = old.into_iter().filter(|place| *place != Place::EMPTY);
+            taken.for_each(|place| self.put(place));
         }
         self.n_taken += 1;
-        self.put(Place { hash: hash_of(name), entity });
+        self.put(Place::new(hash_of(name), entity));
         for dot in dots(name) {
             match self.instances.get_mut(&name[..dot]) {
                 Some(members) => drop(members.insert(entity)),
@@ -147,15 +172,18 @@ impl Index {
         let mut k = hole;
         loop {
             k = (k + 1) & last;
-            let Some(place) = self.places[k] else { break };
+            let place = self.places[k];
+            if place == Place::EMPTY {
+                break;
+            }
             let is_before_hole =
                 (k.wrapping_sub(place.hash as usize) & last) >= (k.wrapping_sub(hole) & last);
             if is_before_hole {
-                self.places[hole] = Some(place);
+                self.places[hole] = place;
                 hole = k;
             }
         }
-        self.places[hole] = None;
+        self.places[hole] = Place::EMPTY;
         for dot in dots(name) {
             if let Some(members) = self.instances.get_mut(&name[..dot]) {
                 members.remove(&entity);
@@ -189,7 +217,7 @@ fn dots(name: &str) -> impl Iterator<Item = usize> {
 mod tests {
     use super::*;
     use crate::constraint::Point;
-    use crate::world::{Edit, PointId, PointRecord};
+    use crate::world::{Edit, PointRecord};
 
     fn add(world: &mut World, name: &str) -> PointId {
         let id = world.next_point();

@@ -11,8 +11,8 @@ pub struct Points {
     /// Positions when the clock left 0, or at birth for a point made later.
     pub(super) start: Vec<Point>,
     pub(super) is_frozen: Vec<bool>,
-    /// How strongly a point resists being moved; 1 unless the user says otherwise.
-    pub(super) weight: Vec<f64>,
+    /// How strongly a point resists being moved; 1 where the user did not say, and beyond the end.
+    weight: Vec<f64>,
     /// None for a point that was deleted.
     pub(super) name: Vec<Option<Word>>,
     pub(super) n_alive: usize,
@@ -71,12 +71,23 @@ impl Points {
 
     /// How strongly it resists being moved, against 1 for an ordinary point.
     pub fn weight(&self, id: PointId) -> f64 {
-        self.weight[id.idx()]
+        self.weight.get(id.idx()).copied().unwrap_or(1.0)
+    }
+
+    /// Sets how strongly it resists being moved; gives what that was.
+    pub(super) fn set_weight(&mut self, id: PointId, weight: f64) -> f64 {
+        if id.idx() >= self.weight.len() {
+            if weight == 1.0 {
+                return 1.0;
+            }
+            self.weight.resize(id.idx() + 1, 1.0);
+        }
+        std::mem::replace(&mut self.weight[id.idx()], weight)
     }
 
     /// The inverse mass `w` of the formulas: 0 for a frozen point.
     pub fn inverse_mass(&self, id: PointId) -> f64 {
-        if self.is_frozen[id.idx()] { 0.0 } else { 1.0 / self.weight[id.idx()] }
+        if self.is_frozen[id.idx()] { 0.0 } else { 1.0 / self.weight(id) }
     }
 
     /// Its name.
@@ -99,13 +110,12 @@ impl Points {
             self.at.resize(k + 1, Point::ORIGIN);
             self.start.resize(k + 1, Point::ORIGIN);
             self.is_frozen.resize(k + 1, false);
-            self.weight.resize(k + 1, 1.0);
             self.name.resize(k + 1, None);
         }
         self.at[k] = record.at;
         self.start[k] = record.start;
         self.is_frozen[k] = record.is_frozen;
-        self.weight[k] = record.weight;
+        self.set_weight(id, record.weight);
         self.name[k] = Some(record.name);
         self.n_alive += 1;
     }
@@ -118,7 +128,7 @@ impl Points {
             at: self.at[k],
             start: self.start[k],
             is_frozen: self.is_frozen[k],
-            weight: self.weight[k],
+            weight: self.weight(id),
         }
     }
 }
