@@ -181,13 +181,9 @@ impl<'a> Reader<'a> {
         if self.text.as_bytes()[outermost] == b'{' {
             let head = start..self.text[..outermost].trim_end().len().max(start);
             let piece = Piece { head, block: Some(end..end), whole: start..end };
-            if self.statement(&piece).is_err() {
-                return State::Broken;
-            }
-            return match self.state(Layout::new(self.text, outermost + 1..end)) {
-                State::Broken => State::Broken,
-                State::Whole | State::Open => State::Open,
-            };
+            // A mistake within the block is told when it is closed: told at once, the rest of the
+            // block would be taken for statements of their own.
+            return if self.statement(&piece).is_ok() { State::Open } else { State::Broken };
         }
         let piece = Piece { head: start..end, block: None, whole: start..end };
         match self.statement(&piece) {
