@@ -2,8 +2,8 @@
 //!
 //! The scripts of `scripts/bench` in a session with default settings and no output. All of a
 //! script but its last statement is setting up and not timed; one iteration is one frame, of as
-//! many as the bench asks for in one statement. Times are of the processor. Further: a sweep of the method `relaxation`, and
-//! what a statement costs.
+//! many as the bench asks for in one statement. Times are of the processor. Further: a sweep of
+//! the method `relaxation`, what a statement costs, and the functions of `libm`.
 
 use std::time::Duration;
 
@@ -196,6 +196,36 @@ fn statement(c: &mut Criterion) {
     group.finish();
 }
 
+/// The functions of `libm`, whose bits are the same on every platform, against those of the
+/// standard library, whose are not.
+fn functions(c: &mut Criterion) {
+    let angles: Vec<f64> = (0..1000).map(|k| 0.0123 * f64::from(k)).collect();
+    let mut group = c.benchmark_group("function");
+    group.throughput(Throughput::Elements(angles.len() as u64));
+    let mut both = |name: &str, ours: fn(f64) -> f64, std: fn(f64) -> f64| {
+        for (whose, f) in [("libm", ours), ("std", std)] {
+            group.bench_function(BenchmarkId::new(name, whose), |b| {
+                b.iter(|| angles.iter().map(|a| f(*a)).sum::<f64>());
+            });
+        }
+    };
+    both("sin", libm::sin, f64::sin);
+    both(
+        "sin and cos",
+        |a| {
+            let (s, c) = libm::sincos(a);
+            s + c
+        },
+        |a| {
+            let (s, c) = a.sin_cos();
+            s + c
+        },
+    );
+    both("atan2", |a| libm::atan2(a, 3.0), |a| a.atan2(3.0));
+    both("hypot", |a| libm::hypot(a, 3.0), |a| a.hypot(3.0));
+    group.finish();
+}
+
 fn config() -> Criterion {
     Criterion::default()
         .warm_up_time(Duration::from_millis(300))
@@ -205,6 +235,6 @@ fn config() -> Criterion {
 criterion_group! {
     name = benches;
     config = config();
-    targets = workloads, growth, relaxation, statement
+    targets = workloads, growth, relaxation, statement, functions
 }
 criterion_main!(benches);

@@ -48,7 +48,7 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         return settle(island, limits, work);
     }
     let n_free = island.n_free;
-    island.history.begin(&island.x[..n_free]);
+    island.history.begin(&island.x[..n_free], island.highest_degree());
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
         restrain(island, limits, work);

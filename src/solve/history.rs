@@ -9,8 +9,8 @@ const WEIGHTS: [[f64; 4]; 4] =
 /// The last converged poses of the free points of an island, one a frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct History {
-    /// Four poses in a ring, one after the other; only one where nothing is to be expected from
-    /// them, none until a frame was solved.
+    /// Poses in a ring, one after the other: four, or as many as the motion is expected from;
+    /// none until a frame was solved.
     poses: Vec<Point>,
     /// The points of a pose.
     n_points: usize,
@@ -36,11 +36,13 @@ impl History {
         self.n_past = 0;
     }
 
-    /// Keeps the pose that a frame begins with.
-    pub fn begin(&mut self, free: &[Point]) {
+    /// Keeps the pose that a frame begins with; `degree` is the highest up to which the motion
+    /// of a point is smooth.
+    pub fn begin(&mut self, free: &[Point], degree: u8) {
         let n = free.len();
-        if self.poses.len() != 4 * n {
-            *self = Self { poses: vec![Point::ORIGIN; 4 * n], n_points: n, ..Self::default() };
+        let n_poses = if degree > 1 { 4 } else { 2 };
+        if self.poses.len() != n_poses * n || self.n_points != n {
+            *self = Self::with_past(&self.to_past(), n, n_poses);
         }
         self.poses[self.head * n..][..n].copy_from_slice(free);
     }
@@ -53,6 +55,11 @@ impl History {
         *self = Self { poses, n_points: free.len(), ..Self::default() };
     }
 
+    /// How many poses the ring has: 1, 2 or 4.
+    fn n_poses(&self) -> usize {
+        (self.poses.len() / self.n_points.max(1)).max(1)
+    }
+
     /// The pose the frame began with.
     pub fn origin(&self) -> &[Point] {
         self.past(0)
@@ -60,8 +67,8 @@ impl History {
 
     /// The pose of `k` frames before that.
     pub fn past(&self, k: usize) -> &[Point] {
-        let n = self.n_points;
-        &self.poses[((self.head + 4 - k) & 3) * n..][..n]
+        let (n, n_poses) = (self.n_points, self.n_poses());
+        &self.poses[((self.head + n_poses - k) & (n_poses - 1)) * n..][..n]
     }
 
     /// Puts the points where they are expected at the end of the frame; `degree` is the
@@ -70,7 +77,7 @@ impl History {
         if self.n_past == 0 {
             return false;
         }
-        let past = [self.past(0), self.past(1), self.past(2), self.past(3)];
+        let past = [0, 1, 2, 3].map(|k| self.past(k.min(self.n_past)));
         for (k, (to, degree)) in free.iter_mut().zip(degree).enumerate() {
             let weights = &WEIGHTS[self.n_past.min(*degree as usize)];
             // Differences to the present place, so that nothing is lost far from the origin.
@@ -86,8 +93,9 @@ impl History {
 
     /// The frame was solved: its beginning is past.
     pub fn advance(&mut self) {
-        self.head = (self.head + 1) & 3;
-        self.n_past = (self.n_past + 1).min(3);
+        let n_poses = self.n_poses();
+        self.head = (self.head + 1) & (n_poses - 1);
+        self.n_past = (self.n_past + 1).min(n_poses - 1);
     }
 
     /// The past poses, the latest first, for keeping.
@@ -97,13 +105,18 @@ impl History {
 
     /// The history with these past poses of `n_free` points, the latest first.
     pub fn from_past(past: &[Point], n_free: usize) -> Self {
-        if past.is_empty() || n_free == 0 {
-            return Self::default();
+        if past.is_empty() { Self::default() } else { Self::with_past(past, n_free, 4) }
+    }
+
+    fn with_past(past: &[Point], n_points: usize, n_poses: usize) -> Self {
+        let poses = vec![Point::ORIGIN; n_poses * n_points];
+        let mut history = Self { poses, n_points, head: n_poses - 1, n_past: 0 };
+        if n_points == 0 || past.len() % n_points != 0 {
+            return history;
         }
-        let poses = vec![Point::ORIGIN; 4 * n_free];
-        let mut history = Self { poses, n_points: n_free, head: 3, n_past: 0 };
-        for (k, pose) in past.chunks_exact(n_free).take(3).enumerate() {
-            history.poses[(2 - k) * n_free..][..n_free].copy_from_slice(pose);
+        for (k, pose) in past.chunks_exact(n_points).take(n_poses - 1).enumerate() {
+            let at = history.head - 1 - k;
+            history.poses[at * n_points..][..n_points].copy_from_slice(pose);
             history.n_past = k + 1;
         }
         history
@@ -117,7 +130,7 @@ mod tests {
     fn after(n: usize, degree: u8) -> Option<f64> {
         let mut history = History::default();
         for k in 0..n {
-            history.begin(&[Point::new((k as f64).powi(3), 0.0)]);
+            history.begin(&[Point::new((k as f64).powi(3), 0.0)], degree);
             if k + 1 < n {
                 history.advance();
             }
@@ -137,13 +150,13 @@ mod tests {
     fn a_kept_history_expects_the_same() {
         let mut history = History::default();
         for k in 0..6 {
-            history.begin(&[Point::new(f64::from(k * k), 1.0)]);
+            history.begin(&[Point::new(f64::from(k * k), 1.0)], 3);
             history.advance();
         }
         let mut kept = History::from_past(&history.to_past(), 1);
         let mut both = [[Point::ORIGIN]; 2];
         for (history, free) in [&mut history, &mut kept].into_iter().zip(&mut both) {
-            history.begin(&[Point::new(36.0, 1.0)]);
+            history.begin(&[Point::new(36.0, 1.0)], 3);
             assert!(history.predict(&[3], free));
         }
         assert_eq!(both[0], both[1]);

@@ -251,6 +251,11 @@ impl Island {
         }
     }
 
+    /// Up to which degree the motion of any point is smooth enough to extrapolate.
+    pub fn highest_degree(&self) -> u8 {
+        self.degree.iter().copied().max().unwrap_or(0)
+    }
+
     /// Whether the motion of what is solved as a whole counts as smooth.
     pub fn is_smooth(&self) -> bool {
         let first = self.plan.rest.first().and_then(|part| part.points.first());

@@ -157,6 +157,9 @@ pub(super) fn solve(
             Task::Frame => auto::frame(island, limits, work),
             Task::Relax | Task::Settle => struggle::settle(island, limits, work),
         };
+        if task == Task::Frame && !outcome.is_converged() {
+            island.begin_velocities();
+        }
         return (outcome, None);
     }
     island.history.forget();
