@@ -27,7 +27,7 @@ fn check(mut s: Scene, n: usize, edit: impl Fn(&mut Scene)) {
     run(&mut s, n);
     edit(&mut s);
     let mut loaded = Scene { world: s.world.clone(), solver: Solver::new(), settings: s.settings };
-    loaded.world.take_touched(Touched::default());
+    loaded.world.take_touched(Box::new(Touched::default()));
     loaded.solver.set_memory(through_numbers(&s.solver.memory()));
     for frame in 0..n {
         let (one, other) = (s.step(), loaded.step());

@@ -26,7 +26,7 @@ pub struct Solver {
     awake: Vec<u32>,
     is_awake: Vec<bool>,
     /// Room for the lists of what changed.
-    touched: Touched,
+    touched: Option<Box<Touched>>,
     /// Room for the list of those that are visited now.
     due: Vec<u32>,
     /// Islands that could follow until the last frame and could not in it.
@@ -254,6 +254,9 @@ impl Solver {
         cause: Cause,
         work: &mut Counters,
     ) -> Vec<u32> {
+        if !self.is_stale && world.is_untouched() && self.settings.as_ref() == Some(settings) {
+            return Vec::new();
+        }
         let before = self.settings.replace(*settings);
         let is_doubtful = before.is_some_and(|before| {
             (before.method, before.tolerance) != (settings.method, settings.tolerance)
@@ -261,11 +264,11 @@ impl Solver {
         if is_doubtful {
             self.doubt(|_| true);
         }
-        let mut touched = world.take_touched(std::mem::take(&mut self.touched));
+        let mut touched = world.take_touched(self.touched.take().unwrap_or_default());
         if std::mem::take(&mut self.is_stale) {
             // What is remembered is what counts: forget the rest.
             self.topology = Topology::default();
-            touched = Touched::everything();
+            *touched = Touched::everything();
         }
         if !touched.constraints.is_empty() {
             // A constraint that was changed but holds as many equations on the same points as
@@ -328,7 +331,7 @@ impl Solver {
                 }
             }
         }
-        self.touched = touched;
+        self.touched = Some(touched);
         made
     }
 

@@ -57,7 +57,7 @@ pub struct World {
     ghosts: Vec<Ghost>,
     live: live::Live,
     point_users: users::PointUsers,
-    touched: Touched,
+    touched: Box<Touched>,
     revision: u64,
 }
 
@@ -161,7 +161,7 @@ impl World {
     }
 
     /// What changed since this was last asked for. `room` lends its lists to what comes next.
-    pub fn take_touched(&mut self, mut room: Touched) -> Touched {
+    pub fn take_touched(&mut self, mut room: Box<Touched>) -> Box<Touched> {
         room.clear();
         let mut touched = std::mem::replace(&mut self.touched, room);
         if touched.all {
