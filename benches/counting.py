@@ -13,7 +13,7 @@ import tempfile
 
 from program import build, table
 
-FRAMES = 200
+FRAMES = 2000
 
 FOUR_BAR = """
 point A = (0, 0) frozen, D = (4, 0) frozen

@@ -170,6 +170,9 @@ fn no_wheels_no_evaluations_of_wheels() {
     assert_eq!(work(FOUR_BAR).wheel_evaluations, 0);
     let all = [EFFECTS[2].1, EFFECTS[3].1, EFFECTS[4].1, EFFECTS[5].1].join("\n");
     assert_eq!(work(&format!("{FOUR_BAR}{all}")).wheel_evaluations, 0);
+    // And each frame looks at a wheel that is there.
+    let cog = "point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1\n";
+    assert!(work(&format!("{FOUR_BAR}{cog}")).wheel_evaluations >= COUNTED as u64);
 }
 
 #[test]
