@@ -253,6 +253,8 @@ impl Island {
             self.feasible = Some(self.x[..self.n_free].into());
         }
         self.status = Status::Stalled;
+        // A saddle of what was is not one of what is.
+        self.is_probed = false;
         self.is_edited = true;
         self.history.forget();
         self.inputs.clear();

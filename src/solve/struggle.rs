@@ -15,10 +15,59 @@ const FAR: f64 = 1e-3;
 const FIRST_ORDER_STEPS: u32 = 300;
 /// How far points are pushed to leave a saddle, relative to the size.
 const PUSH: f64 = 1e-4;
+/// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
+/// between two looks at what they reached.
+const MOST_SWEPT: u32 = 200_000;
+const SWEEPS_A_ROUND: u32 = 1_000;
 /// The paper's coefficient, for relaxation as a first step.
 const GENTLE: f64 = 0.5;
+/// Rounds of a solve that may take as long as it likes: nearly parallel lines and far places take
+/// some hundred.
+const MOST_ROUNDS: u32 = 300;
+/// So many in a row that do not gain this part of the energy lead nowhere. One may: what makes an
+/// angle a distance changes on the way.
+const MOST_IDLE: u32 = 5;
+const PROGRESS: f64 = 1e-3;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
+
+/// Solves an island while time stands still, however long that takes as long as it gets on.
+pub(super) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    let start: Box<[Point]> = island.x[..island.n_free].into();
+    let mut outcome = settle(island, limits, work);
+    let (mut least, mut n_idle) = (outcome.energy, 0);
+    for _ in 0..MOST_ROUNDS {
+        if outcome.status != Status::Stalled || n_idle == MOST_IDLE || limits.budget.is_spent() {
+            break;
+        }
+        let n_iterations = outcome.n_iterations;
+        outcome = settle(island, limits, work);
+        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
+        n_idle = if outcome.energy < (1.0 - PROGRESS) * least { 0 } else { n_idle + 1 };
+        least = least.min(outcome.energy);
+    }
+    if !outcome.is_converged() && !limits.budget.is_spent() {
+        let n_sweeps = MOST_SWEPT / island.constraints.len() as u32;
+        let mut room = island.take_room();
+        outcome = relax_first(island, &mut room, &start, outcome, n_sweeps, limits, work);
+        island.room = Some(room);
+        if outcome.is_converged() {
+            arrive(island);
+        }
+    }
+    outcome
+}
+
+/// Everything holds, at a pose that counts.
+fn arrive(island: &mut Island) {
+    island.feasible = None;
+    island.is_probed = false;
+    island.accept_pose();
+    island.update_sides();
+    if island.plan.is_complete() {
+        island.room = None;
+    }
+}
 
 /// Solves an island from where it stands, or from its last feasible pose.
 pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
@@ -50,18 +99,13 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         island.is_probed = true;
         best = probe(island, &mut room, best, limits, work);
         if !best.is_converged() {
-            best = relax_first(island, &mut room, &start, best, limits, work);
+            let n_sweeps = limits.n_iterations;
+            best = relax_first(island, &mut room, &start, best, n_sweeps, limits, work);
         }
     }
     island.room = Some(room);
     if best.is_converged() {
-        island.feasible = None;
-        island.is_probed = false;
-        island.accept_pose();
-        island.update_sides();
-        if island.plan.is_complete() {
-            island.room = None;
-        }
+        arrive(island);
     }
     best
 }
@@ -119,13 +163,14 @@ fn probe(
     before
 }
 
-/// Relaxes from the start before the Newton steps: of the many best fits of a scene that
-/// contradicts itself the one taken is no worse than the one the paper's method finds.
+/// Relaxes from the start, in so many sweeps, before the Newton steps: of the many best fits of a
+/// scene that contradicts itself the one taken is no worse than the one the paper's method finds.
 fn relax_first(
     island: &mut Island,
     room: &mut Box<Workspace>,
     start: &[Point],
     before: Outcome,
+    n_sweeps: u32,
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
@@ -136,7 +181,16 @@ fn relax_first(
     let mut spectrum = Spectrum::new(&island.points[..n_free]);
     let largest = spectrum.largest(&room.equations, &room.rows, |_| 1.0);
     let mut coefficient = Coefficient::at_most(GENTLE, largest);
-    relaxation::solve(island, &mut coefficient, limits, work);
+    let mut left = n_sweeps;
+    while left > 0 {
+        let n_iterations = left.min(SWEEPS_A_ROUND);
+        left -= n_iterations;
+        let round = Limits { n_iterations, ..*limits };
+        let relaxed = relaxation::solve(island, &mut coefficient, &round, work);
+        if relaxed.status != Status::Stalled || limits.budget.is_spent() {
+            break;
+        }
+    }
     let after = descend(island, room, limits, work);
     if is_better(&after, &before) {
         return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
