@@ -28,6 +28,9 @@ const MOST_ROUNDS: u32 = 300;
 /// angle a distance changes on the way.
 const MOST_IDLE: u32 = 5;
 const PROGRESS: f64 = 1e-3;
+/// An energy below this part of that at the last push is of another scene: a chain that was pulled
+/// straight and is let back by a hair has a saddle where it had a best fit.
+const MUCH_LESS: f64 = 1e-2;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
 
@@ -61,7 +64,7 @@ pub(super) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Co
 /// Everything holds, at a pose that counts.
 fn arrive(island: &mut Island) {
     island.feasible = None;
-    island.is_probed = false;
+    island.probed_at = 0.0;
     island.accept_pose();
     island.update_sides();
     if island.plan.is_complete() {
@@ -95,8 +98,10 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         }
         island.feasible = Some(feasible);
     }
-    if !best.is_converged() && !island.is_probed && !limits.budget.is_spent() {
-        island.is_probed = true;
+    // Pushing once is enough as long as the scene is about as wrong as then.
+    let is_probed = island.probed_at > 0.0 && best.energy >= MUCH_LESS * island.probed_at;
+    if !best.is_converged() && !is_probed && !limits.budget.is_spent() {
+        island.probed_at = best.energy.min(f64::MAX);
         best = probe(island, &mut room, best, limits, work);
         if !best.is_converged() {
             let n_sweeps = limits.n_iterations;
