@@ -135,12 +135,13 @@ fn make(text: &str, method: Method, most: Option<f64>) -> Made {
         let statement = statement.unwrap_or_else(|why| panic!("{}\n{text}", why.message));
         let Some(statement) = ease(&statement, most) else { continue };
         talking.talk.told();
+        let frame = talking.session.world().clock().frame;
         // A script may be right to be refused, where it says so.
         if talking.session.execute(&statement).is_err() {
             continue;
         }
         made.look(&talking.session);
-        let is_run = is_run(&statement);
+        let is_run = talking.session.world().clock().frame != frame;
         let mut claims = talking.talk.told().iter().any(|told| told.starts_with("converged"));
         let mut tolerance = 1e-12;
         if is_run && let Some(summary) = talking.session.last_run() {
