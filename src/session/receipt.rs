@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::Session;
 use super::run::format_rounded;
+use super::subject::listed;
 use crate::constraint::Constraint;
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::solve::{Method, Report, Settings, Status};
@@ -228,7 +229,8 @@ impl Session {
 
     /// Warns of frames that may have changed branch.
     fn tell_turned_over(&mut self, summary: &Summary) {
-        let (&[(frame, _), ..], Some(span)) = (&summary.turned_over[..], summary.turned_over_at)
+        let (&[(frame, point), ..], Some(span)) =
+            (&summary.turned_over[..], summary.turned_over_at)
         else {
             return;
         };
@@ -237,16 +239,17 @@ impl Session {
             1 => format!("frame {frame} may have changed branch"),
             n => format!("{n} frames may have changed branch, the first is frame {frame}"),
         };
-        let events = summary.turned_over.iter().map(|&(frame, point)| {
-            let name = self.world.points().name(point);
-            if n == 1 { format!("`{name}`") } else { format!("`{name}` in frame {frame}") }
-        });
-        let events: Vec<String> = events.collect();
-        let more = match n - events.len() as u64 {
-            0 => String::new(),
-            n => format!(", then in {n} more"),
+        let name = |point| self.world.points().name(point);
+        let events = summary.turned_over.iter();
+        let mut events: Vec<String> =
+            events.map(|&(frame, point)| format!("`{}` in frame {frame}", name(point))).collect();
+        if n > events.len() as u64 {
+            events.push(format!("{} more", n - events.len() as u64));
+        }
+        let label = match n {
+            1 => format!("`{}` changed sides in a single jump", name(point)),
+            _ => format!("changed sides in a single jump: {}", listed(&events, "and")),
         };
-        let label = format!("{}{more} changed sides in a single jump", events.join(", "));
         let warning = Diagnostic::warning(message).at(span, label);
         self.warn(&warning.help("smaller frames (`set dt`) follow the motion"));
     }

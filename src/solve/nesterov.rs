@@ -81,7 +81,7 @@ pub(super) fn solve(
         room.equations.scatter(&here, pose.x);
         room.evaluate(pose, work);
     }
-    if !(room.rows.energy <= energy_at_start) {
+    if room.rows.energy.is_nan() || room.rows.energy > energy_at_start {
         room.equations.scatter(&best, pose.x);
         room.evaluate(pose, work);
     }
