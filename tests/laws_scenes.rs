@@ -298,3 +298,19 @@ fn a_session_saved_after_a_change_of_settings_solves_anew_as_the_one_it_was_save
         assert_ne!(again.session.to_script(), kept);
     }
 }
+
+#[test]
+fn a_session_saved_after_a_point_was_deleted_leaves_a_saddle_to_the_same_side() {
+    let mut talking = Talking::after(
+        "point p0 = (0, 0) frozen, p1 = (0, -1.5) frozen, p2 = (0, 0) frozen, p4 = (0.8, 0) frozen
+         point p5 = (0, 2.1), p6 = (-0.7, -0.1) frozen
+         length p6 p5 = 0
+         orientation p1 p4, p0 p5 = 0.288
+         delete p2",
+    );
+    let mut again = Talking::after(&talking.session.to_script());
+    for session in [&mut talking, &mut again] {
+        session.run("step 3");
+    }
+    assert_eq!(again.session.to_script(), talking.session.to_script());
+}

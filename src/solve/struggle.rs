@@ -156,8 +156,9 @@ fn probe(
 ) -> Outcome {
     let n_free = island.n_free;
     let here: Box<[Point]> = island.x[..n_free].into();
-    for (x, id) in island.x[..n_free].iter_mut().zip(&island.points) {
-        let push = Vector::new(noise(2 * id.0), noise(2 * id.0 + 1));
+    // By place and not by handle, which a saved session gives anew.
+    for (k, x) in (0..).zip(&mut island.x[..n_free]) {
+        let push = Vector::new(noise(2 * k), noise(2 * k + 1));
         *x += push * (PUSH * limits.size);
     }
     let after = descend(island, room, limits, work);
