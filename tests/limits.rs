@@ -329,3 +329,22 @@ fn a_jump_to_the_other_branch_is_not_silent() {
     assert_eq!(told.iter().any(|t| t.contains("may have changed branch")), is_over, "{told:?}");
     talking.run("drag B to (2, 0) over 1\ndrag B to (-2, -0.1) over 100");
 }
+
+#[test]
+fn each_frame_that_may_have_changed_branch_is_told_but_not_all_of_very_many() {
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (2, 0) frozen, C = (1, 0.4)
+         length A C = 1.2; length B C = 1.1
+         solve",
+    );
+    talking.talk.told();
+    // To the other side of A and back, each time in one frame.
+    talking.run("for i in 1..7 { drag B to (-2, -0.1) over 1; drag B to (2, 0.1) over 1 }");
+    let told = talking.talk.told();
+    assert_eq!(told[0], "14 frames may have changed branch, the first is frame 1");
+    let summary = talking.session.last_run().unwrap();
+    let frames: Vec<u64> = summary.turned_over.iter().map(|(frame, _)| *frame).collect();
+    assert_eq!((frames, summary.n_turned_over), (vec![1, 2, 3, 4, 5], 14));
+    talking.run("drag B to (1.9, 0) over 20");
+    assert_eq!(talking.session.last_run().unwrap().n_turned_over, 0);
+}

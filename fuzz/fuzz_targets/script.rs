@@ -13,7 +13,10 @@ use linkwork::session::{Host, Session};
 
 /// An outside whose patience ends, whose clock goes on when it is looked at, and which has no
 /// files: nothing is read, and what is written goes nowhere.
-struct Impatient(Cell<u32>);
+struct Impatient {
+    n_asked: Cell<u32>,
+    patience: u32,
+}
 
 /// How often it may be asked to go on, or the time, in one script: after each statement, between
 /// frames, between chunks of iterations.
@@ -30,7 +33,7 @@ impl Host for Impatient {
     fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
 
     fn is_interrupted(&self) -> bool {
-        self.asked() > PATIENCE
+        self.asked() > self.patience
     }
 
     fn read(&mut self, _path: &Path) -> io::Result<String> {
@@ -53,20 +56,20 @@ impl Host for Impatient {
 impl Impatient {
     /// How often it was asked something, this time included.
     fn asked(&self) -> u32 {
-        self.0.set(self.0.get().saturating_add(1));
-        self.0.get()
+        self.n_asked.set(self.n_asked.get().saturating_add(1));
+        self.n_asked.get()
     }
 }
 
-fn session() -> Session {
-    Session::new(Box::new(Impatient(Cell::new(0))))
+fn session(patience: u32) -> Session {
+    Session::new(Box::new(Impatient { n_asked: Cell::new(0), patience }))
 }
 
 fuzz_target!(|text: &str| {
     if text.contains(UNSTOPPABLE) {
         return;
     }
-    let mut session = session();
+    let mut session = session(PATIENCE);
     let source = session.add_source("fuzz", text, None);
     for statement in parse(source, text).take(MOST_STATEMENTS) {
         let Ok(statement) = statement else { continue };
@@ -81,7 +84,8 @@ fuzz_target!(|text: &str| {
         }
     }
     let kept = session.to_script();
-    let mut again = self::session();
+    // What is kept lets no time pass.
+    let mut again = self::session(u32::MAX);
     let source = again.add_source("kept", &kept, None);
     if let Err(why) = again.execute_all(source) {
         panic!("{}: {:?}\n{kept}", why.message, why.labels);

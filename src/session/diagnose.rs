@@ -2,7 +2,7 @@
 
 use super::describe::text_of;
 use super::run::{format_digits, format_rounded};
-use super::subject::{Subject, listed};
+use super::subject::{Subject, listed, listed_first};
 use super::{Diagnostic, Session};
 use crate::constraint::{Bounds, Constraint, Field, Kind, Period, Relation as _};
 use crate::lang::ast::{ChangePart, Command, Name};
@@ -11,6 +11,9 @@ use crate::solve::mobility::{
     Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
 };
 use crate::world::{ConstraintId, Edit, Entity, PointId};
+
+/// More redundant constraints than this are counted.
+const MOST_REDUNDANT: usize = 30;
 
 /// What `check` finds, with names.
 #[derive(Debug, Clone)]
@@ -63,11 +66,14 @@ impl Check {
     /// The findings as lines of text.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("degrees of freedom: {}", self.degrees_of_freedom)];
-        for (name, depends_on) in &self.redundant {
+        for (name, depends_on) in self.redundant.iter().take(MOST_REDUNDANT) {
             lines.push(match &depends_on[..] {
                 [] => format!("redundant: {name}"),
                 others => format!("redundant: {name}, implied by {}", others.join(", ")),
             });
+        }
+        if let Some(n) = self.redundant.len().checked_sub(MOST_REDUNDANT).filter(|n| *n > 0) {
+            lines.push(format!("redundant: {n} more, `why` tells of each"));
         }
         for (names, residual) in &self.conflicting {
             let residual = format_rounded(*residual);
@@ -304,7 +310,7 @@ impl Session {
         let held = subject.names(&found.held_by);
         let verb =
             |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
-        let held_by = listed(&held, "and");
+        let held_by = listed_first(&held);
         vec![match found.directions {
             Directions::All => format!("{name} can move in every direction"),
             Directions::None if held.is_empty() => format!("{name} cannot move"),

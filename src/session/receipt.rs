@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::Session;
 use super::run::format_rounded;
+use super::subject::listed;
 use crate::constraint::Constraint;
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::solve::{Method, Report, Settings, Status};
@@ -33,8 +34,8 @@ pub struct Summary {
     pub tolerance: f64,
     /// Frames after which something may be on another branch of its motion.
     pub n_turned_over: u64,
-    /// The first of them, as the clock counts, and a point that changed sides.
-    pub first_turned_over: Option<(u64, PointId)>,
+    /// The first few of them, as the clock counts, each with a point that changed sides.
+    pub turned_over: Vec<(u64, PointId)>,
     /// Wall time of all frames together, seconds.
     pub seconds: f64,
     /// How the frames were solved, with the number of frames each.
@@ -58,6 +59,8 @@ pub struct Way {
     pub iterations: u32,
 }
 
+/// Frames that may have changed branch, each told by its number.
+const MOST_TURNED_OVER: usize = 5;
 /// Ways that are told before it becomes too many.
 const MOST_WAYS: usize = 4;
 /// Scenes up to so many constraints are analysed for the receipt of every run: it takes less
@@ -82,7 +85,7 @@ impl Summary {
             lowered_rho: None,
             tolerance: 0.0,
             n_turned_over: 0,
-            first_turned_over: None,
+            turned_over: Vec::new(),
             seconds: 0.0,
             ways: Vec::new(),
             position_error: None,
@@ -118,7 +121,9 @@ impl Summary {
         }
         if let Some(point) = report.turned_over {
             self.n_turned_over += 1;
-            self.first_turned_over.get_or_insert((frame, point));
+            if self.turned_over.len() < MOST_TURNED_OVER {
+                self.turned_over.push((frame, point));
+            }
             self.turned_over_at.get_or_insert(span);
         }
         if let Some(rho) = report.lowered_rho {
@@ -224,17 +229,27 @@ impl Session {
 
     /// Warns of frames that may have changed branch.
     fn tell_turned_over(&mut self, summary: &Summary) {
-        let (Some((frame, point)), Some(span)) =
-            (summary.first_turned_over, summary.turned_over_at)
+        let (&[(frame, point), ..], Some(span)) =
+            (&summary.turned_over[..], summary.turned_over_at)
         else {
             return;
         };
-        let name = self.world.points().name(point);
-        let message = match summary.n_turned_over {
+        let n = summary.n_turned_over;
+        let message = match n {
             1 => format!("frame {frame} may have changed branch"),
             n => format!("{n} frames may have changed branch, the first is frame {frame}"),
         };
-        let label = format!("`{name}` changed sides in a single jump");
+        let name = |point| self.world.points().name(point);
+        let events = summary.turned_over.iter();
+        let mut events: Vec<String> =
+            events.map(|&(frame, point)| format!("`{}` in frame {frame}", name(point))).collect();
+        if n > events.len() as u64 {
+            events.push(format!("{} more", n - events.len() as u64));
+        }
+        let label = match n {
+            1 => format!("`{}` changed sides in a single jump", name(point)),
+            _ => format!("changed sides in a single jump: {}", listed(&events, "and")),
+        };
         let warning = Diagnostic::warning(message).at(span, label);
         self.warn(&warning.help("smaller frames (`set dt`) follow the motion"));
     }

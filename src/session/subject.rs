@@ -98,6 +98,18 @@ impl Session {
     }
 }
 
+/// More names than this in one sentence are counted.
+const MOST_NAMES: usize = 8;
+
+/// The first of many names as a list in words: `a, b, c and 20 more`.
+pub(super) fn listed_first(names: &[String]) -> String {
+    if names.len() <= MOST_NAMES + 1 {
+        return listed(names, "and");
+    }
+    let (first, others) = names.split_at(MOST_NAMES);
+    format!("{} and {} more", first.join(", "), others.len())
+}
+
 /// Names as a list in words: `a`, `a and b`, `a, b and c`.
 pub(super) fn listed<S: AsRef<str>>(names: &[S], last: &str) -> String {
     match names {

@@ -47,7 +47,7 @@ pub(super) fn solve(
         if !(along < 0.0 && curvature > 0.0) {
             return room.outcome(Status::BestFit, n);
         }
-        let longest = LONGEST_STEP * limits.size / room.equations.reach(&room.step);
+        let longest = limits.longest_step(LONGEST_STEP, room) / room.equations.reach(&room.step);
         let t = factor * (-along / curvature).min(longest);
         let start = room.rows.energy;
         if -along * t < INVISIBLE * start {

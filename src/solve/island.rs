@@ -55,8 +55,9 @@ pub(super) struct Island {
     /// Whether the user edited it since it was solved: it is solved as it is before time
     /// goes on.
     pub is_edited: bool,
-    /// Whether a way off a saddle was looked for since the last converged pose.
-    pub is_probed: bool,
+    /// The energy at which a way off a saddle was last looked for; 0 if not since the last
+    /// converged pose.
+    pub probed_at: f64,
     /// What tells when a part that is solved as a whole turned over.
     pub watch: Watch,
     /// A point that may be on another branch since this frame.
@@ -178,7 +179,7 @@ impl Island {
             feasible: None,
             is_new: true,
             is_edited: false,
-            is_probed: false,
+            probed_at: 0.0,
             inputs: Inputs::default(),
             before: None,
             wanted: None,
@@ -272,6 +273,8 @@ impl Island {
             self.feasible = Some(self.x[..self.n_free].into());
         }
         self.status = Status::Stalled;
+        // A saddle of what was is not one of what is.
+        self.probed_at = 0.0;
         self.is_edited = true;
         self.history.forget();
         self.inputs.clear();

@@ -28,7 +28,7 @@ mod head {
     pub const N_FREE: usize = 0;
     pub const STATUS: usize = 1;
     pub const RESIDUAL: usize = 2;
-    pub const IS_PROBED: usize = 3;
+    pub const PROBED_AT: usize = 3;
     pub const HAS_DEGREE: usize = 4;
     pub const IS_SMOOTH: usize = 5;
     pub const N_PAST: usize = 6;
@@ -137,7 +137,7 @@ fn recall(island: &Island) -> Arc<[f64]> {
         numbers[head::N_FREE] = island.n_free as f64;
         numbers[head::STATUS] = f64::from(island.status as u8);
         numbers[head::RESIDUAL] = island.residual.min(f64::MAX);
-        numbers[head::IS_PROBED] = flag(island.is_probed);
+        numbers[head::PROBED_AT] = island.probed_at;
         numbers[head::IS_EDITED] = flag(island.is_edited);
         numbers[head::HAS_DEGREE] = flag(island.has_degree);
         numbers[head::IS_SMOOTH] = flag(island.is_smooth());
@@ -181,7 +181,7 @@ pub(super) fn restore(island: &mut Island, numbers: &[f64]) {
     island.residual = head[head::RESIDUAL];
     island.is_new = false;
     island.is_edited = head[head::IS_EDITED] != 0.0;
-    island.is_probed = head[head::IS_PROBED] != 0.0;
+    island.probed_at = head[head::PROBED_AT];
     if head[head::HAS_DEGREE] != 0.0 {
         island.set_smooth(head[head::IS_SMOOTH] != 0.0);
     }

@@ -26,6 +26,14 @@ pub(super) struct Limits<'a> {
     pub budget: &'a Budget<'a>,
 }
 
+impl Limits<'_> {
+    /// The longest step that is still a small change: a part of the size, or of the way that is
+    /// left where a constraint asks for a place far outside.
+    pub fn longest_step(&self, part: f64, room: &Workspace) -> f64 {
+        part * self.size.max(0.5 * room.rows.worst)
+    }
+}
+
 /// How a method ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outcome {

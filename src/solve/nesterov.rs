@@ -43,7 +43,8 @@ pub(super) fn solve(
         room.remember(pose);
         let Workspace { step, slope, .. } = room;
         step.iter_mut().zip(&*slope).for_each(|(s, g)| *s = -g / largest);
-        let t = (LONGEST_STEP * limits.size / room.equations.reach(&room.step)).min(1.0);
+        let longest = limits.longest_step(LONGEST_STEP, room);
+        let t = (longest / room.equations.reach(&room.step)).min(1.0);
         if !room.equations.displace(pose.x, &room.before, &room.step, t) {
             room.reject(pose);
             return room.outcome(Status::Stalled, n);

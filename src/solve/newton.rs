@@ -130,7 +130,8 @@ fn descend(
                 return End::Stuck;
             };
             *n += 1;
-            let is_near = room.equations.reach(&room.step) <= LONGEST_STEP * limits.size;
+            let longest = limits.longest_step(LONGEST_STEP, room);
+            let is_near = room.equations.reach(&room.step) <= longest;
             let gained = if is_near { before - room.try_step(pose, 1.0, work) } else { 0.0 };
             let gain = gained / promised;
             if gain > LEAST_GAIN {

@@ -15,10 +15,60 @@ const FAR: f64 = 1e-3;
 const FIRST_ORDER_STEPS: u32 = 300;
 /// How far points are pushed to leave a saddle, relative to the size.
 const PUSH: f64 = 1e-4;
+/// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
+/// between two looks at what they reached.
+const MOST_SWEPT: u32 = 200_000;
+const SWEEPS_A_ROUND: u32 = 1_000;
 /// The paper's coefficient, for relaxation as a first step.
 const GENTLE: f64 = 0.5;
+/// Rounds of a solve that may take as long as it likes: nearly parallel lines and far places take
+/// some hundred.
+const MOST_ROUNDS: u32 = 300;
+/// So many in a row that do not gain this part of the energy lead nowhere. One may: what makes an
+/// angle a distance changes on the way.
+const MOST_IDLE: u32 = 5;
+const PROGRESS: f64 = 1e-3;
+/// An energy below this part of that at the last push is of another scene: a chain that was pulled
+/// straight and is let back by a hair has a saddle where it had a best fit.
+const MUCH_LESS: f64 = 1e-2;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
+
+/// Solves an island while time stands still, however long that takes as long as it gets on.
+pub(super) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    let start: Box<[Point]> = island.x[..island.n_free].into();
+    let mut outcome = settle(island, limits, work);
+    let (mut least, mut n_idle) = (outcome.energy, 0);
+    for _ in 0..MOST_ROUNDS {
+        if outcome.status != Status::Stalled || n_idle == MOST_IDLE || limits.budget.is_spent() {
+            break;
+        }
+        let n_iterations = outcome.n_iterations;
+        outcome = settle(island, limits, work);
+        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
+        n_idle = if outcome.energy < (1.0 - PROGRESS) * least { 0 } else { n_idle + 1 };
+        least = least.min(outcome.energy);
+    }
+    if !outcome.is_converged() && !limits.budget.is_spent() {
+        let n_sweeps = MOST_SWEPT / island.constraints.len() as u32;
+        let mut room = island.take_room();
+        outcome = relax_first(island, &mut room, &start, outcome, n_sweeps, limits, work);
+        island.put_room(room);
+        if outcome.is_converged() {
+            arrive(island);
+        }
+    }
+    outcome
+}
+
+/// Everything holds, at a pose that counts.
+fn arrive(island: &mut Island) {
+    island.feasible = None;
+    island.probed_at = 0.0;
+    island.accept_pose();
+    island.update_sides();
+    island.drop_room();
+}
 
 /// Solves an island from where it stands, or from its last feasible pose.
 pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
@@ -46,20 +96,19 @@ pub(super) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         }
         island.feasible = Some(feasible);
     }
-    if !best.is_converged() && !island.is_probed && !limits.budget.is_spent() {
-        island.is_probed = true;
+    // Pushing once is enough as long as the scene is about as wrong as then.
+    let is_probed = island.probed_at > 0.0 && best.energy >= MUCH_LESS * island.probed_at;
+    if !best.is_converged() && !is_probed && !limits.budget.is_spent() {
+        island.probed_at = best.energy.min(f64::MAX);
         best = probe(island, &mut room, best, limits, work);
         if !best.is_converged() {
-            best = relax_first(island, &mut room, &start, best, limits, work);
+            let n_sweeps = limits.n_iterations;
+            best = relax_first(island, &mut room, &start, best, n_sweeps, limits, work);
         }
     }
     island.put_room(room);
     if best.is_converged() {
-        island.feasible = None;
-        island.is_probed = false;
-        island.accept_pose();
-        island.update_sides();
-        island.drop_room();
+        arrive(island);
     }
     best
 }
@@ -95,7 +144,8 @@ fn descend(
     Outcome { n_iterations, ..last }
 }
 
-/// Pushes the points a little and lets go: a saddle is left for a better place.
+/// Pushes the points a little, one way and then the other, and lets go: a saddle is left for a
+/// better place, which may lie on one side only.
 fn probe(
     island: &mut Island,
     room: &mut Workspace,
@@ -105,25 +155,34 @@ fn probe(
 ) -> Outcome {
     let n_free = island.n_free;
     let here: Box<[Point]> = island.x[..n_free].into();
-    for (x, id) in island.x[..n_free].iter_mut().zip(&island.points) {
-        let push = Vector::new(noise(2 * id.0), noise(2 * id.0 + 1));
-        *x += push * (PUSH * limits.size);
-    }
-    let after = descend(island, room, limits, work);
-    if is_better(&after, &before) {
-        return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
+    let mut n_iterations = before.n_iterations;
+    for way in [1.0, -1.0] {
+        // By place and not by handle, which a saved session gives anew.
+        for (k, (x, here)) in (0..).zip(island.x[..n_free].iter_mut().zip(&here)) {
+            let push = Vector::new(noise(2 * k), noise(2 * k + 1));
+            *x = *here + push * (way * PUSH * limits.size);
+        }
+        let after = descend(island, room, limits, work);
+        n_iterations = n_iterations.saturating_add(after.n_iterations);
+        if is_better(&after, &before) {
+            return Outcome { n_iterations, ..after };
+        }
+        if limits.budget.is_spent() {
+            break;
+        }
     }
     island.x[..n_free].copy_from_slice(&here);
     before
 }
 
-/// Relaxes from the start before the Newton steps: of the many best fits of a scene that
-/// contradicts itself the one taken is no worse than the one the paper's method finds.
+/// Relaxes from the start, in so many sweeps, before the Newton steps: of the many best fits of a
+/// scene that contradicts itself the one taken is no worse than the one the paper's method finds.
 fn relax_first(
     island: &mut Island,
     room: &mut Box<Workspace>,
     start: &[Point],
     before: Outcome,
+    n_sweeps: u32,
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
@@ -134,7 +193,16 @@ fn relax_first(
     let mut spectrum = Spectrum::new(&island.points[..n_free]);
     let largest = spectrum.largest(&room.equations, &room.rows, |_| 1.0);
     let mut coefficient = Coefficient::at_most(GENTLE, largest);
-    relaxation::solve(island, &mut coefficient, limits, work);
+    let mut left = n_sweeps;
+    while left > 0 {
+        let n_iterations = left.min(SWEEPS_A_ROUND);
+        left -= n_iterations;
+        let round = Limits { n_iterations, ..*limits };
+        let relaxed = relaxation::solve(island, &mut coefficient, &round, work);
+        if relaxed.status != Status::Stalled || limits.budget.is_spent() {
+            break;
+        }
+    }
     let after = descend(island, room, limits, work);
     if is_better(&after, &before) {
         return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };

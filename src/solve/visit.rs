@@ -155,7 +155,8 @@ pub(super) fn solve(
     if settings.method == Method::Auto {
         let outcome = match task {
             Task::Frame => auto::frame(island, limits, work),
-            Task::Relax | Task::Settle => struggle::settle(island, limits, work),
+            Task::Relax => struggle::settle(island, limits, work),
+            Task::Settle => struggle::settle_at_last(island, limits, work),
         };
         if task == Task::Frame && !outcome.is_converged() {
             island.begin_velocities();

@@ -61,9 +61,10 @@ pub struct Redundant {
 /// linkages have .07 to .34.
 const NEARLY_SINGULAR: f64 = 1e-3;
 
-/// What may be left of a row that depends on others. Dependent rows of sound scenes leave less
+/// What may be left of a row that depends on others: what counts as a freedom, see
+/// [`projector::TAU`], leaves such a row. Dependent rows of sound scenes leave less
 /// than 1e-12, independent ones more than 1e-2.
-const NOTHING: f64 = 1e-9;
+const NOTHING: f64 = 1e-5;
 
 impl Analysis {
     /// Whether a small error of a length can become a large one of a position.
