@@ -254,7 +254,7 @@ proptest! {
         // 1e-9 contradict each other by no more.
         let (least, most) = (energy(&auto, &auto), energy(&relaxation, &auto));
         let none = (1e-8 * auto.size).powi(2);
-        prop_assert!(!auto.is_best_fit || least <= most * (1.0 + 1e-6) + none, "{least:e} {most:e}\n{kept}");
+        prop_assert!(!auto.is_best_fit || least <= most * (1.0 + 1e-4) + none, "{least:e} {most:e}\n{kept}");
     }
 
     #[test]
