@@ -212,6 +212,10 @@ impl Island {
         for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
             *to = *from;
         }
+        if new == self.constraints[c] {
+            // Deleted and brought back, or set to what it was.
+            return;
+        }
         self.remembered.take();
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.constraints.push((c as u32, old));

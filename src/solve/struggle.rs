@@ -156,16 +156,19 @@ fn probe(
 ) -> Outcome {
     let n_free = island.n_free;
     let here: Box<[Point]> = island.x[..n_free].into();
-    // By place and not by handle, which a saved session gives anew.
-    for (k, x) in (0..).zip(&mut island.x[..n_free]) {
-        let push = Vector::new(noise(2 * k), noise(2 * k + 1));
-        *x += push * (PUSH * limits.size);
+    // At the end of a glider only one of two opposite ways leads anywhere.
+    for way in [PUSH, -PUSH] {
+        // By place and not by handle, which a saved session gives anew.
+        for (k, x) in (0..).zip(&mut island.x[..n_free]) {
+            let push = Vector::new(noise(2 * k), noise(2 * k + 1));
+            *x += push * (way * limits.size);
+        }
+        let after = descend(island, room, limits, work);
+        if is_better(&after, &before) {
+            return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
+        }
+        island.x[..n_free].copy_from_slice(&here);
     }
-    let after = descend(island, room, limits, work);
-    if is_better(&after, &before) {
-        return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
-    }
-    island.x[..n_free].copy_from_slice(&here);
     before
 }
 
