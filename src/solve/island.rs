@@ -219,6 +219,10 @@ impl Island {
         for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
             *to = *from;
         }
+        if new == self.constraints[c] {
+            // Deleted and brought back, or set to what it was.
+            return;
+        }
         self.remembered.take();
         if wanted_length(&new) != wanted_length(&self.constraints[c]) {
             self.wanted = None;

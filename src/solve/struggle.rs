@@ -155,23 +155,19 @@ fn probe(
 ) -> Outcome {
     let n_free = island.n_free;
     let here: Box<[Point]> = island.x[..n_free].into();
-    let mut n_iterations = before.n_iterations;
-    for way in [1.0, -1.0] {
+    // At the end of a glider only one of two opposite ways leads anywhere.
+    for way in [PUSH, -PUSH] {
         // By place and not by handle, which a saved session gives anew.
-        for (k, (x, here)) in (0..).zip(island.x[..n_free].iter_mut().zip(&here)) {
+        for (k, x) in (0..).zip(&mut island.x[..n_free]) {
             let push = Vector::new(noise(2 * k), noise(2 * k + 1));
-            *x = *here + push * (way * PUSH * limits.size);
+            *x += push * (way * limits.size);
         }
         let after = descend(island, room, limits, work);
-        n_iterations = n_iterations.saturating_add(after.n_iterations);
         if is_better(&after, &before) {
-            return Outcome { n_iterations, ..after };
+            return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
         }
-        if limits.budget.is_spent() {
-            break;
-        }
+        island.x[..n_free].copy_from_slice(&here);
     }
-    island.x[..n_free].copy_from_slice(&here);
     before
 }
 
