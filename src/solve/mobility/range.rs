@@ -77,7 +77,7 @@ const NEARLY_SINGULAR: f64 = 1e-2;
 const LEAP: f64 = 1e-3;
 /// Turns after which it is given up to wait for the first pose to come again.
 const MOST_TURNS: u32 = 100;
-const MOST_STEPS: usize = 40_000;
+const MOST_STEPS: usize = 15_000;
 /// Poses nearer than this part of the size are the same.
 const SAME: f64 = 1e-6;
 
