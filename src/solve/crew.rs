@@ -11,25 +11,34 @@ use super::settings::Settings;
 use super::status::{Budget, Counters};
 use super::visit::{Task, Visit, visit};
 
-/// Less work than visiting so many constraints, or half a dozen times as many sweeps over
-/// them, is done sooner than others are called: see docs/performance.md.
-const ENOUGH: usize = 4_000;
-/// The same for one sweep over the constraints of an island.
-const ENOUGH_FOR_A_SWEEP: usize = 20_000;
+/// Less work than so many evaluations of constraints is done sooner than others are called; see
+/// docs/performance.md.
+const ENOUGH: u64 = 30_000;
+/// Islands of which each constraint is evaluated fewer times than that are solved sooner than
+/// they are handed from one core to another.
+const ENOUGH_EACH: u64 = 6;
+/// So many constraints of one island are shared out in each sweep.
+pub(super) const ENOUGH_FOR_A_SWEEP: usize = 20_000;
 
-/// How many constraints or points one core takes at a time.
+/// How many constraints or points one core takes at a time in a sweep.
 pub(super) const SHARE: usize = 2_048;
 /// How many islands.
 const ISLANDS: usize = 16;
 
-/// Whether visiting islands with so many constraints is worth sharing.
-pub(super) fn pays(n_constraints: usize) -> bool {
-    n_constraints >= ENOUGH && rayon::current_num_threads() > 1
+/// Whether visiting islands is worth sharing, by the work they were last time.
+pub(super) fn pays(last: &Effort) -> bool {
+    last.n_evaluations >= ENOUGH
+        && last.n_evaluations >= ENOUGH_EACH * last.n_constraints
+        && rayon::current_num_threads() > 1
 }
 
-/// Whether one sweep over so many constraints is worth sharing.
-pub(super) fn pays_for_a_sweep(n_constraints: usize) -> bool {
-    n_constraints >= ENOUGH_FOR_A_SWEEP && rayon::current_num_threads() > 1
+/// The work that islands were when they were last visited.
+#[derive(Debug, Default)]
+pub(super) struct Effort {
+    /// The constraints they hold.
+    pub n_constraints: u64,
+    /// How often these were evaluated, or something that takes as long was done.
+    pub n_evaluations: u64,
 }
 
 /// An island on its way through a visit.

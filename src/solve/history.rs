@@ -111,7 +111,7 @@ impl History {
     fn with_past(past: &[Point], n_points: usize, n_poses: usize) -> Self {
         let poses = vec![Point::ORIGIN; n_poses * n_points];
         let mut history = Self { poses, n_points, head: n_poses - 1, n_past: 0 };
-        if n_points == 0 || past.len() % n_points != 0 {
+        if n_points == 0 || !past.len().is_multiple_of(n_points) {
             return history;
         }
         for (k, pose) in past.chunks_exact(n_points).take(n_poses - 1).enumerate() {

@@ -50,6 +50,8 @@ pub(super) struct Island {
     pub residual: f64,
     /// The last pose that met everything, kept while none does.
     pub feasible: Option<Box<[Point]>>,
+    /// The work of its last visit: evaluations of constraints, and what takes as long.
+    pub n_evaluations: u32,
     /// Whether it was never solved.
     pub is_new: bool,
     /// Whether the user edited it since it was solved: it is solved as it is before time
@@ -120,6 +122,9 @@ pub(super) struct Member<'a> {
     pub rho: Option<f64>,
 }
 
+/// The evaluations of a constraint that a first visit is expected to make.
+const FIRST_VISIT: u32 = 20;
+
 impl Island {
     /// The island of these constraints; `at` and `w` are the columns of all points.
     pub fn new(
@@ -177,6 +182,7 @@ impl Island {
             status: Status::Stalled,
             residual: f64::INFINITY,
             feasible: None,
+            n_evaluations: FIRST_VISIT * members.len() as u32,
             is_new: true,
             is_edited: false,
             probed_at: 0.0,

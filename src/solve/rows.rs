@@ -1,8 +1,5 @@
 //! The equations of an island, linearised at a pose: normalised and weighted.
 
-use rayon::prelude::*;
-
-use super::crew::{self, SHARE};
 use super::status::Counters;
 use crate::constraint::{Constraint, Kind, Point, PointIdx, Relation, Row, Vector};
 
@@ -26,9 +23,6 @@ pub(super) struct Equations {
     unknown: Vec<u32>,
     /// How many of `constraints` hold wheels.
     n_wheels: u64,
-    /// The first row of every [`SHARE`]-th constraint, and the end: where the rows can be
-    /// parted for several cores. Empty where that does not pay.
-    shares: Vec<u32>,
 }
 
 impl Equations {
@@ -46,7 +40,7 @@ impl Equations {
         }
         let mut start = vec![0];
         let mut unknown = Vec::new();
-        let mut push = |start: &mut Vec<u32>, row: &[PointIdx]| {
+        let mut push = |row: &[PointIdx]| {
             let first = unknown.len();
             for entry in row.iter().filter_map(|&p| unknown_of[p as usize]) {
                 if !unknown[first..].contains(&entry) {
@@ -55,23 +49,18 @@ impl Equations {
             }
             start.push(unknown.len() as u32);
         };
-        let is_shared = crew::pays_for_a_sweep(constraints.len());
-        let mut shares = Vec::new();
-        for (k, &c) in constraints.iter().enumerate() {
-            if is_shared && k % SHARE == 0 {
-                shares.push(start.len() as u32 - 1);
-            }
+        for &c in &constraints {
             let constraint = &all[c as usize];
             if constraint.points().len() <= MOST_POINTS_OF_A_ROW {
-                (0..constraint.n_rows()).for_each(|_| push(&mut start, constraint.points()));
+                (0..constraint.n_rows()).for_each(|_| push(constraint.points()));
             } else {
                 // Large bodies: each row holds the same few points at every pose.
-                constraint.jacobian(x, &mut |row| push(&mut start, &row.points[..row.n_points]));
+                constraint.jacobian(x, &mut |row| push(&row.points[..row.n_points]));
             }
         }
         let n_wheels = constraints.iter().filter(|&&c| is_wheel(&all[c as usize])).count() as u64;
         let root_w = points.iter().map(|&p| w[p as usize].sqrt()).collect();
-        Self { constraints, points, root_w, start, unknown, n_wheels, shares }
+        Self { constraints, points, root_w, start, unknown, n_wheels }
     }
 
     /// The points to move.
@@ -175,33 +164,46 @@ impl Rows {
         self.f.resize(n_rows, 0.0);
         self.bend.resize(n_rows, 0.0);
         self.gradient.resize(2 * equations.unknown.len(), 0.0);
-        let whole = Part {
-            first: 0,
-            raw: &mut self.raw,
-            scale: &mut self.scale,
-            f: &mut self.f,
-            bend: &mut self.bend,
-            gradient: &mut self.gradient,
-        };
-        if equations.shares.is_empty() {
-            whole.evaluate(equations, &equations.constraints, all, x);
-        } else {
-            let shares = equations.constraints.chunks(SHARE).zip(whole.parted(equations));
-            let shares: Vec<_> = shares.collect();
-            shares.into_par_iter().for_each(|(which, part)| {
-                part.evaluate(equations, which, all, x);
+        self.worst = 0.0;
+        self.energy = 0.0;
+        let mut r = 0;
+        for &c in &equations.constraints {
+            all[c as usize].jacobian(x, &mut |row| {
+                self.set(equations, r, &row);
+                r += 1;
             });
         }
-        (self.worst, self.energy) = (0.0, 0.0);
-        for ((raw, scale), f) in self.raw.iter().zip(&self.scale).zip(&self.f) {
-            // A row without a gradient is as far from satisfaction as its value says.
-            let distance = if *scale > 0.0 { f.abs() } else { raw.abs() };
-            self.worst = self.worst.max(distance);
-            self.energy += f * f;
-        }
+        debug_assert_eq!(r, n_rows, "a constraint gives as many rows as it says");
         self.energy *= 0.5;
         work.evaluations += equations.constraints.len() as u64;
         work.wheel_evaluations += equations.n_wheels;
+    }
+
+    fn set(&mut self, equations: &Equations, r: usize, row: &Row) {
+        let entries = equations.start[r] as usize..equations.start[r + 1] as usize;
+        let gradient = &mut self.gradient[2 * entries.start..2 * entries.end];
+        let (gradient, _) = gradient.as_chunks_mut::<2>();
+        let mut squared = 0.0;
+        for (&unknown, to) in equations.unknown[entries].iter().zip(&mut *gradient) {
+            let unknown = unknown as usize;
+            let point = equations.points[unknown];
+            let term = row.terms().find(|&(p, _)| p == point);
+            let g = term.map_or(Vector::ZERO, |(_, g)| g * equations.root_w[unknown]);
+            *to = [g.x, g.y];
+            squared += g.norm_squared();
+        }
+        let scale = if row.is_active && squared > 0.0 { 1.0 / squared.sqrt() } else { 0.0 };
+        gradient.as_flattened_mut().iter_mut().for_each(|g| *g *= scale);
+        let f = row.f * scale;
+        self.raw[r] = row.f;
+        self.scale[r] = scale;
+        self.f[r] = f;
+        let is_stretched = row.span > 0.0 && row.f > 0.0;
+        self.bend[r] = if is_stretched { (row.f / row.span).sqrt() } else { 0.0 };
+        // A row without a gradient is as far from satisfaction as its value says.
+        let distance = if scale > 0.0 { f.abs() } else { row.f.abs() };
+        self.worst = self.worst.max(distance);
+        self.energy += f * f;
     }
 
     /// Half the sum of squares, in the scales of another pose so that both compare.
@@ -280,87 +282,4 @@ fn cross_row(step: &[f64], unknowns: &[u32], gradient: &[f64]) -> f64 {
     let (steps, _) = step.as_chunks::<2>();
     let terms = unknowns.iter().zip(gradient.as_chunks::<2>().0);
     terms.map(|(&u, g)| steps[u as usize][1] * g[0] - steps[u as usize][0] * g[1]).sum()
-}
-
-/// Some rows that follow each other, to be evaluated.
-struct Part<'a> {
-    /// The number of the first of them.
-    first: usize,
-    raw: &'a mut [f64],
-    scale: &'a mut [f64],
-    f: &'a mut [f64],
-    bend: &'a mut [f64],
-    gradient: &'a mut [f64],
-}
-
-impl Part<'_> {
-    /// The parts of the shares of several cores.
-    fn parted(self, equations: &Equations) -> Vec<Self> {
-        let mut left = self;
-        let mut parts = Vec::with_capacity(equations.shares.len());
-        for end in &equations.shares[1..] {
-            let (part, rest) = left.split_at(equations, *end as usize);
-            parts.push(part);
-            left = rest;
-        }
-        parts.push(left);
-        parts
-    }
-
-    fn split_at(self, equations: &Equations, end: usize) -> (Self, Self) {
-        let n = end - self.first;
-        let n_entries = (equations.start[end] - equations.start[self.first]) as usize;
-        let (raw, raw_left) = self.raw.split_at_mut(n);
-        let (scale, scale_left) = self.scale.split_at_mut(n);
-        let (f, f_left) = self.f.split_at_mut(n);
-        let (bend, bend_left) = self.bend.split_at_mut(n);
-        let (gradient, gradient_left) = self.gradient.split_at_mut(2 * n_entries);
-        let part = Self { first: self.first, raw, scale, f, bend, gradient };
-        let left = Self {
-            first: end,
-            raw: raw_left,
-            scale: scale_left,
-            f: f_left,
-            bend: bend_left,
-            gradient: gradient_left,
-        };
-        (part, left)
-    }
-
-    fn evaluate(mut self, equations: &Equations, which: &[u32], all: &[Constraint], x: &[Point]) {
-        let mut k = 0;
-        for &c in which {
-            all[c as usize].jacobian(x, &mut |row| {
-                self.set(equations, k, &row);
-                k += 1;
-            });
-        }
-        debug_assert_eq!(k, self.raw.len(), "a constraint gives as many rows as it says");
-    }
-
-    /// Sets the `k`-th of its rows.
-    #[inline]
-    fn set(&mut self, equations: &Equations, k: usize, row: &Row) {
-        let (start, first) = (&equations.start, self.first);
-        let entries = start[first + k] as usize..start[first + k + 1] as usize;
-        let base = start[first] as usize;
-        let gradient = &mut self.gradient[2 * (entries.start - base)..2 * (entries.end - base)];
-        let (gradient, _) = gradient.as_chunks_mut::<2>();
-        let mut squared = 0.0;
-        for (&unknown, to) in equations.unknown[entries].iter().zip(&mut *gradient) {
-            let unknown = unknown as usize;
-            let point = equations.points[unknown];
-            let term = row.terms().find(|&(p, _)| p == point);
-            let g = term.map_or(Vector::ZERO, |(_, g)| g * equations.root_w[unknown]);
-            *to = [g.x, g.y];
-            squared += g.norm_squared();
-        }
-        let scale = if row.is_active && squared > 0.0 { 1.0 / squared.sqrt() } else { 0.0 };
-        gradient.as_flattened_mut().iter_mut().for_each(|g| *g *= scale);
-        self.raw[k] = row.f;
-        self.scale[k] = scale;
-        self.f[k] = row.f * scale;
-        let is_stretched = row.span > 0.0 && row.f > 0.0;
-        self.bend[k] = if is_stretched { (row.f / row.span).sqrt() } else { 0.0 };
-    }
 }

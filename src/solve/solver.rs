@@ -215,7 +215,8 @@ impl Solver {
         for &k in &due {
             self.is_awake[k as usize] = false;
         }
-        if budget.stop.is_none() && crew::pays(self.topology.n_constraints_of(&due)) {
+        let can_share = budget.stop.is_none() && due.len() > 1;
+        if can_share && crew::pays(&self.topology.effort_of(&due)) {
             self.visit_side_by_side(&due, world, settings, budget, task, &mut report);
         } else {
             for &k in &due {

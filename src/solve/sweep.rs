@@ -1,6 +1,8 @@
 //! One sweep over all constraints: each corrected exactly from the same pose, the corrections
 //! added up. The innermost loop of the paper's method.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::crew::{self, SHARE};
@@ -16,25 +18,26 @@ const LANES: usize = 8;
 /// Squares of lengths outside this range have lost digits or overflowed.
 const SAFE_SQUARES: std::ops::Range<f64> = 1e-280..1e280;
 
+/// Sums over shares, by point, beyond which sharing does not pay.
+const MOST_SUMS: usize = 3;
+
 /// What a sweep needs to know of the constraints of an island; made once for many sweeps.
 pub(super) struct Sweep {
     bars: Vec<Bar>,
     /// The constraints that are no bars, and the coefficient of each.
     others: Vec<(u32, f64)>,
     n_wheels: u64,
-    /// What takes the bars to all cores; none where that does not pay.
-    shared: Option<Shared>,
+    /// The bars in shares for all cores, where there are enough of them.
+    shares: Vec<Share>,
 }
 
-/// The same corrections, told by point instead of by bar: each point adds up what its bars ask
-/// for in their order, so that the sums are those of one core.
-struct Shared {
-    /// Point `p` has the ends `first[p]..first[p + 1]`.
-    first: Vec<u32>,
-    /// Which bar, and whether it is its second end.
-    ends: Vec<(u32, bool)>,
-    /// Room for the correction of each bar.
-    taus: Vec<Vector>,
+/// Bars that follow each other, and what they ask of the points between the first and the last
+/// that they hold. The shares depend on the scene alone and their sums are added up in order, so
+/// that the bits of a result do not depend on how many cores there are.
+struct Share {
+    bars: Range<usize>,
+    first_point: usize,
+    d: Vec<Vector>,
 }
 
 /// A length constraint, with the parts of its correction that do not depend on the pose.
@@ -55,7 +58,8 @@ struct Bar {
 impl Sweep {
     /// What sweeps over the constraints of an island need.
     pub fn new(island: &Island, coefficient: Coefficient) -> Self {
-        let mut sweep = Self { bars: Vec::new(), others: Vec::new(), n_wheels: 0, shared: None };
+        let mut sweep =
+            Self { bars: Vec::new(), others: Vec::new(), n_wheels: 0, shares: Vec::new() };
         for (c, constraint) in island.constraints.iter().enumerate() {
             let rho = coefficient.of(&island.own_rho, c);
             let c = c as u32;
@@ -75,8 +79,8 @@ impl Sweep {
                 sweep.n_wheels += u64::from(is_wheel(constraint));
             }
         }
-        if crew::pays_for_a_sweep(sweep.bars.len()) {
-            sweep.shared = Some(Shared::new(&sweep.bars, island.x.len()));
+        if sweep.bars.len() >= crew::ENOUGH_FOR_A_SWEEP {
+            sweep.shares = shares(&sweep.bars, island.x.len());
         }
         sweep
     }
@@ -93,11 +97,11 @@ impl Sweep {
     ) -> f64 {
         work.evaluations += constraints.len() as u64;
         work.wheel_evaluations += self.n_wheels;
-        let mut worst = if let Some(shared) = &mut self.shared {
-            shared.correct_all(&self.bars, constraints, x, d)
-        } else {
+        let mut worst = if self.shares.is_empty() {
             d.fill(Vector::ZERO);
-            correct_each(&self.bars, constraints, x, |bar, tau| bar.give(tau, d))
+            correct_each(&self.bars, constraints, x, 0, d)
+        } else {
+            self.correct_shares(constraints, x, d)
         };
         for &(c, rho) in &self.others {
             let mut squared = 0.0;
@@ -114,76 +118,72 @@ impl Sweep {
     }
 }
 
-impl Shared {
-    fn new(bars: &[Bar], n_points: usize) -> Self {
-        let mut first = vec![0; n_points + 1];
-        for bar in bars {
-            first[bar.a as usize + 1] += 1;
-            first[bar.b as usize + 1] += 1;
-        }
-        for p in 0..n_points {
-            first[p + 1] += first[p];
-        }
-        let mut next = first.clone();
-        let mut ends = vec![(0, false); 2 * bars.len()];
-        for (k, bar) in bars.iter().enumerate() {
-            for (p, is_second) in [(bar.a, false), (bar.b, true)] {
-                let at = &mut next[p as usize];
-                ends[*at as usize] = (k as u32, is_second);
-                *at += 1;
-            }
-        }
-        Self { first, ends, taus: vec![Vector::ZERO; bars.len()] }
-    }
-
-    /// Sets `d` to the corrections of all bars; gives the largest distance to satisfaction.
-    fn correct_all(
-        &mut self,
-        bars: &[Bar],
-        constraints: &[Constraint],
-        x: &[Point],
-        d: &mut [Vector],
-    ) -> f64 {
-        let shares = self.taus.par_chunks_mut(SHARE).zip(bars.par_chunks(SHARE));
-        let worst = shares.map(|(taus, bars)| {
-            let mut taus = taus.iter_mut();
-            correct_each(bars, constraints, x, |_, tau| {
-                *taus.next().expect("one for each bar") = tau;
-            })
+impl Sweep {
+    /// The same for the bars alone, share by share.
+    fn correct_shares(&mut self, constraints: &[Constraint], x: &[Point], d: &mut [Vector]) -> f64 {
+        let Self { bars, shares, .. } = self;
+        let worst = shares.par_iter_mut().map(|share| {
+            share.d.fill(Vector::ZERO);
+            let bars = &bars[share.bars.clone()];
+            correct_each(bars, constraints, x, share.first_point, &mut share.d)
         });
         let worst = worst.reduce(|| 0.0, f64::max);
-        let Self { first, ends, taus } = &*self;
-        d.par_chunks_mut(SHARE).enumerate().for_each(|(share, d)| {
-            for (p, d) in (share * SHARE..).zip(d) {
-                *d = Vector::ZERO;
-                for &(k, is_second) in &ends[first[p] as usize..first[p + 1] as usize] {
-                    let (bar, tau) = (&bars[k as usize], taus[k as usize]);
-                    if is_second {
-                        *d -= tau * bar.share_b;
-                    } else {
-                        *d += tau * bar.share_a;
-                    }
-                }
+        d.par_chunks_mut(SHARE).enumerate().for_each(|(k, d)| {
+            d.fill(Vector::ZERO);
+            for share in &*shares {
+                share.add_to(k * SHARE, d);
             }
         });
         worst
     }
 }
 
-/// Hands on the correction of each bar, in order; gives the largest distance to satisfaction.
+impl Share {
+    /// Adds what it asks for to the points from `first` on.
+    fn add_to(&self, first: usize, d: &mut [Vector]) {
+        let from = first.max(self.first_point);
+        let to = (first + d.len()).min(self.first_point + self.d.len());
+        if from < to {
+            let asked = &self.d[from - self.first_point..to - self.first_point];
+            d[from - first..to - first].iter_mut().zip(asked).for_each(|(d, asked)| *d += *asked);
+        }
+    }
+}
+
+/// Parts bars, which are in the order of their points; nothing where bars that follow each other
+/// hold points so far from each other that adding up would be most of the work.
+fn shares(bars: &[Bar], n_points: usize) -> Vec<Share> {
+    let mut shares = Vec::new();
+    let mut n_sums = 0;
+    for (k, part) in bars.chunks(SHARE).enumerate() {
+        let ends = || part.iter().flat_map(|bar| [bar.a as usize, bar.b as usize]);
+        let (first, last) = (ends().min().unwrap_or(0), ends().max().unwrap_or(0));
+        n_sums += last + 1 - first;
+        let bars = k * SHARE..k * SHARE + part.len();
+        shares.push(Share { bars, first_point: first, d: vec![Vector::ZERO; last + 1 - first] });
+        if n_sums > MOST_SUMS * n_points {
+            return Vec::new();
+        }
+    }
+    shares
+}
+
+/// Adds up the corrections of bars in `d`, which begins with the point `first`; gives the largest
+/// distance to satisfaction.
 fn correct_each(
     bars: &[Bar],
     constraints: &[Constraint],
     x: &[Point],
-    mut give: impl FnMut(&Bar, Vector),
+    first: usize,
+    d: &mut [Vector],
 ) -> f64 {
     let mut worst = 0.0_f64;
     let (chunks, rest) = bars.as_chunks::<LANES>();
     for bars in chunks {
-        worst = worst.max(correct_bars(bars, constraints, x, &mut give));
+        worst = worst.max(correct_bars(bars, constraints, x, first, d));
     }
     for bar in rest {
-        worst = worst.max(correct_bar(bar, constraints, x, &mut give));
+        worst = worst.max(correct_bar(bar, constraints, x, first, d));
     }
     worst
 }
@@ -194,12 +194,13 @@ fn correct_bars(
     bars: &[Bar; LANES],
     constraints: &[Constraint],
     x: &[Point],
-    give: &mut impl FnMut(&Bar, Vector),
+    first: usize,
+    d: &mut [Vector],
 ) -> f64 {
     let between = bars.each_ref().map(|bar| x[bar.b as usize] - x[bar.a as usize]);
     let squares = between.map(Vector::norm_squared);
     if !squares.iter().all(|square| SAFE_SQUARES.contains(square)) {
-        let each = bars.iter().map(|bar| correct_bar(bar, constraints, x, give));
+        let each = bars.iter().map(|bar| correct_bar(bar, constraints, x, first, d));
         return each.fold(0.0, f64::max);
     }
     let mut results = [(0.0, 0.0); LANES];
@@ -208,7 +209,7 @@ fn correct_bars(
     }
     let mut worst = 0.0_f64;
     for ((bar, between), (excess, factor)) in bars.iter().zip(between).zip(results) {
-        give(bar, between * factor);
+        bar.give(between * factor, first, d);
         worst = worst.max(excess.abs() * bar.distance);
     }
     worst
@@ -219,20 +220,21 @@ fn correct_bar(
     bar: &Bar,
     constraints: &[Constraint],
     x: &[Point],
-    give: &mut impl FnMut(&Bar, Vector),
+    first: usize,
+    d: &mut [Vector],
 ) -> f64 {
     let between = x[bar.b as usize] - x[bar.a as usize];
     let square = between.norm_squared();
     if SAFE_SQUARES.contains(&square) {
         // The very operations of many at once: mirror images stay such to the bit.
         let (excess, factor) = bar.excess(square);
-        give(bar, between * factor);
+        bar.give(between * factor, first, d);
         return excess.abs() * bar.distance;
     }
     let mut excess = 0.0;
     constraints[bar.c as usize].jacobian(x, &mut |row| {
         excess = row.f;
-        give(bar, row.gradient[1] * excess);
+        bar.give(row.gradient[1] * excess, first, d);
     });
     excess.abs() * bar.distance
 }
@@ -248,8 +250,8 @@ impl Bar {
 
     /// Lets each end take over its share.
     #[inline]
-    fn give(&self, tau: Vector, d: &mut [Vector]) {
-        d[self.a as usize] += tau * self.share_a;
-        d[self.b as usize] -= tau * self.share_b;
+    fn give(&self, tau: Vector, first: usize, d: &mut [Vector]) {
+        d[self.a as usize - first] += tau * self.share_a;
+        d[self.b as usize - first] -= tau * self.share_b;
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::crew::Effort;
 use super::island::{Island, Member};
 use super::memory::Memory;
 use crate::constraint::Relation;
@@ -54,10 +55,14 @@ impl Topology {
         self.islands.get_mut(k as usize)?.as_deref_mut()
     }
 
-    /// How many constraints these islands hold together.
-    pub fn n_constraints_of(&self, islands: &[u32]) -> usize {
-        let each = islands.iter().filter_map(|&k| self.get(k));
-        each.map(|island| island.constraints.len()).sum()
+    /// What visiting these islands was last time.
+    pub fn effort_of(&self, islands: &[u32]) -> Effort {
+        let mut effort = Effort::default();
+        for island in islands.iter().filter_map(|&k| self.get(k)) {
+            effort.n_constraints += island.constraints.len() as u64;
+            effort.n_evaluations += u64::from(island.n_evaluations);
+        }
+        effort
     }
 
     /// Takes an island out, to be given back before anything else is asked.

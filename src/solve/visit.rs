@@ -25,6 +25,9 @@ pub(super) enum Task {
     Settle,
 }
 
+/// A factorisation takes about as long as so many evaluations of each constraint.
+const FACTORISATION: u64 = 4;
+
 /// What a visit came to.
 pub(super) struct Visit {
     /// How solving ended; none if there was nothing to solve.
@@ -59,6 +62,7 @@ pub(super) fn visit(
     island.prepare();
     let limits = island.limits(settings, budget);
     let is_first = island.is_new;
+    let before = *work;
     if (island.is_new || island.is_edited) && task == Task::Frame && settings.method == Method::Auto
     {
         begin(island, &limits, work);
@@ -74,6 +78,11 @@ pub(super) fn visit(
     if could_follow && !outcome.is_converged() {
         island.note_halt(is_first);
     }
+    let n_evaluations = work.evaluations - before.evaluations;
+    let n_factored =
+        (work.factorisations - before.factorisations) * island.constraints.len() as u64;
+    island.n_evaluations =
+        u32::try_from(n_evaluations + FACTORISATION * n_factored).unwrap_or(u32::MAX);
     island.is_new = false;
     island.is_edited = false;
     island.status = outcome.status;
