@@ -43,6 +43,10 @@ impl Host for Process {
         }
     }
 
+    fn is_listening(&self) -> bool {
+        !self.is_quiet
+    }
+
     fn is_interrupted(&self) -> bool {
         interrupt::is_asked()
     }

@@ -30,6 +30,20 @@ impl Equal {
         Segments { e12, l12: v12.norm(), e34, l34: v34.norm() }
     }
 
+    /// The value and its derivative by an end alone; none where that takes the general way.
+    #[inline]
+    pub fn felt_by(&self, p: PointIdx, x: &[Point]) -> Option<(f64, Vector)> {
+        let [a, b, c, d] = self.points;
+        let is_once = self.points.iter().filter(|q| **q == p).count() == 1;
+        if !is_once || a == b || c == d || !self.bounds.is_equality() {
+            return None;
+        }
+        let s = self.segments(x);
+        let f = self.bounds.excess(s.l12 - s.l34);
+        let sign = if p == a || p == d { -1.0 } else { 1.0 };
+        Some((f, if p == a || p == b { s.e12 } else { s.e34 } * sign))
+    }
+
     fn row(&self, s: &Segments) -> Row {
         let [a, b, c, d] = self.points;
         let f = self.bounds.excess(s.l12 - s.l34);

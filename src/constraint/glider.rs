@@ -34,6 +34,19 @@ impl Glider {
         }
     }
 
+    /// The value and its derivative by the sliding point alone; none where that takes the general
+    /// way.
+    #[inline]
+    pub fn felt_by(&self, p: PointIdx, x: &[Point]) -> Option<(f64, Vector)> {
+        let [slider, a, b] = self.points;
+        match self.demand(self.places(x)) {
+            Demand::Line(foot) if p == slider && p != a && p != b => {
+                Some((foot.height, foot.normal))
+            }
+            _ => None,
+        }
+    }
+
     fn places(&self, x: &[Point]) -> [Point; 3] {
         self.points.map(|p| x[p as usize])
     }

@@ -11,6 +11,18 @@ pub struct Length {
     pub bounds: Bounds,
 }
 
+impl Length {
+    /// The value and its derivative by an end alone; none where that takes the general way.
+    #[inline]
+    pub fn felt_by(&self, p: PointIdx, x: &[Point]) -> Option<(f64, Vector)> {
+        let [a, b] = self.points;
+        let v = x[p as usize] - x[(if p == a { b } else { a }) as usize];
+        let l = v.norm();
+        let is_plain = self.bounds.is_equality() && a != b && l > 0.0 && l.is_finite();
+        is_plain.then(|| (l - self.bounds.lo, v / l))
+    }
+}
+
 impl Relation for Length {
     fn points(&self) -> &[PointIdx] {
         &self.points

@@ -13,6 +13,12 @@ pub trait Host {
     /// Takes talk: notes and warnings. Errors are returned, not told.
     fn tell(&mut self, what: &Diagnostic, sources: &Sources);
 
+    /// Whether notes and warnings reach anybody: what is worked out for their sake alone is left
+    /// out otherwise.
+    fn is_listening(&self) -> bool {
+        true
+    }
+
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {
         false
@@ -67,6 +73,10 @@ impl Host for Nowhere {
     fn print(&mut self, _line: &str) {}
 
     fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn is_listening(&self) -> bool {
+        false
+    }
 
     fn read(&mut self, _path: &Path) -> io::Result<String> {
         Err(io::Error::from(io::ErrorKind::NotFound))

@@ -40,7 +40,8 @@ pub struct Summary {
     pub seconds: f64,
     /// How the frames were solved, with the number of frames each.
     pub ways: Vec<(Way, u64)>,
-    /// How far points may be from where they belong, length units, where that can be said.
+    /// How far points may be from where they belong, length units, where that can be said and
+    /// somebody listens.
     pub position_error: Option<f64>,
     /// The statement whose frame was the first to miss.
     missed_at: Option<Span>,
@@ -259,7 +260,7 @@ impl Session {
         let n = self.world.n_constraints();
         let is_cheap = n <= SMALL || (n <= LARGE && summary.seconds >= LONG);
         let is_solved = summary.worst_status == Status::Converged && summary.n_frames > 0;
-        if !is_cheap || !is_solved || n == 0 {
+        if !is_cheap || !is_solved || n == 0 || !self.host.is_listening() {
             return None;
         }
         // Wheels in velocity form drift without any residual.

@@ -67,7 +67,12 @@ impl Sum {
             return;
         }
         let scale = 1.0 / norm.sqrt();
-        let (g, f) = (g * scale, row.f * scale);
+        self.add_unit(row.f * scale, g * scale);
+    }
+
+    /// Adds a row whose gradient is of length 1.
+    #[inline]
+    fn add_unit(&mut self, f: f64, g: Vector) {
         self.xx += g.x * g.x;
         self.xy += g.x * g.y;
         self.yy += g.y * g.y;
@@ -100,7 +105,17 @@ impl Sum {
 fn evaluate(p: PointIdx, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum {
     let mut sum = Sum::default();
     for &c in which {
-        all[c as usize].jacobian(x, &mut |row| sum.add(&row, p));
+        let constraint = &all[c as usize];
+        let felt = match constraint {
+            Constraint::Length(bar) => bar.felt_by(p, x),
+            Constraint::Glider(glider) => glider.felt_by(p, x),
+            Constraint::Equal(equal) => equal.felt_by(p, x),
+            _ => None,
+        };
+        match felt {
+            Some((f, g)) => sum.add_unit(f, g),
+            None => constraint.jacobian(x, &mut |row| sum.add(&row, p)),
+        }
     }
     sum
 }

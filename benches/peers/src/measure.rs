@@ -11,7 +11,7 @@ const ROUNDS: (usize, usize) = (5, 31);
 /// Seconds spent timing one work, once the least rounds are done.
 const TIMING: f64 = 2.0;
 /// What is shorter than this is not timed well.
-const SHORTEST: f64 = 5e-4;
+const SHORTEST: f64 = 5e-3;
 /// A peer that can stop between frames gets no more seconds than this in a round.
 const ROUND: f64 = 0.15;
 /// Nor in the pass that looks at every frame.
@@ -94,10 +94,23 @@ struct Runner<'a> {
     name: String,
     peer: Box<dyn Peer + 'a>,
     outcome: Outcome,
-    /// Frames done, and frames of a round.
+    /// Frames done, frames of a run, and runs of a round.
     k: usize,
     n: usize,
+    n_runs: usize,
     times: Vec<f64>,
+}
+
+impl Runner<'_> {
+    /// Seconds of a round.
+    fn round(&mut self) -> Result<f64, String> {
+        let mut seconds = 0.0;
+        for _ in 0..self.n_runs {
+            seconds += self.peer.run(self.k, self.n)?.seconds;
+            self.k += self.n;
+        }
+        Ok(seconds)
+    }
 }
 
 /// Looks at every frame of every peer, then times them in turn, one round after the other.
@@ -110,15 +123,23 @@ pub fn compare<'a>(
     for (name, peer) in peers {
         match peer.and_then(|mut peer| look(work, &mut *peer).map(|looked| (peer, looked))) {
             Err(why) => drop(found.insert(name, Err(why))),
-            Ok((peer, (outcome, seconds, k))) => {
+            Ok((mut peer, (outcome, mut seconds, mut k))) => {
+                // One frame at a time is not what is timed.
+                if seconds < ROUND
+                    && let Ok(run) = peer.run(k, work.block)
+                {
+                    k += work.block;
+                    seconds = run.seconds / work.block as f64;
+                }
                 let most = (ROUND / seconds).max(1.0) as usize;
                 let least = (SHORTEST / seconds.max(1e-9)) as usize;
-                let n = if peer.needs_whole_blocks() {
-                    work.block
+                let wanted = work.block.max(least).min(most);
+                let (n, n_runs) = if peer.needs_whole_blocks() {
+                    (work.block, wanted.div_ceil(work.block))
                 } else {
-                    work.block.max(least).min(most)
+                    (wanted, 1)
                 };
-                runners.push(Runner { name, peer, outcome, k, n, times: Vec::new() });
+                runners.push(Runner { name, peer, outcome, k, n, n_runs, times: Vec::new() });
             }
         }
     }
@@ -128,10 +149,10 @@ pub fn compare<'a>(
             break;
         }
         for runner in &mut runners {
-            let Ok(run) = runner.peer.run(runner.k, runner.n) else { continue };
-            runner.k += runner.n;
-            runner.times.push(run.seconds / runner.n as f64);
-            spent += run.seconds;
+            if let Ok(seconds) = runner.round() {
+                runner.times.push(seconds / (runner.n * runner.n_runs) as f64);
+                spent += seconds;
+            }
         }
     }
     let ours = runners.iter().find(|r| r.name == crate::OURS).map(|r| r.times.clone());
