@@ -8,7 +8,7 @@ the memory of the largest scenes.
 import statistics
 import tempfile
 
-from program import ROOT, build, cost, table
+from program import ROOT, build, cost, memory, table
 
 ROUNDS = 101
 

@@ -93,12 +93,12 @@ pub(super) fn solve(
         let Island { constraints, x, w, n_free, .. } = &mut *island;
         let worst = sweep.correct_all(constraints, x, w, &mut d, work);
         let (free, d) = (&mut x[..*n_free], &d[..*n_free]);
+        let (square, longest) = measure(d);
         // A correction that overflowed would poison its neighbours.
-        let is_finite = d.iter().all(|d| d.is_finite());
+        let is_finite = square.is_finite() || d.iter().all(|d| d.is_finite());
         if worst <= limits.tolerance || !is_finite || limits.budget.is_spent() {
             return ending(island, limits, n, f64::INFINITY, work);
         }
-        let square: f64 = d.iter().map(|d| d.norm_squared()).sum();
         free.iter_mut().zip(d).for_each(|(x, d)| *x += *d);
         if square > GROWTH * least && n_looks < MOST_LOOKS {
             n_looks += 1;
@@ -106,12 +106,31 @@ pub(super) fn solve(
             sweep = Sweep::new(island, *coefficient);
         }
         least = least.min(square);
-        let longest = d.iter().fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()));
         if longest <= STILL * limits.size {
             return ending(island, limits, n + 1, longest, work);
         }
     }
     ending(island, limits, limits.n_iterations, f64::INFINITY, work)
+}
+
+/// The sum of the squares of displacements, and the largest coordinate of one; several at a time,
+/// for the vector units.
+fn measure(d: &[Vector]) -> (f64, f64) {
+    const LANES: usize = 4;
+    let (mut squares, mut longest) = ([0.0; LANES], [0.0_f64; LANES]);
+    let (chunks, rest) = d.as_chunks::<LANES>();
+    for chunk in chunks {
+        for ((square, longest), d) in squares.iter_mut().zip(&mut longest).zip(chunk) {
+            *square += d.norm_squared();
+            let long = if d.x.abs() > d.y.abs() { d.x.abs() } else { d.y.abs() };
+            *longest = if long > *longest { long } else { *longest };
+        }
+    }
+    for d in rest {
+        squares[0] += d.norm_squared();
+        longest[0] = longest[0].max(d.x.abs()).max(d.y.abs());
+    }
+    (squares.iter().sum(), longest.into_iter().fold(0.0, f64::max))
 }
 
 /// How a run of sweeps ended, whose last one moved the points by `longest` at most.

@@ -58,6 +58,8 @@ impl Equations {
                 constraint.jacobian(x, &mut |row| push(&row.points[..row.n_points]));
             }
         }
+        start.shrink_to_fit();
+        unknown.shrink_to_fit();
         let n_wheels = constraints.iter().filter(|&&c| is_wheel(&all[c as usize])).count() as u64;
         let root_w = points.iter().map(|&p| w[p as usize].sqrt()).collect();
         Self { constraints, points, root_w, start, unknown, n_wheels }

@@ -76,6 +76,14 @@ impl Lists {
         self.start.push(self.items.len() as u32);
     }
 
+    /// The same without room for more.
+    #[must_use]
+    pub fn shrunk(mut self) -> Self {
+        self.start.shrink_to_fit();
+        self.items.shrink_to_fit();
+        self
+    }
+
     /// How many lists there are.
     pub fn len(&self) -> usize {
         self.start.len() - 1

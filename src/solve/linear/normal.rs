@@ -21,6 +21,7 @@ impl Normal {
         for k in 0..lower.len() {
             pattern.push(lower.get(k).iter().copied().chain([k as u32]));
         }
+        let pattern = pattern.shrunk();
         let place = inverse(order);
         let mut terms = Lists::new();
         let mut targets = Lists::new();
@@ -41,7 +42,7 @@ impl Normal {
             }));
         }
         let blocks = vec![Block::default(); pattern.n_items()];
-        Self { pattern, blocks, terms, targets }
+        Self { pattern, blocks, terms: terms.shrunk(), targets: targets.shrunk() }
     }
 
     /// Sets all numbers to 0.

@@ -30,6 +30,7 @@ struct Diagonal {
 impl Sparse {
     /// `columns` is the pattern of L by rows.
     pub fn new(columns: Lists) -> Self {
+        let columns = columns.shrunk();
         let n = columns.len();
         let rows = columns.transposed();
         Self {

@@ -134,9 +134,9 @@ impl Supernodal {
         let n_scaled = nodes.iter().map(|node| node.n_pivots() * node.n_rows()).max();
         let n_gathered = nodes.iter().map(|node| node.n_below()).max();
         Self {
-            below,
-            places,
-            children: child_lists,
+            below: below.shrunk(),
+            places: places.shrunk(),
+            children: child_lists.shrunk(),
             numbers: vec![0.0; start],
             scaled: vec![0.0; n_scaled.unwrap_or(0)],
             stacks: [Vec::new(), Vec::new()],
