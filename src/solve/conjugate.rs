@@ -55,13 +55,12 @@ pub(super) fn solve(
         }
         room.remember(pose);
         if room.try_step(pose, t, work) > start {
-            room.reject(pose);
+            room.reject(pose, work);
             steepest(room);
             factor *= 0.5;
             n_since = 0;
             continue;
         }
-        room.accept();
         factor = (2.0 * factor).min(1.0);
         before.copy_from_slice(&room.slope);
         room.update_slope();

@@ -79,10 +79,9 @@ pub(super) fn search(
         }
     }
     if best.0 == 0.0 {
-        room.reject(pose);
+        room.reject(pose, work);
         return false;
     }
     room.try_step(pose, best.0, work);
-    room.accept();
     true
 }

@@ -20,27 +20,37 @@ const MOST_NODES: usize = 4;
 
 /// Poses at instants of the frame; 0 is its beginning, 1 its end.
 struct Track {
+    /// The latest last; no more than expectations are made from.
     nodes: Vec<(f64, Vec<Point>)>,
+    /// Whether any pose before the latest is known, kept or not.
+    has_past: bool,
 }
 
 impl Track {
     /// The poses the island was in at the frames before.
     fn new(island: &Island) -> Self {
         let history = &island.history;
-        let past = (0..=history.n_past()).rev();
-        Self { nodes: past.map(|k| (-(k as f64), history.past(k).to_vec())).collect() }
+        let n_past = history.n_past().min(n_nodes(island) - 1);
+        let past = (0..=n_past).rev().map(|k| (-(k as f64), history.past(k).to_vec()));
+        Self { nodes: past.collect(), has_past: history.n_past() > 0 }
+    }
+
+    /// The latest pose.
+    fn here(&self) -> &[Point] {
+        let (_, here) = self.nodes.last().expect("a track begins with the pose of the frame");
+        here
     }
 
     /// Puts the points where they are expected at `t`; false if nothing is known.
     fn predict(&self, t: f64, degree: &[u8], free: &mut [Point]) -> bool {
-        let n_nodes = self.nodes.len().min(MOST_NODES);
-        if n_nodes < 2 {
+        if !self.has_past {
             return false;
         }
+        let n_nodes = self.nodes.len();
         // By degree, so that points with the same one share the weights.
         let weights: Vec<Vec<f64>> =
             (0..n_nodes).map(|degree| lagrange(&self.nodes, degree, t)).collect();
-        let (_, here) = &self.nodes[self.nodes.len() - 1];
+        let here = self.here();
         for (k, to) in free.iter_mut().enumerate() {
             // What has freedom left has no motion of its own to go on with.
             let degree = if degree[k] > 1 { degree[k] as usize } else { 0 };
@@ -54,12 +64,25 @@ impl Track {
         true
     }
 
-    fn push(&mut self, t: f64, free: &[Point]) {
-        if self.nodes.len() == MOST_NODES {
-            self.nodes.remove(0);
-        }
-        self.nodes.push((t, free.to_vec()));
+    /// Adds the pose of an island at `t`.
+    fn push(&mut self, t: f64, island: &Island) {
+        self.has_past = true;
+        let free = &island.x[..island.n_free];
+        let pose = if self.nodes.len() >= n_nodes(island) {
+            let (_, mut oldest) = self.nodes.remove(0);
+            oldest.copy_from_slice(free);
+            oldest
+        } else {
+            free.to_vec()
+        };
+        self.nodes.push((t, pose));
     }
+}
+
+/// How many poses an expectation is made from: what has freedom left has no motion of its own to
+/// go on with.
+fn n_nodes(island: &Island) -> usize {
+    if island.highest_degree() > 1 { MOST_NODES } else { 1 }
 }
 
 /// The weights of the last `degree + 1` nodes, the latest first, in the polynomial through
@@ -80,7 +103,6 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     let ends = Ends::of_frame(island);
     let limits = Limits { n_iterations: limits.n_iterations.min(MOST_ITERATIONS), ..*limits };
     let mut track = Track::new(island);
-    let mut before = island.x[..n_free].to_vec();
     let (mut t, mut h) = (0.0, 0.5);
     let mut last = None;
     let mut n_iterations = 0;
@@ -91,9 +113,9 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         let tried = attempt(island, is_predicted, &limits, work);
         work.substeps += 1;
         let is_smallest = to - t <= SMALLEST;
-        let motion = motion_since(island, &before);
+        let motion = motion_since(island, track.here());
         let Some(step) = tried.filter(|step| is_smallest || step.is_safe(motion, &limits)) else {
-            island.x[..n_free].copy_from_slice(&before);
+            island.x[..n_free].copy_from_slice(track.here());
             if is_smallest || limits.budget.is_spent() {
                 ends.interpolate(island, 1.0);
                 ends.restore_states(island);
@@ -111,8 +133,7 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         if t < 1.0 {
             island.accept_pose();
         }
-        before.copy_from_slice(&island.x[..n_free]);
-        track.push(t, &before);
+        track.push(t, island);
         last = Some(step);
         if step.correction <= EASY * motion {
             h = (2.0 * h).min(1.0);

@@ -58,12 +58,12 @@ impl Outcome {
 pub(super) struct Workspace {
     /// What is to be solved.
     pub equations: Equations,
-    /// The rows at the present pose.
+    /// The rows at the pose that was evaluated last.
     pub rows: Rows,
-    /// The rows at the pose that is tried.
-    pub trial: Rows,
     /// The unknown points before a step.
     pub before: Vec<Point>,
+    /// What normalised the rows there.
+    scale_before: Vec<f64>,
     /// The unknown points where a motion was expected to take them.
     pub expected: Vec<Point>,
     /// The derivative of the energy.
@@ -83,8 +83,8 @@ impl Workspace {
         Self {
             equations,
             rows: Rows::default(),
-            trial: Rows::default(),
             before: Vec::new(),
+            scale_before: Vec::new(),
             expected: Vec::new(),
             slope: vec![0.0; n],
             step: vec![0.0; n],
@@ -107,30 +107,30 @@ impl Workspace {
         self.rows.evaluate(&self.equations, pose.constraints, pose.x, work);
     }
 
-    /// Remembers the unknown points, to try steps from there.
+    /// Remembers the unknown points and the scales of their rows, to try steps from there.
     pub fn remember(&mut self, pose: &Pose) {
         self.equations.gather(pose.x, &mut self.before);
+        self.scale_before.clear();
+        self.scale_before.extend_from_slice(self.rows.scales());
     }
 
     /// Takes `t` times the step from the remembered points and evaluates the rows there.
-    /// Gives the energy in the scales of the present rows; infinite where there is none.
+    /// Gives the energy in the remembered scales; infinite where there is none.
     pub fn try_step(&mut self, pose: &mut Pose, t: f64, work: &mut Counters) -> f64 {
         if !self.equations.displace(pose.x, &self.before, &self.step, t) {
             return f64::INFINITY;
         }
-        self.trial.evaluate(&self.equations, pose.constraints, pose.x, work);
-        let energy = self.trial.energy_as_scaled_at(&self.rows);
+        let Self { rows, equations, scale_before, .. } = self;
+        let energy =
+            rows.evaluate_as_scaled_by(scale_before, equations, pose.constraints, pose.x, work);
         if energy.is_finite() { energy } else { f64::INFINITY }
     }
 
-    /// Stays at the pose that was tried.
-    pub fn accept(&mut self) {
-        std::mem::swap(&mut self.rows, &mut self.trial);
-    }
-
-    /// Goes back to the remembered points.
-    pub fn reject(&self, pose: &mut Pose) {
+    /// Goes back to the remembered points, and evaluates the rows there again: steps are rarely
+    /// taken back, and to keep both would take as much room as the scene.
+    pub fn reject(&mut self, pose: &mut Pose, work: &mut Counters) {
         self.equations.scatter(&self.before, pose.x);
+        self.evaluate(pose, work);
     }
 
     /// The derivative of the energy at the present rows.

@@ -46,7 +46,7 @@ pub(super) fn solve(
         let longest = limits.longest_step(LONGEST_STEP, room);
         let t = (longest / room.equations.reach(&room.step)).min(1.0);
         if !room.equations.displace(pose.x, &room.before, &room.step, t) {
-            room.reject(pose);
+            room.reject(pose, work);
             return room.outcome(Status::Stalled, n);
         }
         room.equations.gather(pose.x, &mut here);

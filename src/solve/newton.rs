@@ -140,10 +140,11 @@ fn descend(
                 } else if gain < 0.25 {
                     *nu = (*nu * 4.0).max(1e-3);
                 }
-                room.accept();
                 break;
             }
-            room.reject(pose);
+            if is_near {
+                room.reject(pose, work);
+            }
             *nu = (*nu * 4.0).max(1e-3);
             if *nu > MOST_DAMPING {
                 return End::Stuck;
@@ -193,15 +194,13 @@ fn is_best_fit(room: &mut Workspace, pose: &mut Pose, work: &mut Counters) -> bo
         let before = steepness(room);
         room.remember(pose);
         if room.try_step(pose, 1.0, work) > energy * (1.0 + FLAT) {
-            room.reject(pose);
+            room.reject(pose, work);
             return true;
         }
-        room.accept();
         room.assemble();
         room.update_slope();
         if steepness(room) >= before {
-            room.reject(pose);
-            room.accept();
+            room.reject(pose, work);
             return true;
         }
     }

@@ -135,8 +135,6 @@ pub(super) fn is_wheel(constraint: &Constraint) -> bool {
 /// that each value is a distance to satisfaction and all kinds compare.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rows {
-    /// The values in the units of the constraints.
-    raw: Vec<f64>,
     /// What normalises each row; 0 for one that asks for nothing.
     scale: Vec<f64>,
     /// The normalised values.
@@ -160,8 +158,38 @@ impl Rows {
         x: &[Point],
         work: &mut Counters,
     ) {
+        self.evaluate_each(equations, all, x, work, |_, _, _| {});
+    }
+
+    /// The same; gives half the sum of squares in the scales of another pose, so that it compares
+    /// with the energy there.
+    pub fn evaluate_as_scaled_by(
+        &mut self,
+        scale: &[f64],
+        equations: &Equations,
+        all: &[Constraint],
+        x: &[Point],
+        work: &mut Counters,
+    ) -> f64 {
+        let mut squares = 0.0;
+        self.evaluate_each(equations, all, x, work, |r, raw, own| {
+            let f = raw * if scale[r] > 0.0 { scale[r] } else { own };
+            squares += f * f;
+        });
+        0.5 * squares
+    }
+
+    /// Evaluates all rows; `note` gets the number of each, its value in the units of the
+    /// constraint, and what normalises it.
+    fn evaluate_each(
+        &mut self,
+        equations: &Equations,
+        all: &[Constraint],
+        x: &[Point],
+        work: &mut Counters,
+        mut note: impl FnMut(usize, f64, f64),
+    ) {
         let n_rows = equations.n_rows();
-        self.raw.resize(n_rows, 0.0);
         self.scale.resize(n_rows, 0.0);
         self.f.resize(n_rows, 0.0);
         self.bend.resize(n_rows, 0.0);
@@ -171,7 +199,7 @@ impl Rows {
         let mut r = 0;
         for &c in &equations.constraints {
             all[c as usize].jacobian(x, &mut |row| {
-                self.set(equations, r, &row);
+                note(r, row.f, self.set(equations, r, &row));
                 r += 1;
             });
         }
@@ -181,7 +209,8 @@ impl Rows {
         work.wheel_evaluations += equations.n_wheels;
     }
 
-    fn set(&mut self, equations: &Equations, r: usize, row: &Row) {
+    /// Puts a row in its place; gives what normalises it.
+    fn set(&mut self, equations: &Equations, r: usize, row: &Row) -> f64 {
         let entries = equations.start[r] as usize..equations.start[r + 1] as usize;
         let gradient = &mut self.gradient[2 * entries.start..2 * entries.end];
         let (gradient, _) = gradient.as_chunks_mut::<2>();
@@ -197,7 +226,6 @@ impl Rows {
         let scale = if row.is_active && squared > 0.0 { 1.0 / squared.sqrt() } else { 0.0 };
         gradient.as_flattened_mut().iter_mut().for_each(|g| *g *= scale);
         let f = row.f * scale;
-        self.raw[r] = row.f;
         self.scale[r] = scale;
         self.f[r] = f;
         let is_stretched = row.span > 0.0 && row.f > 0.0;
@@ -206,16 +234,7 @@ impl Rows {
         let distance = if scale > 0.0 { f.abs() } else { row.f.abs() };
         self.worst = self.worst.max(distance);
         self.energy += f * f;
-    }
-
-    /// Half the sum of squares, in the scales of another pose so that both compare.
-    pub fn energy_as_scaled_at(&self, other: &Self) -> f64 {
-        let rows = self.raw.iter().zip(&self.scale).zip(&other.scale);
-        let squares = rows.map(|((f, own), other)| {
-            let f = f * if *other > 0.0 { other } else { own };
-            f * f
-        });
-        0.5 * squares.sum::<f64>()
+        scale
     }
 
     /// What normalises each row; 0 for one that asks for nothing.

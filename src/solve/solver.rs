@@ -10,7 +10,7 @@ use super::settings::{Method, Settings};
 use super::status::{Budget, Counters, Report, Status};
 use super::topology::{Home, Topology};
 use super::visit::{Task, Visit, check, turn_back, visit, write_back};
-use crate::constraint::Vector;
+use crate::constraint::{Point, Vector};
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
 
@@ -383,20 +383,26 @@ impl Solver {
             return;
         }
         let at = world.points().at(p);
-        for id in world.holders(p) {
+        if let Some(k) = self.topology.island_of_point(p) {
+            self.put_point(k, p, at);
+        }
+        let holders: Vec<ConstraintId> = self.topology.holders(p, world).collect();
+        for id in holders {
             match self.topology.home(id) {
                 Home::None => {}
                 Home::Checked => self.check(world, id, settings),
-                Home::Island(k) => {
-                    let Some(island) = self.topology.get_mut(k) else { continue };
-                    if let Some(p) = island.local_point(p)
-                        && island.x[p] != at
-                    {
-                        island.set_point(p, at);
-                        self.wake(k);
-                    }
-                }
+                Home::Island(k) => self.put_point(k, p, at),
             }
+        }
+    }
+
+    fn put_point(&mut self, k: u32, p: PointId, at: Point) {
+        if let Some(island) = self.topology.get_mut(k)
+            && let Some(p) = island.local_point(p)
+            && island.x[p] != at
+        {
+            island.set_point(p, at);
+            self.wake(k);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Which constraints and points make which island, kept up to date edit by edit.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::crew::Effort;
@@ -36,6 +37,9 @@ pub(super) struct Topology {
     local_constraint: Vec<u32>,
     /// Constraints that hold only frozen points.
     checked: BTreeSet<ConstraintId>,
+    /// What holds each frozen point. Made when it is first asked for, which a scene in which no
+    /// frozen point is moved never does, and kept up from then on.
+    holders: OnceCell<BTreeSet<(PointId, ConstraintId)>>,
 }
 
 impl Topology {
@@ -94,6 +98,22 @@ impl Topology {
         self.local_constraint[id.idx()] as usize
     }
 
+    /// The constraints that hold a frozen point, as far as they are looked after.
+    pub fn holders<'a>(
+        &'a self,
+        p: PointId,
+        world: &'a World,
+    ) -> impl Iterator<Item = ConstraintId> {
+        let all = self.holders.get_or_init(|| {
+            let islands = self.iter().flat_map(|(_, island)| frozen_points(island));
+            let checked = self.checked.iter().flat_map(|&id| points_of(id, world));
+            islands.chain(checked).collect()
+        });
+        let here = all.range((p, ConstraintId(0))..=(p, ConstraintId(u32::MAX)));
+        // One that changed since may hold it no longer.
+        here.map(|&(_, id)| id).filter(move |&id| points_of(id, world).any(|(q, _)| q == p))
+    }
+
     /// The constraints that hold only frozen points.
     pub fn checked(&self) -> impl Iterator<Item = ConstraintId> {
         self.checked.iter().copied()
@@ -129,6 +149,7 @@ impl Topology {
         self.of_point.fill(NONE);
         self.of_constraint.fill(NONE);
         self.checked.clear();
+        self.holders = OnceCell::new();
     }
 
     /// Collects all constraints whose island may change.
@@ -147,7 +168,8 @@ impl Topology {
             if let Some(k) = self.island_of_point(p) {
                 self.dissolve(k, loose);
             }
-            for id in world.holders(p) {
+            let holders: Vec<ConstraintId> = self.holders(p, world).collect();
+            for id in holders {
                 if self.home(id) != Home::None {
                     self.dissolve_home(id, loose);
                     loose.constraints.insert(id);
@@ -192,6 +214,11 @@ impl Topology {
             self.of_constraint[id.idx()] = NONE;
             loose.constraints.insert(*id);
         }
+        if let Some(holders) = self.holders.get_mut() {
+            for holder in frozen_points(&island) {
+                holders.remove(&holder);
+            }
+        }
         island.ids
     }
 
@@ -207,6 +234,9 @@ impl Topology {
             let Some(first) = free.next() else {
                 self.of_constraint[id.idx()] = CHECKED;
                 self.checked.insert(id);
+                if let Some(holders) = self.holders.get_mut() {
+                    holders.extend(points_of(id, world));
+                }
                 continue;
             };
             let set = sets.enter(first);
@@ -237,6 +267,9 @@ impl Topology {
             for p in &island.points[..island.n_free] {
                 self.of_point[p.idx()] = k;
             }
+            if let Some(holders) = self.holders.get_mut() {
+                holders.extend(frozen_points(&island));
+            }
             for (c, id) in island.ids.iter().enumerate() {
                 self.of_constraint[id.idx()] = k;
                 self.local_constraint[id.idx()] = c as u32;
@@ -246,6 +279,21 @@ impl Topology {
         }
         made
     }
+}
+
+/// The points of a constraint, each with the constraint.
+fn points_of(id: ConstraintId, world: &World) -> impl Iterator<Item = (PointId, ConstraintId)> {
+    let points = world.constraint(id).map(|record| record.constraint.points());
+    points.into_iter().flatten().map(move |&p| (PointId(p), id))
+}
+
+/// The frozen points of an island, each with a constraint that holds it.
+fn frozen_points(island: &Island) -> impl Iterator<Item = (PointId, ConstraintId)> {
+    let constraints = island.constraints.iter().zip(&island.ids);
+    constraints.flat_map(move |(constraint, &id)| {
+        let frozen = constraint.points().iter().filter(|&&p| p as usize >= island.n_free);
+        frozen.map(move |&p| (island.points[p as usize], id))
+    })
 }
 
 /// Constraints that belong to no island for the moment.

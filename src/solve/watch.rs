@@ -2,8 +2,8 @@
 //! each point is.
 
 use super::island::Island;
-use super::plan::{Block, Plan};
-use crate::constraint::{Constraint, Point, PointIdx};
+use super::plan::{Block, Part, Plan};
+use crate::constraint::{Constraint, Point, PointIdx, Relation};
 
 /// A triangle flatter than this, as the sine of an angle, has no side.
 const FLAT: f64 = 1e-6;
@@ -22,7 +22,7 @@ impl Watch {
     /// The triangles to watch in an island.
     pub fn new(plan: &Plan, constraints: &[Constraint]) -> Self {
         let mut triangles = Vec::new();
-        for part in &plan.rest {
+        for part in plan.rest.iter().filter(|part| may_be_rigid(part, constraints)) {
             let mut first = vec![None; part.points.len()];
             let mut is_done = vec![false; part.points.len()];
             for &c in &part.constraints {
@@ -59,6 +59,13 @@ impl Watch {
         let both = self.sides.iter().zip(&self.triangles);
         both.filter(|(before, t)| *before * side(**t, x) < 0.0).map(|(_, t)| t[0]).next()
     }
+}
+
+/// Whether a part has as many equations as coordinates. With fewer it keeps some freedom at every
+/// pose, and what has freedom left may be on any side.
+fn may_be_rigid(part: &Part, constraints: &[Constraint]) -> bool {
+    let rows = part.constraints.iter().map(|&c| constraints[c as usize].n_rows());
+    rows.sum::<usize>() >= 2 * part.points.len()
 }
 
 /// On which side of the others the first point of a triangle is; 0 where it is flat.

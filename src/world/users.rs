@@ -32,7 +32,7 @@ impl User {
 }
 
 /// By point, what holds or mentions it. Made when it is first asked for, since only
-/// `delete`, `freeze` and `drag` ask, and kept up from then on, so that a thousand deletions look
+/// `delete` asks, and kept up from then on, so that a thousand deletions look
 /// at the scene once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PointUsers(OnceCell<BTreeSet<(PointId, User)>>);
@@ -113,16 +113,6 @@ fn points_of_formula(formula: &Formula, visit: &mut impl FnMut(PointId)) {
 }
 
 impl World {
-    /// The constraints that hold a point, in order of creation.
-    pub fn holders(&self, point: PointId) -> impl Iterator<Item = ConstraintId> {
-        self.point_users.of(point, self).filter_map(move |user| match user {
-            User::Constraint(id) => {
-                self.constraint(id)?.constraint.points().contains(&point.0).then_some(id)
-            }
-            User::Parameter(_) => None,
-        })
-    }
-
     fn users_of(&self, entity: Entity) -> Vec<User> {
         match entity {
             Entity::Point(id) => self.point_users.of(id, self).collect(),

@@ -11,7 +11,7 @@ use super::block::Pivots;
 /// Rows of a tile.
 const TALL: usize = 8;
 /// Columns of a tile.
-const WIDE: usize = 4;
+pub const WIDE: usize = 4;
 
 /// A dense panel: columns of numbers at a distance of `ld`.
 #[derive(Clone, Copy)]
@@ -22,44 +22,64 @@ pub struct Panel<'a> {
     pub ld: usize,
 }
 
-/// Subtracts `a b^T` from the lower trapezoid of `c`: rows `j..n_rows` of each column `j`.
+/// Subtracts `l D l^T` from the lower trapezoid of `c`: rows `j..n_rows` of each of `n_columns`
+/// columns `j`.
 ///
-/// `a` has `n_rows` rows, `b` has `n_columns`, both have `depth` columns. Some entries above the
-/// diagonal are changed too.
+/// `l` has `n_rows` rows and a column for each number of the diagonal `d`; `packed` is room for
+/// [`WIDE`] times as many numbers. Some entries above the diagonal are changed too.
 #[inline(always)]
 pub fn subtract_product(
     c: &mut [f64],
     ldc: usize,
-    a: Panel,
-    b: Panel,
-    [n_rows, n_columns, depth]: [usize; 3],
+    l: Panel,
+    d: &[f64],
+    packed: &mut [f64],
+    [n_rows, n_columns]: [usize; 2],
 ) {
     let mut j = 0;
     while j < n_columns {
-        let wide = if n_columns - j >= WIDE { WIDE } else { 2 };
-        let mut i = j;
-        while i < n_rows {
-            let c = &mut c[j * ldc + i..];
-            let (a, b) = (a.from(i), b.from(j));
-            let left = n_rows - i;
-            let tall = if left >= TALL {
-                TALL
-            } else if left >= 4 {
-                4
-            } else {
-                2
-            };
-            match (tall, wide) {
-                (TALL, WIDE) => tile::<TALL, WIDE>(c, ldc, a, b, depth),
-                (4, WIDE) => tile::<4, WIDE>(c, ldc, a, b, depth),
-                (2, WIDE) => tile::<2, WIDE>(c, ldc, a, b, depth),
-                (TALL, _) => tile::<TALL, 2>(c, ldc, a, b, depth),
-                (4, _) => tile::<4, 2>(c, ldc, a, b, depth),
-                _ => tile::<2, 2>(c, ldc, a, b, depth),
-            }
-            i += tall;
+        if n_columns - j >= WIDE {
+            strip::<WIDE>(&mut c[j * ldc..], ldc, l, d, packed, [j, n_rows]);
+            j += WIDE;
+        } else {
+            strip::<2>(&mut c[j * ldc..], ldc, l, d, packed, [j, n_rows]);
+            j += 2;
         }
-        j += wide;
+    }
+}
+
+/// The same for the columns from `j` on that one tile spans.
+#[inline(always)]
+fn strip<const C: usize>(
+    c: &mut [f64],
+    ldc: usize,
+    l: Panel,
+    d: &[f64],
+    packed: &mut [f64],
+    [j, n_rows]: [usize; 2],
+) {
+    // What each tile multiplies with lies together: D l^T for these columns.
+    let (packed, _) = packed.as_chunks_mut::<C>();
+    let packed = &mut packed[..d.len()];
+    let beginning = l.from(j);
+    for (p, (packed, d)) in packed.iter_mut().zip(d).enumerate() {
+        *packed = beginning.column::<C>(p).map(|l| l * d);
+    }
+    let mut i = j;
+    while i < n_rows {
+        let c = &mut c[i..];
+        let a = l.from(i);
+        let left = n_rows - i;
+        i += if left >= TALL {
+            tile::<TALL, C>(c, ldc, a, packed);
+            TALL
+        } else if left >= 4 {
+            tile::<4, C>(c, ldc, a, packed);
+            4
+        } else {
+            tile::<2, C>(c, ldc, a, packed);
+            2
+        };
     }
 }
 
@@ -80,13 +100,11 @@ fn tile<const R: usize, const C: usize>(
     c: &mut [f64],
     ldc: usize,
     a: Panel,
-    b: Panel,
-    depth: usize,
+    b: &[[f64; C]],
 ) {
     let mut sum = [[0.0; R]; C];
-    for p in 0..depth {
+    for (p, b) in b.iter().enumerate() {
         let a = a.column::<R>(p);
-        let b = b.column::<C>(p);
         for j in 0..C {
             for i in 0..R {
                 sum[j][i] += a[i] * b[j];
@@ -103,37 +121,39 @@ fn tile<const R: usize, const C: usize>(
 /// Columns factored one by one before their product is subtracted from the others.
 const STRIP: usize = 8;
 
-/// Factors the first `n_pivots` columns of a symmetric matrix with `n_rows` rows, given below
-/// the diagonal: on return `l` holds L below the diagonal and 1 / D on it, `z` holds L D.
+/// Factors the first columns of a symmetric matrix with `n_rows` rows, given below the diagonal,
+/// as many as `d` has room for: on return `l` holds L below the diagonal and 1 / D on it, `d`
+/// holds D. `packed` is room for [`WIDE`] times as many numbers as `d`.
 #[inline(always)]
 pub fn factor_panel(
     l: &mut [f64],
-    z: &mut [f64],
+    d: &mut [f64],
+    packed: &mut [f64],
     n_rows: usize,
-    n_pivots: usize,
     pivots: &mut Pivots,
 ) {
     let ld = n_rows;
-    for start in (0..n_pivots).step_by(STRIP) {
-        let end = (start + STRIP).min(n_pivots);
+    for start in (0..d.len()).step_by(STRIP) {
+        let end = (start + STRIP).min(d.len());
         let (done, rest) = l.split_at_mut(start * ld);
         subtract_product(
             &mut rest[start..],
             ld,
             Panel { numbers: done, ld }.from(start),
-            Panel { numbers: &z[..start * ld], ld }.from(start),
-            [n_rows - start, end - start, start],
+            &d[..start],
+            packed,
+            [n_rows - start, end - start],
         );
         for j in start..end {
             let (column, later) = l[j * ld..end * ld].split_at_mut(ld);
-            let reciprocal = pivots.note(column[j]);
+            d[j] = column[j];
+            let reciprocal = pivots.note(d[j]);
             for (k, target) in (j + 1..end).zip(later.chunks_exact_mut(ld)) {
                 let l = column[k] * reciprocal;
                 for (t, c) in target[k..].iter_mut().zip(&column[k..]) {
                     *t -= l * c;
                 }
             }
-            z[j * ld + j + 1..(j + 1) * ld].copy_from_slice(&column[j + 1..]);
             for c in &mut column[j + 1..] {
                 *c *= reciprocal;
             }

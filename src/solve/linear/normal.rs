@@ -74,6 +74,11 @@ impl Normal {
         self.pattern.len()
     }
 
+    /// Block `n` of all, row by row in the order of [`Normal::row`].
+    pub fn block(&self, n: usize) -> &Block {
+        &self.blocks[n]
+    }
+
     /// The blocks of place `k` with the places they couple it with, its own block last.
     pub fn row(&self, k: usize) -> impl Iterator<Item = (usize, &Block)> {
         let range = self.pattern.range(k);

@@ -9,7 +9,7 @@
 use super::block::Pivots;
 use super::elimination::ROOT;
 use super::graph::Lists;
-use super::kernel::{Panel, factor_panel, subtract_product};
+use super::kernel::{Panel, WIDE, factor_panel, subtract_product};
 use super::normal::Normal;
 
 /// A factor by nodes; nothing is allocated per factor.
@@ -21,14 +21,17 @@ pub struct Supernodal {
     places: Lists,
     /// The children of each node, ascending.
     children: Lists,
-    /// The columns of L of each node, `n_rows` numbers each, with 1 / D on the diagonal.
+    /// The columns of L of each node, `n_rows` numbers each, with 1 / D on the diagonal; and
+    /// behind those made so far, while factoring, the changes that are not handed over yet, on
+    /// a stack that grows down from the end.
     numbers: Vec<f64>,
-    /// L D of the node at work.
-    scaled: Vec<f64>,
-    /// The changes not handed over yet, of even and of odd generations: a node reads its
-    /// children's from one stack while it writes its own to the other.
-    stacks: [Vec<f64>; 2],
-    /// Where each block of the normal matrix goes in `numbers`, and the distance of columns.
+    /// How many of them are columns.
+    n_stored: usize,
+    /// D of the node at work.
+    d: Vec<f64>,
+    /// Room for what tiles are multiplied with.
+    packed: Vec<f64>,
+    /// The blocks of the normal matrix by node, and where each goes in the node's columns.
     entries: Vec<(u32, u32)>,
     /// Values of the rows below a node, while solving.
     gathered: Vec<f64>,
@@ -41,8 +44,9 @@ struct Node {
     n_points: u32,
     /// How many points it holds and reaches.
     n_front: u32,
-    /// Distance from the root, modulo 2.
-    generation: u32,
+    /// Its blocks of the normal matrix are the entries up to here from where those of the node
+    /// before it end.
+    end_entry: u32,
     /// Where its columns begin in `numbers`.
     start: usize,
 }
@@ -90,7 +94,7 @@ impl Supernodal {
                 first: first as u32,
                 n_points: n_points as u32,
                 n_front: n_front as u32,
-                generation: 0,
+                end_entry: 0,
                 start,
             });
             start += 4 * n_points * n_front;
@@ -99,11 +103,6 @@ impl Supernodal {
         let parent: Vec<u32> = (0..nodes.len())
             .map(|s| below.get(s).first().map_or(ROOT, |&p| node_of[p as usize]))
             .collect();
-        for s in (0..nodes.len()).rev() {
-            if parent[s] != ROOT {
-                nodes[s].generation = 1 - nodes[parent[s] as usize].generation;
-            }
-        }
         let mut places = Lists::new();
         let mut children = vec![Vec::new(); nodes.len()];
         for (s, &p) in parent.iter().enumerate() {
@@ -116,39 +115,31 @@ impl Supernodal {
             let beyond = below.get(p as usize);
             places.push(below.get(s).iter().map(|&point| place_in_front(node, beyond, point)));
         }
-        let mut entries = Vec::with_capacity(lower.n_items() + lower.len());
-        for k in 0..lower.len() {
-            for &i in lower.get(k).iter().chain([&(k as u32)]) {
-                let s = node_of[i as usize] as usize;
-                let node: Node = nodes[s];
-                let at = place_in_front(node, below.get(s), k as u32);
-                let (row, column) = (2 * at as usize, 2 * (i - node.first) as usize);
-                let start = node.start + column * node.n_rows() + row;
-                entries.push((start as u32, node.n_rows() as u32));
-            }
-        }
+        let entries = place_entries(&mut nodes, lower, &node_of, &below);
         let mut child_lists = Lists::new();
         for list in children {
             child_lists.push(list);
         }
-        let n_scaled = nodes.iter().map(|node| node.n_pivots() * node.n_rows()).max();
-        let n_gathered = nodes.iter().map(|node| node.n_below()).max();
+        let children = child_lists.shrunk();
+        let most = |of: fn(&Node) -> usize| nodes.iter().map(of).max().unwrap_or(0);
+        let n_pivots = most(|node| node.n_pivots());
         Self {
             below: below.shrunk(),
             places: places.shrunk(),
-            children: child_lists.shrunk(),
-            numbers: vec![0.0; start],
-            scaled: vec![0.0; n_scaled.unwrap_or(0)],
-            stacks: [Vec::new(), Vec::new()],
+            numbers: vec![0.0; room(&nodes, &children)],
+            n_stored: start,
+            d: vec![0.0; n_pivots],
+            packed: vec![0.0; WIDE * n_pivots],
             entries,
-            gathered: vec![0.0; n_gathered.unwrap_or(0)],
+            gathered: vec![0.0; most(|node| node.n_below())],
+            children,
             nodes,
         }
     }
 
     /// How many numbers the factor stores.
     pub fn n_stored(&self) -> usize {
-        self.numbers.len()
+        self.n_stored
     }
 
     /// Factors `normal + mu I`.
@@ -176,50 +167,41 @@ impl Supernodal {
     #[inline(always)]
     fn factor_portable(&mut self, normal: &Normal, mu: f64) -> Pivots {
         let mut pivots = Pivots::NONE;
-        self.numbers.fill(0.0);
-        self.scatter(normal, mu);
-        for s in 0..self.nodes.len() {
-            let node = self.nodes[s];
+        let mut first_entry = 0;
+        let mut top = self.numbers.len();
+        for (s, &node) in self.nodes.iter().enumerate() {
             let (n_rows, n_pivots, n_below) = (node.n_rows(), node.n_pivots(), node.n_below());
-            let [even, odd] = &mut self.stacks;
-            let (own, theirs) = if node.generation == 0 { (even, odd) } else { (odd, even) };
-            let base = own.len();
-            own.resize(base + n_below * n_below, 0.0);
-            let change = &mut own[base..];
-            let columns = &mut self.numbers[node.numbers()];
+            let (columns, rest) = self.numbers.split_at_mut(node.numbers().end);
+            let columns = &mut columns[node.start..];
+            let (room, mut theirs) = rest.split_at_mut(top - node.numbers().end);
+            let own = room.len() - n_below * n_below;
+            let change = &mut room[own..];
+            columns.fill(0.0);
+            change.fill(0.0);
+            let entries = &self.entries[first_entry..node.end_entry as usize];
+            first_entry = node.end_entry as usize;
+            scatter(columns, n_rows, entries, normal);
+            for diagonal in columns.iter_mut().step_by(n_rows + 1) {
+                *diagonal += mu;
+            }
             // The last child's change lies on top.
             for &child in self.children.get(s).iter().rev() {
                 let places = self.places.get(child as usize);
-                let n = 2 * places.len();
-                let handed = theirs.len() - n * n;
-                take_over(columns, change, node, places, &theirs[handed..]);
-                theirs.truncate(handed);
+                let handed;
+                (handed, theirs) = theirs.split_at_mut((2 * places.len()).pow(2));
+                take_over(columns, change, node, places, handed);
             }
-            factor_panel(columns, &mut self.scaled, n_rows, n_pivots, &mut pivots);
-            subtract_product(
-                change,
-                n_below,
-                Panel { numbers: columns, ld: n_rows }.from(n_pivots),
-                Panel { numbers: &self.scaled, ld: n_rows }.from(n_pivots),
-                [n_below, n_below, n_pivots],
-            );
+            let (d, packed) = (&mut self.d[..n_pivots], &mut self.packed);
+            factor_panel(columns, d, packed, n_rows, &mut pivots);
+            let panel = Panel { numbers: columns, ld: n_rows }.from(n_pivots);
+            subtract_product(change, n_below, panel, d, packed, [n_below, n_below]);
+            // What was handed over makes room for the change.
+            let n_left = theirs.len();
+            let below = self.numbers.len() - n_left;
+            self.numbers.copy_within(top - n_below * n_below..top, below - n_below * n_below);
+            top = below - n_below * n_below;
         }
         pivots
-    }
-
-    /// Puts the entries of `normal + mu I` into the columns of their nodes.
-    fn scatter(&mut self, normal: &Normal, mu: f64) {
-        let mut entries = self.entries.iter();
-        for k in 0..normal.len() {
-            for ((i, block), &(start, ld)) in normal.row(k).zip(&mut entries) {
-                let shift = if i == k { mu } else { 0.0 };
-                let (start, ld) = (start as usize, ld as usize);
-                self.numbers[start] = block[0] + shift;
-                self.numbers[start + 1] = block[2];
-                self.numbers[start + ld] = block[1];
-                self.numbers[start + ld + 1] = block[3] + shift;
-            }
-        }
     }
 
     /// Replaces the right-hand side, in elimination order, by the solution.
@@ -263,6 +245,63 @@ impl Supernodal {
                 own[j] = y;
             }
         }
+    }
+}
+
+/// The blocks of the normal matrix in the order of the nodes that hold their columns, and where
+/// each goes there; notes with each node where its blocks end.
+fn place_entries(
+    nodes: &mut [Node],
+    lower: &Lists,
+    node_of: &[u32],
+    below: &Lists,
+) -> Vec<(u32, u32)> {
+    let node_of = |i: u32| node_of[i as usize] as usize;
+    let row = |k: usize| lower.get(k).iter().copied().chain([k as u32]);
+    for i in (0..lower.len()).flat_map(row) {
+        nodes[node_of(i)].end_entry += 1;
+    }
+    let mut next = Vec::with_capacity(nodes.len());
+    let mut end = 0;
+    for node in nodes.iter_mut() {
+        next.push(end);
+        end += node.end_entry;
+        node.end_entry = end;
+    }
+    let mut entries = vec![(0, 0); end as usize];
+    let pairs = (0..lower.len()).flat_map(|k| row(k).map(move |i| (k as u32, i)));
+    for (block, (k, i)) in pairs.enumerate() {
+        let s = node_of(i);
+        let node = nodes[s];
+        let row = 2 * place_in_front(node, below.get(s), k) as usize;
+        let column = 2 * (i - node.first) as usize;
+        entries[next[s] as usize] = (block as u32, (column * node.n_rows() + row) as u32);
+        next[s] += 1;
+    }
+    entries
+}
+
+/// How many numbers the columns need, together with the changes that are on the stack when each
+/// node is at work.
+fn room(nodes: &[Node], children: &Lists) -> usize {
+    let n_change = |s: usize| nodes[s].n_below().pow(2);
+    let (mut most, mut n_stacked) = (0, 0);
+    for (s, node) in nodes.iter().enumerate() {
+        most = most.max(node.numbers().end + n_stacked + n_change(s));
+        let handed: usize = children.get(s).iter().map(|&child| n_change(child as usize)).sum();
+        n_stacked = n_stacked + n_change(s) - handed;
+    }
+    most
+}
+
+/// Puts blocks of the normal matrix where they belong in the columns of a node.
+fn scatter(columns: &mut [f64], ld: usize, entries: &[(u32, u32)], normal: &Normal) {
+    for &(block, at) in entries {
+        let (block, at) = (normal.block(block as usize), at as usize);
+        columns[at] = block[0];
+        columns[at + 1] = block[2];
+        columns[at + ld] = block[1];
+        columns[at + ld + 1] = block[3];
     }
 }
 
