@@ -238,7 +238,7 @@ impl<'a> Plan<'a> {
     fn length(&mut self, id: ConstraintId, record: &Record, length: &Length) {
         let points = length.points;
         let Bounds { lo, hi } = length.bounds;
-        let is_driven = record.drivers.iter().any(|(_, formula)| formula.depends().is_live());
+        let is_driven = record.drivers().iter().any(|(_, formula)| formula.depends().is_live());
         if length.bounds.is_equality() && !is_driven {
             self.add(id, record, Rod { points });
         } else if length.bounds.is_equality() {

@@ -1,10 +1,10 @@
 //! `change`: any trailing part of the statement that made a thing.
 
-use super::constrain::{Drivers, Measure, cog_ratio, not_negative};
+use super::constrain::{Measure, cog_ratio, not_negative};
 use super::{Diagnostic, Session};
 use crate::constraint::{Constraint, Field, Period, Relation as _};
 use crate::lang::ast::{ChangePart, Name, Relation};
-use crate::world::{ConstraintId, Edit, Entity, Record};
+use crate::world::{ConstraintId, Drivers, Edit, Entity, Record};
 
 impl Session {
     pub(super) fn change_thing(
@@ -118,8 +118,7 @@ impl Session {
                 return Err(self.no_such_part(name, takes));
             }
         };
-        record.drivers.retain(|(field, _)| !changed.contains(field));
-        record.drivers.extend(drivers);
+        record.replace_drivers(changed, drivers);
         Ok(())
     }
 }

@@ -8,11 +8,8 @@ use crate::constraint::{
 use crate::diag::Span;
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
 use crate::solve::CogForm;
-use crate::world::{Edit, Formula, PointId, Record, Shape, Value};
+use crate::world::{Drivers, Edit, PointId, Record, Shape, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Values of a constraint with the live expressions behind them.
-pub(super) type Drivers = Vec<(Field, Formula)>;
 
 /// What a relation is about: the values it may allow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +33,7 @@ impl Session {
             Some(label) => self.declare(label)?,
             None => self.numbered(stem).into(),
         };
-        let record = Record { name, constraint, drivers, is_on: true, rho: None };
+        let record = Record::new(name, constraint, drivers);
         let id = self.world.next_constraint();
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())

@@ -107,7 +107,7 @@ impl Session {
             }
             Constraint::Equal(c) => {
                 let [a, b, p, q] = c.points;
-                let is_plain = c.bounds == Bounds::exactly(0.0) && record.drivers.is_empty();
+                let is_plain = c.bounds == Bounds::exactly(0.0) && record.drivers().is_empty();
                 let relation = (!is_plain).then(|| self.relation(record, c.bounds, false));
                 Stated::Equal(self.pair_of(a, b), self.pair_of(p, q), relation)
             }

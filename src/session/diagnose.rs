@@ -10,7 +10,7 @@ use crate::solve::Status;
 use crate::solve::mobility::{
     Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
 };
-use crate::world::{ConstraintId, Edit, Entity, PointId};
+use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId};
 
 /// More redundant constraints than this are counted.
 const MOST_REDUNDANT: usize = 30;
@@ -259,7 +259,7 @@ impl Session {
     ) -> Option<Mend> {
         let name = subject.name(place);
         let mut record = subject.world.constraint(subject.parts.ids[place])?.clone();
-        record.drivers.retain(|(field, _)| !fields.contains(field));
+        record.replace_drivers(fields, Drivers::new());
         for &field in fields {
             let value = record.constraint.get(field)?;
             record.constraint.set(field, value + change);

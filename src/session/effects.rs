@@ -70,7 +70,7 @@ impl Session {
     }
 
     fn is_driven(&self, record: &Record, by: impl Fn(&World, &Formula) -> bool) -> bool {
-        record.drivers.iter().any(|(_, formula)| by(&self.world, formula))
+        record.drivers().iter().any(|(_, formula)| by(&self.world, formula))
     }
 
     fn clock_row(&self) -> Row {

@@ -42,7 +42,7 @@ impl Session {
             let _ = writeln!(text, "{}", self.parameter_text(id));
         }
         for (_, record) in self.world.constraints() {
-            let rho = record.rho.map(format_number).unwrap_or_default();
+            let rho = record.rho().map(format_number).unwrap_or_default();
             let _ =
                 writeln!(text, "{} on {} rho {rho}", self.constraint_text(record), record.is_on);
         }

@@ -184,7 +184,7 @@ impl Session {
         } else {
             line.push_str("  # off");
         }
-        if let Some(rho) = record.rho {
+        if let Some(rho) = record.rho() {
             let _ = write!(line, ", rho {}", format_number(rho));
         }
         line

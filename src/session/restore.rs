@@ -48,8 +48,8 @@ impl Session {
             (what::VALUES, Some(name)) => {
                 let values = numbers(&values).ok_or_else(bad)?;
                 self.restore_record(name, |record| {
-                    for ((field, _), value) in record.drivers.iter().zip(&values) {
-                        record.constraint.set(*field, *value);
+                    for (k, value) in values.iter().take(record.drivers().len()).enumerate() {
+                        record.constraint.set(record.drivers()[k].0, *value);
                     }
                 })?;
             }

@@ -140,15 +140,15 @@ impl Session {
             }
             line(script, self.constraint_statement(record));
             let name = Some(&*record.name);
-            if let Some(rho) = record.rho {
+            if let Some(rho) = record.rho() {
                 let targets = vec![named(&record.name)];
                 let value = literal(rho);
                 line(script, Command::Set { setting: ident("rho"), value, targets });
             }
             // The values come first: a new ratio makes wheels mesh anew.
-            if !record.drivers.is_empty() {
+            if !record.drivers().is_empty() {
                 let value = |field| record.constraint.get(field).unwrap_or_default();
-                let values: Vec<f64> = record.drivers.iter().map(|d| value(d.0)).collect();
+                let values: Vec<f64> = record.drivers().iter().map(|d| value(d.0)).collect();
                 restore(script, what::VALUES, name, numbers(&values));
             }
             let captured = record.constraint.captured();

@@ -154,7 +154,7 @@ impl Session {
                 }
                 ("rho", Entity::Constraint(id)) => {
                     let mut record = self.world.constraint(id).expect("it is named").clone();
-                    record.rho = Some(self.coefficient(value)?);
+                    record.set_rho(self.coefficient(value)?);
                     self.edit(Edit::Constraint(id, Some(Box::new(record))));
                 }
                 (_, entity) => {

@@ -216,7 +216,7 @@ impl Island {
         here.kind() == there.kind()
             && points.eq(there.points().iter().copied())
             && n_firm_rows(here) == n_firm_rows(there)
-            && self.own_rho.get(c).copied().flatten() == record.rho
+            && self.own_rho.get(c).copied().flatten() == record.rho()
     }
 
     /// Puts a constraint's values in place of those it has; it has the same points as before.

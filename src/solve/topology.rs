@@ -256,7 +256,7 @@ impl Topology {
                 .iter()
                 .map(|&(_, id)| {
                     let record = world.constraint(id).expect("a loose constraint lives");
-                    Member { id, constraint: &record.constraint, rho: record.rho }
+                    Member { id, constraint: &record.constraint, rho: record.rho() }
                 })
                 .collect();
             let island = Island::new(&mut group, |p| points.at(p), |p| points.inverse_mass(p));

@@ -94,9 +94,10 @@ impl World {
 
     /// Puts the present values of its live expressions into a constraint.
     fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
-        for (field, formula) in &record.drivers {
+        for k in 0..record.drivers().len() {
+            let (field, ref formula) = record.drivers()[k];
             let value = formula.evaluate(&Here::new(self, None))?;
-            record.constraint.set(*field, coordinate(*field, value));
+            record.constraint.set(field, coordinate(field, value));
         }
         record.flaw().map_or(Ok(()), Err)
     }
@@ -150,9 +151,9 @@ impl World {
     /// Gives the largest change of a value of the constraint.
     fn refresh_constraint(&mut self, id: ConstraintId) -> Result<f64, Diagnostic> {
         let mut change = 0.0_f64;
-        let n_drivers = self.constraint(id).expect("a listed constraint lives").drivers.len();
+        let n_drivers = self.constraint(id).expect("a listed constraint lives").drivers().len();
         for k in 0..n_drivers {
-            let (field, formula) = &self.constraint(id).expect("it lives").drivers[k];
+            let (field, formula) = &self.constraint(id).expect("it lives").drivers()[k];
             let field = *field;
             let value = coordinate(field, formula.evaluate(&Here::new(self, None))?);
             let constraint = self.constraint_state_mut(id);
@@ -213,7 +214,7 @@ impl World {
         let mut all = Vec::new();
         for &id in self.live.driven() {
             let record = self.constraint(id).expect("a listed constraint lives");
-            for (field, formula) in &record.drivers {
+            for (field, formula) in record.drivers() {
                 all.push((id, *field, coordinate(*field, formula.evaluate(&moving)?)));
             }
         }

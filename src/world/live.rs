@@ -145,13 +145,13 @@ impl Live {
         old: Option<&Record>,
         new: Option<&Record>,
     ) {
-        for (_, formula) in old.iter().flat_map(|record| &record.drivers) {
+        for (_, formula) in old.iter().flat_map(|record| record.drivers()) {
             self.unlink(formula, User::Constraint(id));
         }
-        for (_, formula) in new.iter().flat_map(|record| &record.drivers) {
+        for (_, formula) in new.iter().flat_map(|record| record.drivers()) {
             self.link(formula, User::Constraint(id));
         }
-        let is_listed = |record: &Record| !record.drivers.is_empty() || is_motor(record);
+        let is_listed = |record: &Record| !record.drivers().is_empty() || is_motor(record);
         self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
     }
 
@@ -225,14 +225,14 @@ impl World {
             if record.is_on && is_turning(record) {
                 motors.push(id);
             }
-            let formulas = record.drivers.iter().map(|(_, formula)| self.depends(formula));
+            let formulas = record.drivers().iter().map(|(_, formula)| self.depends(formula));
             let depends = formulas.fold(Depends::default(), Depends::or);
             if depends.is_live() {
                 driven.push(id);
             }
             if depends.on_points {
                 measured.push(id);
-                is_mutual |= record.drivers.iter().any(|(_, f)| self.follows_motion(f));
+                is_mutual |= record.drivers().iter().any(|(_, f)| self.follows_motion(f));
             }
         }
         self.live.is_mutual = is_mutual;

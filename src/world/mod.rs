@@ -31,7 +31,7 @@ pub use id::{ConstraintId, Entity, ParameterId, PointId};
 pub use motion::Motion;
 pub use names::Names;
 pub use points::{PointRecord, Points};
-pub use records::{Parameter, Record};
+pub use records::{Drivers, Parameter, Record};
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use users::User;

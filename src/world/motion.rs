@@ -72,7 +72,7 @@ impl World {
 
     /// All constraints with live values, whole.
     fn driven(&self) -> Vec<(ConstraintId, Constraint)> {
-        let driven = self.constraints().filter(|(_, r)| !r.drivers.is_empty());
+        let driven = self.constraints().filter(|(_, r)| !r.drivers().is_empty());
         driven.map(|(id, r)| (id, r.constraint.clone())).collect()
     }
 

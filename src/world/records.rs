@@ -11,18 +11,55 @@ pub struct Record {
     pub name: Word,
     /// The relation, over handles of points, with its values as of now.
     pub constraint: Constraint,
-    /// The live expressions behind some of its values.
-    pub drivers: Vec<(Field, Formula)>,
     /// Whether it is in the active list.
     pub is_on: bool,
-    /// The paper's rho of this constraint alone.
-    pub rho: Option<f64>,
+    /// What few constraints have, out of the way of all the others.
+    extra: Option<Box<Extra>>,
+}
+
+/// The live expressions behind values of a constraint.
+pub type Drivers = Vec<(Field, Formula)>;
+
+#[derive(Debug, Clone, Default)]
+struct Extra {
+    drivers: Drivers,
+    rho: Option<f64>,
 }
 
 impl Record {
+    /// A constraint that is switched on, driven by these expressions.
+    pub fn new(name: Word, constraint: Constraint, drivers: Drivers) -> Self {
+        let extra = (!drivers.is_empty()).then(|| Box::new(Extra { drivers, rho: None }));
+        Self { name, constraint, is_on: true, extra }
+    }
+
+    /// The live expressions behind some of its values.
+    pub fn drivers(&self) -> &[(Field, Formula)] {
+        self.extra.as_ref().map_or(&[], |extra| &extra.drivers)
+    }
+
+    /// Puts other expressions in the place of those behind these values.
+    pub fn replace_drivers(&mut self, fields: &[Field], new: Drivers) {
+        if self.extra.is_some() || !new.is_empty() {
+            let drivers = &mut self.extra.get_or_insert_default().drivers;
+            drivers.retain(|(field, _)| !fields.contains(field));
+            drivers.extend(new);
+        }
+    }
+
+    /// The paper's rho of this constraint alone.
+    pub fn rho(&self) -> Option<f64> {
+        self.extra.as_ref()?.rho
+    }
+
+    /// Gives it a rho of its own.
+    pub fn set_rho(&mut self, rho: f64) {
+        self.extra.get_or_insert_default().rho = Some(rho);
+    }
+
     /// The expression behind a value, if it is live.
     pub fn driver(&self, field: Field) -> Option<&Formula> {
-        self.drivers.iter().find(|(f, _)| *f == field).map(|(_, formula)| formula)
+        self.drivers().iter().find(|(f, _)| *f == field).map(|(_, formula)| formula)
     }
 
     /// What is wrong with the values that its live expressions gave it: no pose could have

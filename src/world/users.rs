@@ -99,7 +99,7 @@ impl PointUsers {
 
 fn points_of_record(record: &Record, visit: &mut impl FnMut(PointId)) {
     record.constraint.points().iter().for_each(|&p| visit(PointId(p)));
-    for (_, formula) in &record.drivers {
+    for (_, formula) in record.drivers() {
         points_of_formula(formula, visit);
     }
 }

@@ -50,13 +50,8 @@ impl Scene {
 
     pub fn add(&mut self, constraint: impl Into<Constraint>) -> ConstraintId {
         let id = self.world.next_constraint();
-        let record = Record {
-            name: format!("c{}", id.0).into(),
-            constraint: constraint.into(),
-            drivers: Vec::new(),
-            is_on: true,
-            rho: None,
-        };
+        let name = format!("c{}", id.0).into();
+        let record = Record::new(name, constraint.into(), Vec::new());
         self.world.apply(Edit::Constraint(id, Some(Box::new(record))));
         id
     }

@@ -22,8 +22,8 @@ pub struct Supernodal {
     /// The children of each node, ascending.
     children: Lists,
     /// The columns of L of each node, `n_rows` numbers each, with 1 / D on the diagonal; and
-    /// behind those made so far, while factoring, the changes that are not handed over yet, on
-    /// a stack that grows down from the end.
+    /// behind those made so far, while factoring, the changes that are not handed over yet, as
+    /// lower triangles on a stack that grows down from the end.
     numbers: Vec<f64>,
     /// How many of them are columns.
     n_stored: usize,
@@ -188,7 +188,7 @@ impl Supernodal {
             for &child in self.children.get(s).iter().rev() {
                 let places = self.places.get(child as usize);
                 let handed;
-                (handed, theirs) = theirs.split_at_mut((2 * places.len()).pow(2));
+                (handed, theirs) = theirs.split_at_mut(n_packed(2 * places.len()));
                 take_over(columns, change, node, places, handed);
             }
             let (d, packed) = (&mut self.d[..n_pivots], &mut self.packed);
@@ -197,9 +197,9 @@ impl Supernodal {
             subtract_product(change, n_below, panel, d, packed, [n_below, n_below]);
             // What was handed over makes room for the change.
             let n_left = theirs.len();
-            let below = self.numbers.len() - n_left;
-            self.numbers.copy_within(top - n_below * n_below..top, below - n_below * n_below);
-            top = below - n_below * n_below;
+            let to = self.numbers.len() - n_left;
+            pack(&mut self.numbers, top, to, n_below);
+            top = to - n_packed(n_below);
         }
         pivots
     }
@@ -284,14 +284,32 @@ fn place_entries(
 /// How many numbers the columns need, together with the changes that are on the stack when each
 /// node is at work.
 fn room(nodes: &[Node], children: &Lists) -> usize {
-    let n_change = |s: usize| nodes[s].n_below().pow(2);
     let (mut most, mut n_stacked) = (0, 0);
     for (s, node) in nodes.iter().enumerate() {
-        most = most.max(node.numbers().end + n_stacked + n_change(s));
-        let handed: usize = children.get(s).iter().map(|&child| n_change(child as usize)).sum();
-        n_stacked = n_stacked + n_change(s) - handed;
+        most = most.max(node.numbers().end + n_stacked + node.n_below().pow(2));
+        let children = children.get(s).iter().map(|&child| nodes[child as usize]);
+        let handed: usize = children.map(|child| n_packed(child.n_below())).sum();
+        n_stacked = n_stacked + n_packed(node.n_below()) - handed;
     }
     most
+}
+
+/// How many numbers the lower triangle of `n` columns is, in pairs of columns of one length.
+fn n_packed(n: usize) -> usize {
+    n / 2 * (n + 2)
+}
+
+/// Moves the lower triangle of the `n` columns that end at `from` to where it ends at `to`, which
+/// is no earlier.
+fn pack(numbers: &mut [f64], from: usize, to: usize, n: usize) {
+    let mut to = to;
+    // The last column first: none is overwritten before it is moved.
+    for column in (0..n).rev() {
+        let end = from - (n - 1 - column) * n;
+        let n_rows = n - column / 2 * 2;
+        to -= n_rows;
+        numbers.copy_within(end - n_rows..end, to);
+    }
 }
 
 /// Puts blocks of the normal matrix where they belong in the columns of a node.
@@ -321,18 +339,19 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Adds what a child hands over to the front of its parent: to the node's own `columns`, or to
 /// its `change`.
 fn take_over(columns: &mut [f64], change: &mut [f64], node: Node, places: &[u32], theirs: &[f64]) {
-    let n = 2 * places.len();
+    let mut theirs = theirs;
     let (n_rows, n_pivots, n_below) = (node.n_rows(), node.n_pivots(), node.n_below());
     for (j, &to) in places.iter().enumerate() {
         for half in 0..2 {
-            let from = &theirs[(2 * j + half) * n..][..n];
+            let from;
+            (from, theirs) = theirs.split_at(2 * (places.len() - j));
             let column = 2 * to as usize + half;
             let (target, shift) = if column < n_pivots {
                 (&mut columns[column * n_rows..][..n_rows], 0)
             } else {
                 (&mut change[(column - n_pivots) * n_below..][..n_below], n_pivots)
             };
-            for (&place, pair) in places[j..].iter().zip(from[2 * j..].as_chunks::<2>().0) {
+            for (&place, pair) in places[j..].iter().zip(from.as_chunks::<2>().0) {
                 let at = 2 * place as usize - shift;
                 target[at] += pair[0];
                 target[at + 1] += pair[1];
