@@ -91,6 +91,12 @@ impl Session {
             }
             _ => None,
         };
+        if part.is_none()
+            && let Some(Change::World(last)) = self.journal.current.last_mut()
+            && last.absorb(&inverse)
+        {
+            return;
+        }
         if part.is_none_or(|part| self.journal.covered.insert(part)) {
             self.journal.current.push(Change::World(inverse));
         }

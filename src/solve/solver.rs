@@ -332,7 +332,8 @@ impl Solver {
                 }
             }
         }
-        self.touched = Some(touched);
+        // What makes islands may have touched everything: that much room is not needed again.
+        self.touched = made.is_empty().then_some(touched);
         made
     }
 

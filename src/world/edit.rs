@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::made::{Batch, Made};
 use super::trace::Tail;
 use super::{
     Clock, ConstraintId, Entity, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord,
@@ -25,6 +26,10 @@ pub enum Edit {
     Constraint(ConstraintId, Option<Box<Record>>),
     /// Switches a constraint on, or off.
     Switch(ConstraintId, bool),
+    /// Deletes points and constraints that were made one after the other.
+    Unmake(Batch),
+    /// Makes them again.
+    Make(Box<Made>),
     /// Makes a parameter, changes it, or deletes it.
     Parameter(ParameterId, Option<Box<Parameter>>),
     /// Sets the clock.
@@ -52,6 +57,8 @@ impl Edit {
             | Self::Weight(..)
             | Self::Constraint(..)
             | Self::Switch(..)
+            | Self::Unmake(_)
+            | Self::Make(_)
             | Self::Parameter(..) => true,
             Self::Move(..)
             | Self::Clock(_)
@@ -95,6 +102,8 @@ impl World {
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
             }
+            Edit::Unmake(batch) => Edit::Make(Box::new(self.unmake(batch))),
+            Edit::Make(made) => Edit::Unmake(self.make(*made)),
             Edit::Parameter(id, parameter) => {
                 Edit::Parameter(id, self.swap_parameter(id, parameter))
             }
@@ -130,7 +139,7 @@ impl World {
         }
     }
 
-    fn swap_point(
+    pub(super) fn swap_point(
         &mut self,
         id: PointId,
         record: Option<Box<PointRecord>>,
@@ -150,7 +159,7 @@ impl World {
         old
     }
 
-    fn swap_constraint(
+    pub(super) fn swap_constraint(
         &mut self,
         id: ConstraintId,
         record: Option<Box<Record>>,

@@ -90,7 +90,7 @@ impl NormalMatrix {
         let ordered = vec![0.0; 2 * order.len()];
         let factor = match storage {
             Storage::Sparse => Factor::Sparse(Sparse::new(columns)),
-            Storage::Supernodal => Factor::Supernodal(Supernodal::new(&lower, &columns)),
+            Storage::Supernodal => Factor::Supernodal(Supernodal::new(&lower, columns)),
         };
         let normal = Normal::new(&lower, &order, rows);
         Self { normal, factor, order, ordered }

@@ -76,8 +76,9 @@ impl Node {
 impl Supernodal {
     /// `columns` is the pattern of L by rows, in an order that follows its tree; `lower` that
     /// of the normal matrix.
-    pub fn new(lower: &Lists, columns: &Lists) -> Self {
+    pub fn new(lower: &Lists, columns: Lists) -> Self {
         let rows = columns.transposed();
+        drop(columns);
         let ends = amalgamate(&rows);
         let mut node_of = vec![0; rows.len()];
         let mut nodes = Vec::with_capacity(ends.len());
@@ -115,6 +116,7 @@ impl Supernodal {
             let beyond = below.get(p as usize);
             places.push(below.get(s).iter().map(|&point| place_in_front(node, beyond, point)));
         }
+        drop(rows);
         let entries = place_entries(&mut nodes, lower, &node_of, &below);
         let mut child_lists = Lists::new();
         for list in children {
@@ -449,7 +451,7 @@ mod tests {
                 std::array::from_fn(|k| f64::sin((7 * row_idx * (k + 1)) as f64));
             normal.add_row(row_idx, &values);
         }
-        let mut factor = Supernodal::new(&analysis.lower, &analysis.columns);
+        let mut factor = Supernodal::new(&analysis.lower, analysis.columns);
         factor.factor(&normal, 1e-3);
         let widest = factor.numbers.clone();
         factor.factor_portable(&normal, 1e-3);
