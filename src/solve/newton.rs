@@ -17,6 +17,9 @@ const FLOOR: f64 = 1e-11;
 const LONGEST_STEP: f64 = 0.5;
 /// Steps that gain less of what they promise are taken back.
 const LEAST_GAIN: f64 = 1e-4;
+/// A part of a step is taken where all of it leads up, if it gains at least this much of what that
+/// part promises.
+const WORTHWHILE: f64 = 0.25;
 /// With this much damping steps vanish in rounding: there is no way down.
 const MOST_DAMPING: f64 = 1e8;
 /// A step that lowers the energy by less than this part makes us ask for a best fit.
@@ -132,8 +135,8 @@ fn descend(
             *n += 1;
             let longest = limits.longest_step(LONGEST_STEP, room);
             let is_near = room.equations.reach(&room.step) <= longest;
-            let gained = if is_near { before - room.try_step(pose, 1.0, work) } else { 0.0 };
-            let gain = gained / promised;
+            let energy = if is_near { room.try_step(pose, 1.0, work) } else { f64::INFINITY };
+            let gain = (before - energy) / promised;
             if gain > LEAST_GAIN {
                 if gain > 0.75 {
                     *nu = (*nu / 4.0).max(LEAST_DAMPING);
@@ -141,6 +144,13 @@ fn descend(
                     *nu = (*nu * 4.0).max(1e-3);
                 }
                 break;
+            }
+            if is_near && energy.is_finite() {
+                let part = shorter(before, promised, energy);
+                let shortened = part * (2.0 - part) * promised;
+                if before - room.try_step(pose, part, work) > WORTHWHILE * shortened {
+                    break;
+                }
             }
             if is_near {
                 room.reject(pose, work);
@@ -157,6 +167,22 @@ fn descend(
             return End::Slow;
         }
     }
+}
+
+/// The part of a step that is best taken, if all of it leads from an energy to a higher one
+/// instead of gaining what it promises.
+///
+/// What the rows leave out grows with the square of the step, its energy c t^4 with the fourth
+/// power: E(t) = before - promised t (2 - t) + c t^4, least where promised (1 - t) = 2 c t^3.
+fn shorter(before: f64, promised: f64, energy: f64) -> f64 {
+    let c = energy - (before - promised);
+    let ratio = 2.0 * c / promised;
+    // From above, where the cubic is convex.
+    let mut t = ratio.cbrt().recip().min(1.0);
+    for _ in 0..4 {
+        t -= (ratio * t * t * t + t - 1.0) / (3.0 * ratio * t * t + 1.0);
+    }
+    t
 }
 
 /// Works out the step for a damping; gives the energy it promises to gain, none if the rows
@@ -210,4 +236,19 @@ fn is_best_fit(room: &mut Workspace, pose: &mut Pose, work: &mut Counters) -> bo
 /// The squared norm of the slope.
 fn steepness(room: &Workspace) -> f64 {
     room.slope.iter().map(|g| g * g).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shorter;
+
+    #[test]
+    fn a_step_is_shortened_to_where_the_energy_is_least() {
+        let (before, promised, energy) = (1.0, 0.9, 70.0);
+        let c = energy - (before - promised);
+        let at = |t: f64| before - promised * t * (2.0 - t) + c * t.powi(4);
+        let best = shorter(before, promised, energy);
+        assert!((at(1.0) - energy).abs() < 1e-12);
+        assert!(at(best) < before && at(best) < at(0.999 * best) && at(best) < at(1.001 * best));
+    }
 }
