@@ -62,7 +62,7 @@ pub use hinge::Hinge;
 pub use jet::{Jet, Real};
 pub use kinds::{Constraint, Kind};
 pub use length::Length;
-pub use motor::Motor;
+pub use motor::{Heading, Motor};
 pub use orientation::{Orientation, Period};
 pub use place::Place;
 pub use rack::Rack;

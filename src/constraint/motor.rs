@@ -14,11 +14,18 @@ use super::{Field, Place, Point, PointIdx, Real, Relation, Row, Turns, Vector};
 pub struct Motor {
     /// The centre and the point driven around it.
     pub points: [PointIdx; 2],
+    heading: Heading,
+    /// What stays from frame to frame: shared by copies, so that each is small and made at once.
+    drive: Arc<Drive>,
+}
+
+/// All that time changes of a motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heading {
+    /// How far it has turned since it was made.
     turned: Turns,
     /// Where the driven point belongs, from the centre.
     target: Vector,
-    /// What stays from frame to frame: shared by copies, so that each is small and made at once.
-    drive: Arc<Drive>,
 }
 
 /// The values of a motor.
@@ -38,37 +45,53 @@ impl Motor {
         let target = Vector::polar(radius, phase);
         let step = (0.0, Turns::default());
         let drive = Arc::new(Drive { radius, phase, speed, step });
-        Self { points, turned: Turns::default(), target, drive }
+        Self { points, heading: Heading { turned: Turns::default(), target }, drive }
+    }
+
+    /// How far it has turned, and where that leads.
+    pub const fn heading(&self) -> Heading {
+        self.heading
+    }
+
+    /// Puts it where a copy of it was, or will be.
+    pub fn set_heading(&mut self, heading: Heading) {
+        self.heading = heading;
+    }
+
+    /// Whether another is a copy of it that differs at most in how far it has turned. Says no
+    /// where that is not seen at once.
+    pub fn is_copy(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.drive, &other.drive)
     }
 
     /// The angle against the x axis without whole turns, radians.
     pub fn angle(&self) -> f64 {
-        super::geometry::wrap(self.drive.phase + self.turned.angle())
+        super::geometry::wrap(self.drive.phase + self.heading.turned.angle())
     }
 
     /// The angle with whole turns, `phase + turned`, radians.
     pub fn total(&self) -> f64 {
-        self.drive.phase + self.turned.total()
+        self.drive.phase + self.heading.turned.total()
     }
 
     /// How far it has turned since it was made.
     pub const fn turned(&self) -> Turns {
-        self.turned
+        self.heading.turned
     }
 
     /// Sets how far it has turned: the clock goes back to where it was.
     pub fn set_turned(&mut self, turned: Turns) {
-        self.turned = turned;
+        self.heading.turned = turned;
         self.aim();
     }
 
     /// Where the driven point belongs, from the centre.
     pub const fn target(&self) -> Vector {
-        self.target
+        self.heading.target
     }
 
     fn aim(&mut self) {
-        self.target = Vector::polar(self.drive.radius, self.angle());
+        self.heading.target = Vector::polar(self.drive.radius, self.angle());
     }
 
     fn linear(&self) -> Linear {
@@ -78,7 +101,7 @@ impl Motor {
 
     fn value(&self, x: &[Point]) -> Vector {
         let [x1, x2] = self.points.map(|p| x[p as usize]);
-        (x2 - x1) - self.target
+        (x2 - x1) - self.heading.target
     }
 }
 
@@ -114,7 +137,8 @@ impl Relation for Motor {
         equation: &mut impl FnMut(T),
     ) {
         let [x1, x2] = self.points.map(x);
-        let turned = T::integral(self.turned.angle(), field(Field::Speed, self.drive.speed));
+        let turned =
+            T::integral(self.heading.turned.angle(), field(Field::Speed, self.drive.speed));
         let angle = field(Field::Phase, self.drive.phase) + turned;
         let radius = field(Field::Radius, self.drive.radius);
         let v = x2 - x1;
@@ -144,7 +168,7 @@ impl Relation for Motor {
     }
 
     fn state(&self) -> Option<Vec<f64>> {
-        Some(self.turned.to_numbers().to_vec())
+        Some(self.heading.turned.to_numbers().to_vec())
     }
 
     fn set_state(&mut self, state: &[f64]) {
@@ -158,7 +182,7 @@ impl Relation for Motor {
     fn pick_up(&mut self, x: &[Point]) {
         let [x1, x2] = self.points.map(|p| x[p as usize]);
         if x1 != x2 {
-            self.turned = self.turned.pick_up((x2 - x1).angle() - self.drive.phase);
+            self.heading.turned = self.heading.turned.pick_up((x2 - x1).angle() - self.drive.phase);
             self.aim();
         }
     }
@@ -172,7 +196,7 @@ impl Relation for Motor {
         if step != self.drive.step.0 {
             Arc::make_mut(&mut self.drive).step = (step, Turns::from_radians(step));
         }
-        self.turned = self.turned.plus(self.drive.step.1);
+        self.heading.turned = self.heading.turned.plus(self.drive.step.1);
         self.aim();
         true
     }

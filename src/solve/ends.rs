@@ -19,9 +19,9 @@ impl Ends {
     /// The ends of the frame an island is in: its present values, and those before.
     pub fn of_frame(island: &mut Island) -> Self {
         island.inputs.tidy();
-        let constraints = island.inputs.constraints.iter();
-        let constraints = constraints
-            .map(|(c, before)| (*c, before.clone(), island.constraints[*c as usize].clone()));
+        let constraints = island.inputs.constraints_before(&island.constraints).into_iter();
+        let constraints =
+            constraints.map(|(c, before)| (c, before, island.constraints[c as usize].clone()));
         let points = island.inputs.points.iter();
         let points = points.map(|&(p, before)| (p, before, island.x[p as usize]));
         let (constraints, points) = (constraints.collect(), points.collect());

@@ -36,7 +36,7 @@ impl Island {
             return;
         }
         self.inputs.tidy();
-        let constraints = std::mem::take(&mut self.inputs.constraints);
+        let constraints = self.inputs.constraints_before(&self.constraints);
         let mut x = self.x.clone();
         x[..self.n_free].copy_from_slice(self.history.origin());
         for &(p, before) in &self.inputs.points {

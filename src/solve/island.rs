@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::halt::Before;
 use super::history::History;
+use super::inputs::Inputs;
 use super::method::{Limits, Workspace};
 use super::plan::{Plan, n_firm_rows};
 use super::rows::Equations;
@@ -78,38 +79,6 @@ pub(super) struct Island {
     pub remembered: OnceLock<Arc<[f64]>>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
-}
-
-/// What changed since the last visit, with the values before.
-#[derive(Default)]
-pub(super) struct Inputs {
-    /// Constraints whose values changed.
-    pub constraints: Vec<(u32, Constraint)>,
-    /// Frozen points that were put elsewhere.
-    pub points: Vec<(u32, Point)>,
-    /// Whether a free point was put elsewhere.
-    pub is_disturbed: bool,
-}
-
-impl Inputs {
-    /// Whether nothing changed.
-    pub fn is_empty(&self) -> bool {
-        self.constraints.is_empty() && self.points.is_empty() && !self.is_disturbed
-    }
-
-    /// What changed twice began where the first change found it.
-    pub fn tidy(&mut self) {
-        self.constraints.sort_by_key(|(c, _)| *c);
-        self.constraints.dedup_by_key(|(c, _)| *c);
-        self.points.sort_by_key(|(p, _)| *p);
-        self.points.dedup_by_key(|(p, _)| *p);
-    }
-
-    fn clear(&mut self) {
-        self.constraints.clear();
-        self.points.clear();
-        self.is_disturbed = false;
-    }
 }
 
 /// A constraint on its way into an island.
@@ -221,6 +190,18 @@ impl Island {
 
     /// Puts a constraint's values in place of those it has; it has the same points as before.
     pub fn set_values(&mut self, c: usize, constraint: &Constraint) {
+        if let (Constraint::Motor(here), Constraint::Motor(there)) =
+            (&mut self.constraints[c], constraint)
+            && here.is_copy(there)
+        {
+            let before = here.heading();
+            if before != there.heading() {
+                here.set_heading(there.heading());
+                self.remembered.take();
+                self.inputs.note_turn(c as u32, before);
+            }
+            return;
+        }
         let mut new = constraint.clone();
         for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
             *to = *from;
@@ -234,11 +215,7 @@ impl Island {
             self.wanted = None;
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
-        if self.inputs.constraints.capacity() == 0 {
-            // Most islands are driven by one motor.
-            self.inputs.constraints.reserve_exact(1);
-        }
-        self.inputs.constraints.push((c as u32, old));
+        self.inputs.note_values(c as u32, old);
     }
 
     /// Puts a point elsewhere, from outside.
@@ -293,13 +270,7 @@ impl Island {
 
     /// Exchanges the values that drive the island with those before.
     pub fn swap_inputs(&mut self) {
-        self.inputs.tidy();
-        for (c, other) in &mut self.inputs.constraints {
-            std::mem::swap(&mut self.constraints[*c as usize], other);
-        }
-        for (p, other) in &mut self.inputs.points {
-            std::mem::swap(&mut self.x[*p as usize], other);
-        }
+        self.inputs.swap(&mut self.constraints, &mut self.x);
     }
 
     /// The frame is over: its inputs are those of the present pose.

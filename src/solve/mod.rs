@@ -15,6 +15,7 @@ mod fingerprint;
 mod footprint;
 mod halt;
 mod history;
+mod inputs;
 mod island;
 mod memory;
 mod method;

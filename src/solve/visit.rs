@@ -103,7 +103,7 @@ pub(super) fn turn_back(island: &mut Island, dt: f64) {
     for (c, constraint) in island.constraints.iter().enumerate() {
         let mut before = constraint.clone();
         if before.advance(-dt) {
-            island.inputs.constraints.push((c as u32, before));
+            island.inputs.note_values(c as u32, before);
         }
     }
 }

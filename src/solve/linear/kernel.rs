@@ -96,12 +96,7 @@ impl<'a> Panel<'a> {
 }
 
 #[inline(always)]
-fn tile<const R: usize, const C: usize>(
-    c: &mut [f64],
-    ldc: usize,
-    a: Panel,
-    b: &[[f64; C]],
-) {
+fn tile<const R: usize, const C: usize>(c: &mut [f64], ldc: usize, a: Panel, b: &[[f64; C]]) {
     let mut sum = [[0.0; R]; C];
     for (p, b) in b.iter().enumerate() {
         let a = a.column::<R>(p);
