@@ -96,6 +96,10 @@ fn a_pipe_goes_on_after_a_mistake_as_a_terminal_would() {
     assert_eq!((out.status.code(), text(&out.stdout)), (Some(0), "1\n".to_owned()));
     let out = run(folder.path(), &[], "print (1,\n  2");
     assert_eq!(out.status.code(), Some(2));
+    let out = run(folder.path(), &[], "assert 1 = 2\nnonsense\nprint 3");
+    assert_eq!((out.status.code(), text(&out.stdout)), (Some(1), "3\n".to_owned()));
+    let out = run(folder.path(), &[], "include \"none.link\"\nassert 1 = 2");
+    assert_eq!(out.status.code(), Some(3));
 }
 
 #[test]

@@ -147,7 +147,8 @@ pub fn session(outside: &Outside) -> Status {
 /// each look reads all of it.
 const LINES_WATCHED: usize = 64;
 
-/// Statements from a pipe, carried out as they come: goes on after an error as a terminal would.
+/// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
+/// and says at the end what the first one was.
 fn typed_ahead(session: &mut Session) -> Status {
     let mut typed = Typed::new("<stdin>");
     let mut status = Status::Fine;
@@ -170,11 +171,11 @@ fn typed_ahead(session: &mut Session) -> Status {
         if !is_end && (!is_due || is_incomplete(&piece)) {
             continue;
         }
-        let Outcome { flow, has_failed } = typed.obey(session, &piece);
+        let Outcome { flow, failure } = typed.obey(session, &piece);
         piece.clear();
         n_lines = 0;
-        if has_failed {
-            status = Status::Mistake;
+        if status == Status::Fine {
+            status = failure.unwrap_or(Status::Fine);
         }
         match flow {
             Flow::On if is_end => return status,
