@@ -18,7 +18,7 @@ pub(super) struct Prefix {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads `label:` and `add`; gives what it found and where the verb begins.
+    /// Reads `label:` and `add`, in either order; gives what it found and where the verb begins.
     pub fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
         let text = &self.text[head.clone()];
         let Some(kind) = prefix_of(text) else {
@@ -33,6 +33,9 @@ impl<'a> Reader<'a> {
             prefix.label = Some(cursor.name()?);
         }
         prefix.add = cursor.take(Rule::kw_add).map(|pair| cursor.span(&pair));
+        if cursor.peek() == Some(Rule::name) {
+            prefix.label = Some(cursor.name()?);
+        }
         let verb = cursor.take(Rule::verb).expect("the grammar has a verb behind a prefix");
         Ok((prefix, cursor.span(&verb).start as usize))
     }

@@ -187,6 +187,11 @@ fn change_parts(c: &mut Cursor) -> Result<Vec<ChangePart>, Diagnostic> {
                 c.next();
                 if rule == Rule::kw_inside { ChangePart::Inside } else { ChangePart::Unbounded }
             }
+            Rule::on_line | Rule::to_line => {
+                let part = c.take(rule).expect("it is the next thing");
+                let line = c.within(part).pair()?;
+                if rule == Rule::on_line { ChangePart::On(line) } else { ChangePart::To(line) }
+            }
             _ => {
                 let value = c.clause(rule)?.expect("the grammar has a clause here");
                 match rule {
