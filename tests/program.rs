@@ -83,6 +83,15 @@ fn standard_input_is_a_script_too() {
 }
 
 #[test]
+fn a_byte_order_mark_is_no_column() {
+    let folder = folder(&[("a.link", "\u{feff}nonsense")]);
+    for arguments in [&["run", "a.link"][..], &["run", "-"], &[]] {
+        let out = run(folder.path(), arguments, "\u{feff}nonsense");
+        assert!(text(&out.stderr).contains(":1:1\n"), "{}", text(&out.stderr));
+    }
+}
+
+#[test]
 fn a_pipe_goes_on_after_a_mistake_as_a_terminal_would() {
     let folder = folder(&[]);
     let typed =

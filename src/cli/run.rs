@@ -108,7 +108,7 @@ pub fn script(file: &Path, session: &mut Session) -> Status {
 fn read_stdin() -> io::Result<String> {
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes)?;
-    String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
+    files::text(bytes)
 }
 
 /// An empty session.
@@ -154,6 +154,7 @@ fn typed_ahead(session: &mut Session) -> Status {
     let mut status = Status::Fine;
     let mut piece = String::new();
     let mut n_lines = 0;
+    let mut is_first = true;
     loop {
         let mut line = Vec::new();
         match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
@@ -165,7 +166,10 @@ fn typed_ahead(session: &mut Session) -> Status {
             }
         }
         let is_end = line.is_empty();
-        piece.push_str(&String::from_utf8_lossy(&line));
+        let mark = files::BYTE_ORDER_MARK;
+        let typed_line = if is_first { line.strip_prefix(mark) } else { None };
+        piece.push_str(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
+        is_first = false;
         n_lines += 1;
         let is_due = n_lines < LINES_WATCHED || n_lines % LINES_WATCHED == 0 || line == b"}\n";
         if !is_end && (!is_due || is_incomplete(&piece)) {

@@ -220,7 +220,7 @@ impl Effects {
                     "on",
                     bytes(row.n_bytes),
                     digits(per_frame(row.seconds)),
-                    digits(share),
+                    if share > 0.0 && share < 0.01 { "<0.01".to_owned() } else { digits(share) },
                 )
             } else {
                 format!("{:<20}off", row.name)
@@ -244,5 +244,26 @@ fn bytes(n: usize) -> String {
         n if n < 10_000 => format!("{n} B"),
         n if n < 10_000_000 => format!("{} kB", n / 1000),
         n => format!("{} MB", n / 1_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_stay_apart_however_small_a_share() {
+        let row = |seconds| Row {
+            name: "ghosts",
+            is_on: true,
+            because: vec!["expose".to_owned()],
+            n_bytes: 480,
+            seconds,
+        };
+        let rows = [1e-9, 1.23e-5, 0.1234, 1.0].map(row).to_vec();
+        let effects = Effects { rows, islands: (1, 1), n_frames: 240, seconds: 1.0 };
+        for line in &effects.lines()[1..5] {
+            assert_eq!(line.split_whitespace().count(), 7, "{line}");
+        }
     }
 }
