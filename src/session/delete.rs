@@ -27,7 +27,10 @@ impl Session {
                         self.change(Change::Definition(Box::new((word.text.clone(), None))));
                         continue;
                     }
-                    _ => vec![self.entity(name)?],
+                    _ => {
+                        let entity = self.entity(name);
+                        vec![entity.map_err(|problem| self.or_word(problem, name, "cascade"))?]
+                    }
                 },
             };
             let first = all.len();

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::journal::Change;
+use super::points::ALL;
 use super::recorder::{Format, Recorder};
 use super::{Diagnostic, Session};
 use crate::diag::{Kind, Span};
@@ -48,7 +49,8 @@ impl Session {
         }
         let Selection::Names(names) = selection else { return Ok(()) };
         for name in names {
-            let point = self.point(name)?;
+            let point = self.point(name);
+            let point = point.map_err(|problem| self.or_word(problem, name, ALL))?;
             let Some(k) = self.world.traces().iter().position(|t| t.point == point) else {
                 let text = self.world.points().name(point);
                 return Err(Diagnostic::error(format!("`{text}` is not traced"))
