@@ -58,6 +58,7 @@ fn exit_statuses_say_how_a_batch_went() {
     check("print 1\nlenght A B\nprint 2", 2, "1\n", "did you mean `length`?");
     check("include \"b.link\"", 3, "", "no such file");
     check("point A = (0, 0)\nsvg \"a.link/x.svg\"", 3, "", "cannot write `a.link/x.svg`");
+    check("svg \"a.link/x.svg\"", 3, "", "a file is where a folder has to be");
     check("quit\nprint 1", 0, "", "");
     check(
         "point A = (0, 0) frozen, B = (1, 0) frozen\nlength A B = 2\nstep within 1e-9",

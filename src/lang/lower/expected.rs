@@ -54,6 +54,7 @@ impl Expected {
                 Rule::name
                 | Rule::names
                 | Rule::ident
+                | Rule::setting
                 | Rule::pair
                 | Rule::binding
                 | Rule::point_decl

@@ -117,7 +117,7 @@ pub(super) fn lower(
             relation: relation(c)?,
             within: c.clause(Rule::within)?,
         },
-        Rule::help => Command::Help(c.ident_if_any()),
+        Rule::help => Command::Help(c.setting_if_any()),
         Rule::trace => Command::Trace { names: c.names()?, every: c.clause(Rule::every)? },
         Rule::untrace => Command::Untrace(c.selection()?),
         Rule::expose => expose(c)?,
