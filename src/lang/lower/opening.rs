@@ -112,7 +112,8 @@ impl<'a> Reader<'a> {
         } else {
             nearest(word, words.chain(["add"]))
         };
-        match near.or_else(|| other_tongue(word)) {
+        let fits = |word: &&str| !expects_constraint || constraint::rule(word).is_some();
+        match near.or_else(|| other_tongue(word).filter(fits)) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.is_empty() => {
                 problem.help(format!("to see what it is worth, write `print {shown}`"))
