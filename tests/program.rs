@@ -58,6 +58,7 @@ fn exit_statuses_say_how_a_batch_went() {
     check("print 1\nlenght A B\nprint 2", 2, "1\n", "did you mean `length`?");
     check("include \"b.link\"", 3, "", "no such file");
     check("point A = (0, 0)\nsvg \"a.link/x.svg\"", 3, "", "cannot write `a.link/x.svg`");
+    check("svg \"a.link/x.svg\"", 3, "", "a file is where a folder has to be");
     check("quit\nprint 1", 0, "", "");
     check(
         "point A = (0, 0) frozen, B = (1, 0) frozen\nlength A B = 2\nstep within 1e-9",
@@ -83,6 +84,15 @@ fn standard_input_is_a_script_too() {
 }
 
 #[test]
+fn a_byte_order_mark_is_no_column() {
+    let folder = folder(&[("a.link", "\u{feff}nonsense")]);
+    for arguments in [&["run", "a.link"][..], &["run", "-"], &[]] {
+        let out = run(folder.path(), arguments, "\u{feff}nonsense");
+        assert!(text(&out.stderr).contains(":1:1\n"), "{}", text(&out.stderr));
+    }
+}
+
+#[test]
 fn a_pipe_goes_on_after_a_mistake_as_a_terminal_would() {
     let folder = folder(&[]);
     let typed =
@@ -96,6 +106,10 @@ fn a_pipe_goes_on_after_a_mistake_as_a_terminal_would() {
     assert_eq!((out.status.code(), text(&out.stdout)), (Some(0), "1\n".to_owned()));
     let out = run(folder.path(), &[], "print (1,\n  2");
     assert_eq!(out.status.code(), Some(2));
+    let out = run(folder.path(), &[], "assert 1 = 2\nnonsense\nprint 3");
+    assert_eq!((out.status.code(), text(&out.stdout)), (Some(1), "3\n".to_owned()));
+    let out = run(folder.path(), &[], "include \"none.link\"\nassert 1 = 2");
+    assert_eq!(out.status.code(), Some(3));
 }
 
 #[test]

@@ -14,13 +14,7 @@ pub fn script(examination: &Examination) -> Status {
         Ok(session) => session,
         Err(status) => return status,
     };
-    let effects = match session.effects_on() {
-        Ok(effects) => effects,
-        Err(problem) => {
-            talk::show(&problem, session.sources());
-            return Status::of(&problem);
-        }
-    };
+    let effects = session.effects_on();
     if examination.json {
         talk::answer(&format!("{:#}", to_json(&effects)));
     } else {

@@ -3,9 +3,19 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+/// What some editors put before a text in UTF-8.
+pub const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Reads a text in UTF-8.
 pub fn read(path: &Path) -> io::Result<String> {
-    let bytes = std::fs::read(path)?;
+    text(std::fs::read(path)?)
+}
+
+/// The text that `bytes` are. A byte order mark is no part of it: columns count from behind it.
+pub fn text(mut bytes: Vec<u8>) -> io::Result<String> {
+    if bytes.starts_with(BYTE_ORDER_MARK) {
+        bytes.drain(..BYTE_ORDER_MARK.len());
+    }
     String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
 }
 

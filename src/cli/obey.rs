@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::run::Status;
 use super::talk;
 use crate::diag::Span;
 use crate::lang::parse;
@@ -18,8 +19,8 @@ pub struct Typed {
 pub struct Outcome {
     /// How its last statement ended.
     pub flow: Flow,
-    /// Whether a statement failed.
-    pub has_failed: bool,
+    /// What a batch would end with at the first statement that failed, if one did.
+    pub failure: Option<Status>,
 }
 
 impl Typed {
@@ -34,7 +35,7 @@ impl Typed {
         let folder = Some(PathBuf::new());
         let source = session.add_piece(self.name, piece, self.n_lines + 1, folder);
         self.n_lines += piece.lines().count().max(1);
-        let mut outcome = Outcome { flow: Flow::On, has_failed: false };
+        let mut outcome = Outcome { flow: Flow::On, failure: None };
         let mut left_out = 0;
         for statement in parse(source, piece) {
             let span = match &statement {
@@ -52,7 +53,7 @@ impl Typed {
                 }
                 Err(problem) => {
                     talk::show(&problem, session.sources());
-                    outcome.has_failed = true;
+                    outcome.failure.get_or_insert(Status::of(&problem));
                     left_out = line_end(piece, span);
                 }
             }

@@ -108,7 +108,7 @@ pub fn script(file: &Path, session: &mut Session) -> Status {
 fn read_stdin() -> io::Result<String> {
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes)?;
-    String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
+    files::text(bytes)
 }
 
 /// An empty session.
@@ -147,12 +147,14 @@ pub fn session(outside: &Outside) -> Status {
 /// each look reads all of it.
 const LINES_WATCHED: usize = 64;
 
-/// Statements from a pipe, carried out as they come: goes on after an error as a terminal would.
+/// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
+/// and says at the end what the first one was.
 fn typed_ahead(session: &mut Session) -> Status {
     let mut typed = Typed::new("<stdin>");
     let mut status = Status::Fine;
     let mut piece = String::new();
     let mut n_lines = 0;
+    let mut is_first = true;
     loop {
         let mut line = Vec::new();
         match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
@@ -164,17 +166,20 @@ fn typed_ahead(session: &mut Session) -> Status {
             }
         }
         let is_end = line.is_empty();
-        piece.push_str(&String::from_utf8_lossy(&line));
+        let mark = files::BYTE_ORDER_MARK;
+        let typed_line = if is_first { line.strip_prefix(mark) } else { None };
+        piece.push_str(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
+        is_first = false;
         n_lines += 1;
         let is_due = n_lines < LINES_WATCHED || n_lines % LINES_WATCHED == 0 || line == b"}\n";
         if !is_end && (!is_due || is_incomplete(&piece)) {
             continue;
         }
-        let Outcome { flow, has_failed } = typed.obey(session, &piece);
+        let Outcome { flow, failure } = typed.obey(session, &piece);
         piece.clear();
         n_lines = 0;
-        if has_failed {
-            status = Status::Mistake;
+        if status == Status::Fine {
+            status = failure.unwrap_or(Status::Fine);
         }
         match flow {
             Flow::On if is_end => return status,

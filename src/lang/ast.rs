@@ -274,6 +274,10 @@ pub enum ChangePart {
     Inside,
     /// `unbounded`
     Unbounded,
+    /// `on A B`
+    On(Pair),
+    /// `to A B`
+    To(Pair),
 }
 
 /// What a run promises for each of its frames: a broken one is a failure.

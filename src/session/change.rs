@@ -2,7 +2,7 @@
 
 use super::constrain::{Measure, cog_ratio, not_negative};
 use super::{Diagnostic, Session};
-use crate::constraint::{Constraint, Field, Period, Relation as _};
+use crate::constraint::{Constraint, Field, Glider, Period, Rack, Relation as _};
 use crate::lang::ast::{ChangePart, Name, Relation};
 use crate::world::{ConstraintId, Drivers, Edit, Entity, Record};
 
@@ -44,7 +44,10 @@ impl Session {
         parts: &[ChangePart],
     ) -> Result<(), Diagnostic> {
         let mut record = self.world.constraint(id).expect("a named constraint lives").clone();
-        for part in parts {
+        // A line says whether a glider is bounded unless another part does.
+        let (lines, others): (Vec<_>, Vec<_>) =
+            parts.iter().partition(|part| matches!(part, ChangePart::On(_) | ChangePart::To(_)));
+        for part in lines.into_iter().chain(others) {
             self.change_part(&mut record, name, part)?;
         }
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
@@ -113,6 +116,27 @@ impl Session {
                 c.bounded = false;
                 &[]
             }
+            (Constraint::Glider(c), ChangePart::On(line)) => {
+                let [a, b] = self.pair(line)?;
+                *c = Glider { points: [c.points[0], a, b], bounded: true };
+                &[]
+            }
+            (Constraint::Hinge(c), ChangePart::On(line)) => {
+                let [a, b] = self.pair(line)?;
+                c.points = [c.points[0], a, b];
+                &[]
+            }
+            (Constraint::Distance(c), ChangePart::To(line)) => {
+                let [a, b] = self.pair(line)?;
+                c.points = [c.points[0], a, b];
+                &[]
+            }
+            (Constraint::Rack(c), ChangePart::On(line)) => {
+                let [p, q] = self.pair(line)?;
+                let [o, a, ..] = c.points;
+                *c = Rack::new([o, a, p, q], self.world.points().column());
+                &[]
+            }
             (c, _) => {
                 let takes = takes(c);
                 return Err(self.no_such_part(name, takes));
@@ -126,17 +150,21 @@ impl Session {
 /// What can be changed of a constraint, for a message.
 fn takes(constraint: &Constraint) -> &'static str {
     match constraint {
-        Constraint::Length(_) | Constraint::Equal(_) | Constraint::Distance(_) => {
+        Constraint::Length(_) | Constraint::Equal(_) => {
             "this takes `= value`, `<= value`, `>= value` or `in a..b`"
+        }
+        Constraint::Distance(_) => {
+            "a distance takes `= value`, `<= value`, `>= value`, `in a..b` and `to A B`"
         }
         Constraint::Orientation(c) if c.period == Period::Whole => {
             "an orientation takes `= angle`, `<= angle`, `>= angle` or `in a..b`"
         }
         Constraint::Motor(_) => "a motor takes `radius`, `speed` and `phase`",
-        Constraint::Hinge(_) => "a hinge takes `at ratio`",
+        Constraint::Hinge(_) => "a hinge takes `on A B` and `at ratio`",
         Constraint::Coordinate(_) => "a coordinate takes `at (x, y)`",
         Constraint::Cog(_) | Constraint::CogVelocity(_) => "cogs take `ratio r` and `inside`",
-        Constraint::Glider(_) => "a glider takes `unbounded`",
+        Constraint::Glider(_) => "a glider takes `on A B` and `unbounded`",
+        Constraint::Rack(_) => "a rack takes `on P Q`",
         _ => "this constraint has no part that can be changed",
     }
 }

@@ -52,7 +52,8 @@ impl Session {
                 (Coordinate { points, target }.into(), "coordinate")
             }
             Stated::Coincidence(pair) => {
-                (Coincidence { points: self.pair(pair)? }.into(), "coincidence")
+                let points = self.two(pair, "a point coincides with itself anyway")?;
+                (Coincidence { points }.into(), "coincidence")
             }
             Stated::Equivalence(a, b) => {
                 (Equivalence { points: self.pairs(a, b)? }.into(), "equivalence")
@@ -156,11 +157,16 @@ impl Session {
         Ok(self.point(name)?.0)
     }
 
-    fn pair(&mut self, pair: &Pair) -> Result<[PointIdx; 2], Diagnostic> {
+    pub(super) fn pair(&mut self, pair: &Pair) -> Result<[PointIdx; 2], Diagnostic> {
+        self.two(pair, "a segment needs two different points")
+    }
+
+    fn two(&mut self, pair: &Pair, why: &str) -> Result<[PointIdx; 2], Diagnostic> {
         let ends = [self.idx(&pair.from)?, self.idx(&pair.to)?];
         if ends[0] == ends[1] {
-            return Err(Diagnostic::error("a segment needs two different points")
-                .at(pair.from.span.to(pair.to.span), "the same point twice"));
+            return Err(
+                Diagnostic::error(why).at(pair.from.span.to(pair.to.span), "the same point twice")
+            );
         }
         Ok(ends)
     }

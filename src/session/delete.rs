@@ -1,13 +1,20 @@
 //! `delete`, `clear` and `reset`.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
+
 use super::journal::Change;
 use super::{Diagnostic, Session};
 use crate::lang::ast::Name;
 use crate::solve::Memory;
-use crate::world::{Edit, Entity, Formula, Mention};
+use crate::world::{Edit, Entity, Formula, Mention, User};
 
 impl Session {
+    /// Deletes all that is named at once: what only they use of each other is no hindrance.
     pub(super) fn delete(&mut self, names: &[Name], cascade: bool) -> Result<(), Diagnostic> {
+        let mut all: Vec<Entity> = Vec::new();
+        let mut is_named: BTreeSet<Entity> = BTreeSet::new();
+        let mut parts: Vec<(&Name, Range<usize>)> = Vec::new();
         for name in names {
             let members = match self.instance(name)? {
                 Some(instance) => self.members(&instance),
@@ -20,27 +27,42 @@ impl Session {
                         self.change(Change::Definition(Box::new((word.text.clone(), None))));
                         continue;
                     }
-                    _ => vec![self.entity(name)?],
+                    _ => {
+                        let entity = self.entity(name);
+                        vec![entity.map_err(|problem| self.or_word(problem, name, "cascade"))?]
+                    }
                 },
             };
-            let users = self.world.users(&members);
-            if !cascade && !users.is_empty() {
-                let text = self.sources.slice(name.span).to_owned();
-                let list: Vec<String> = users
-                    .iter()
-                    .take(8)
-                    .map(|user| format!("`{}`", self.world.name_of(user.entity())))
-                    .collect();
-                let more = users.len().saturating_sub(list.len());
-                let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-                return Err(Diagnostic::error(format!("`{text}` is in use"))
-                    .at(name.span, format!("used by {}{more}", list.join(", ")))
-                    .help(format!("`delete {text} cascade` removes these too")));
-            }
-            let all = if cascade { self.world.with_users(&members) } else { members };
-            self.remove(&all);
+            let first = all.len();
+            all.extend(members.into_iter().filter(|member| is_named.insert(*member)));
+            parts.push((name, first..all.len()));
         }
+        if cascade {
+            all = self.world.with_users(&all);
+        } else {
+            for (name, members) in parts {
+                let users = self.world.users(&all[members]);
+                let others = users.into_iter().filter(|user| !is_named.contains(&user.entity()));
+                self.refuse_used(name, &others.collect::<Vec<_>>())?;
+            }
+        }
+        self.remove(&all);
         Ok(())
+    }
+
+    fn refuse_used(&self, name: &Name, users: &[User]) -> Result<(), Diagnostic> {
+        if users.is_empty() {
+            return Ok(());
+        }
+        let text = self.sources.slice(name.span);
+        let shown = &users[..users.len().min(8)];
+        let list: Vec<String> =
+            shown.iter().map(|user| format!("`{}`", self.world.name_of(user.entity()))).collect();
+        let more = users.len() - shown.len();
+        let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+        Err(Diagnostic::error(format!("`{text}` is in use"))
+            .at(name.span, format!("used by {}{more}", list.join(", ")))
+            .help(format!("`delete {text} cascade` removes these too")))
     }
 
     /// Everything whose name begins with `instance.`, constraints and parameters before points.
@@ -77,7 +99,7 @@ impl Session {
     /// order in which they can be made again.
     pub(super) fn parameters_in_order(&self) -> Vec<crate::world::ParameterId> {
         let mut order = Vec::new();
-        let mut is_done = std::collections::BTreeSet::new();
+        let mut is_done = BTreeSet::new();
         let roots: Vec<_> = self.world.parameters().map(|(id, _)| id).collect();
         for root in roots {
             let mut stack = vec![(root, false)];

@@ -1,6 +1,6 @@
 //! `effects`: what this scene has switched on, because of which statements, and what each costs.
 
-use super::{Diagnostic, Session};
+use super::Session;
 use crate::constraint::{Constraint, Kind};
 use crate::solve::{Budget, Effect, Solver, is_inequality, is_wheel};
 use crate::world::{Formula, Record, Sample, World};
@@ -41,11 +41,9 @@ const TIMED_SECONDS: f64 = 0.3;
 const NAMES_TOLD: usize = 6;
 
 impl Session {
-    /// What the scene has switched on, timed by letting a copy of it run on.
-    ///
-    /// # Errors
-    /// A live expression that has no value in the frames to come.
-    pub fn effects_on(&self) -> Result<Effects, Diagnostic> {
+    /// What the scene has switched on, timed by letting a copy of it run on for as long as its
+    /// live expressions have values.
+    pub fn effects_on(&self) -> Effects {
         let mut rows = vec![self.clock_row(), self.measures_row()];
         rows.extend([
             self.constraint_row("wheel angles", is_wheel),
@@ -57,8 +55,8 @@ impl Session {
             self.recording_row(),
         ]);
         let mut effects = Effects { rows, islands: (0, 0), n_frames: 0, seconds: 0.0 };
-        self.time_effects(&mut effects)?;
-        Ok(effects)
+        self.time_effects(&mut effects);
+        effects
     }
 
     fn row(name: &'static str, because: Vec<String>, n_bytes: usize) -> Row {
@@ -141,19 +139,21 @@ impl Session {
     }
 
     /// Lets a copy of the scene run on and times its parts.
-    fn time_effects(&self, effects: &mut Effects) -> Result<(), Diagnostic> {
+    fn time_effects(&self, effects: &mut Effects) {
         let mut world = self.world.clone();
         let mut solver = Solver::new();
         solver.set_memory(self.solver.memory());
         let settings = &self.preferences.solve;
         // The first frames bring the copy to its pace.
         for _ in 0..2 {
-            let report = solver.pass(&mut world, settings, &Budget::default())?;
+            let Ok(report) = solver.pass(&mut world, settings, &Budget::default()) else { return };
             effects.islands = (solver.n_islands().0, report.counters.islands_visited as usize);
         }
         let begun = self.host.seconds();
         while effects.n_frames < TIMED_FRAMES && self.host.seconds() - begun < TIMED_SECONDS {
-            solver.pass(&mut world, settings, &Budget::default())?;
+            if solver.pass(&mut world, settings, &Budget::default()).is_err() {
+                break;
+            }
             world.sample_traces(false);
             effects.n_frames += 1;
         }
@@ -168,7 +168,7 @@ impl Session {
             row.seconds = match row.name {
                 "clock" => {
                     let mut world = world.clone();
-                    // The frames timed above had values at these times and the next.
+                    // A time at which something has no value costs no less.
                     time(&mut || drop(world.advance()))
                 }
                 "wheel angles" => time(&mut || _ = solver.rehearse(Effect::Wheels)),
@@ -182,15 +182,12 @@ impl Session {
                 _ => 0.0,
             };
         }
-        Ok(())
     }
 
-    pub(super) fn effects(&mut self) -> Result<(), Diagnostic> {
-        let effects = self.effects_on()?;
-        for line in effects.lines() {
+    pub(super) fn effects(&mut self) {
+        for line in self.effects_on().lines() {
             self.host.print(&line);
         }
-        Ok(())
     }
 }
 
@@ -220,7 +217,7 @@ impl Effects {
                     "on",
                     bytes(row.n_bytes),
                     digits(per_frame(row.seconds)),
-                    digits(share),
+                    if share > 0.0 && share < 0.01 { "<0.01".to_owned() } else { digits(share) },
                 )
             } else {
                 format!("{:<20}off", row.name)
@@ -229,11 +226,13 @@ impl Effects {
         }
         let (total, awake) = self.islands;
         lines.push(format!("islands: {total}, {awake} awake, {} asleep", total - awake.min(total)));
-        lines.push(format!(
-            "a frame takes {} us, over {} frames of a copy",
-            digits(per_frame(self.seconds)),
-            self.n_frames
-        ));
+        lines.push(match self.n_frames {
+            0 => "no frame is timed: something has no value in the next ones".to_owned(),
+            n => format!(
+                "a frame takes {} us, over {n} frames of a copy",
+                digits(per_frame(self.seconds))
+            ),
+        });
         lines
     }
 }
@@ -244,5 +243,26 @@ fn bytes(n: usize) -> String {
         n if n < 10_000 => format!("{n} B"),
         n if n < 10_000_000 => format!("{} kB", n / 1000),
         n => format!("{} MB", n / 1_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_stay_apart_however_small_a_share() {
+        let row = |seconds| Row {
+            name: "ghosts",
+            is_on: true,
+            because: vec!["expose".to_owned()],
+            n_bytes: 480,
+            seconds,
+        };
+        let rows = [1e-9, 1.23e-5, 0.1234, 1.0].map(row).to_vec();
+        let effects = Effects { rows, islands: (1, 1), n_frames: 240, seconds: 1.0 };
+        for line in &effects.lines()[1..5] {
+            assert_eq!(line.split_whitespace().count(), 7, "{line}");
+        }
     }
 }

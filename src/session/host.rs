@@ -59,6 +59,7 @@ pub fn reason(error: &io::Error) -> String {
         io::ErrorKind::InvalidData => "not a text in UTF-8".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         io::ErrorKind::IsADirectory => "this is a folder".to_owned(),
+        io::ErrorKind::AlreadyExists => "a file is where a folder has to be".to_owned(),
         io::ErrorKind::NotADirectory => "part of the path is not a folder".to_owned(),
         io::ErrorKind::StorageFull => "the disk is full".to_owned(),
         _ => error.to_string(),

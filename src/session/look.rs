@@ -7,7 +7,7 @@ use super::{Diagnostic, Session};
 use crate::constraint::Relation as _;
 use crate::diag::{Kind, Span, format_number};
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
-use crate::lang::catalogue;
+use crate::lang::catalogue::{self, Entry};
 use crate::world::{ConstraintId, Entity, Function, PointId, Value};
 
 /// A value as `print` writes it.
@@ -243,22 +243,19 @@ impl Session {
 
     fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
         let word = &*topic.text;
-        let mut text = String::new();
+        let mut text = catalogue::entry(word).map(explained).unwrap_or_default();
         // Writing to a string cannot fail.
-        if let Some(entry) = catalogue::entry(word) {
-            let _ = writeln!(text, "{}\n  {}.", entry.usage, entry.summary);
-            for part in [entry.help, entry.example] {
-                if !part.is_empty() {
-                    let _ = writeln!(text, "\n{part}");
-                }
-            }
-        }
         for function in Function::named(word) {
             let _ = writeln!(text, "{word}: {}", function.help());
         }
         let setting = super::settings::SETTINGS.iter().find(|(name, _)| *name == word);
         if let Some((name, what)) = setting {
             let _ = writeln!(text, "set {name}: {what}; now {}", self.setting_text(name));
+        }
+        if text.is_empty()
+            && let Some(entry) = catalogue::about(word)
+        {
+            text = explained(entry);
         }
         if text.is_empty() {
             let problem =
@@ -272,6 +269,19 @@ impl Session {
         }
         Ok(text)
     }
+}
+
+/// A command or subject in full.
+fn explained(entry: &Entry) -> String {
+    // Writing to a string cannot fail.
+    let mut text = String::new();
+    let _ = writeln!(text, "{}\n  {}.", entry.usage, entry.summary);
+    for part in [entry.help, entry.example] {
+        if !part.is_empty() {
+            let _ = writeln!(text, "\n{part}");
+        }
+    }
+    text
 }
 
 /// The commands under their headings, a line each.

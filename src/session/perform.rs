@@ -59,7 +59,7 @@ impl Session {
             Command::Check => self.check(),
             Command::Why(name) => self.why(name)?,
             Command::Limits(name) => self.limits(name)?,
-            Command::Effects => self.effects()?,
+            Command::Effects => self.effects(),
             Command::Accuracy(promise) => return self.accuracy(promise, span),
             Command::Assert { left, relation, within } => {
                 self.assert(left, relation, within.as_ref(), span)?;

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::journal::Change;
+use super::points::ALL;
 use super::recorder::{Format, Recorder};
 use super::{Diagnostic, Session};
 use crate::diag::{Kind, Span};
@@ -48,7 +49,8 @@ impl Session {
         }
         let Selection::Names(names) = selection else { return Ok(()) };
         for name in names {
-            let point = self.point(name)?;
+            let point = self.point(name);
+            let point = point.map_err(|problem| self.or_word(problem, name, ALL))?;
             let Some(k) = self.world.traces().iter().position(|t| t.point == point) else {
                 let text = self.world.points().name(point);
                 return Err(Diagnostic::error(format!("`{text}` is not traced"))
@@ -162,13 +164,6 @@ impl Session {
                 .at(path.span, "")
                 .help("`record stop` ends and writes all recordings"));
         }
-        if format == Format::Table && self.world.traces().is_empty() {
-            self.warn(
-                &Diagnostic::warning("no point is traced, so the table will hold times only")
-                    .at(path.span, "")
-                    .help("`trace C` adds the columns of a point"),
-            );
-        }
         let recorder = Box::new(Recorder::new(file, path.span, every, format));
         self.change(Change::Recorder(self.recorders.len(), Some(recorder)));
         Ok(())
@@ -199,9 +194,13 @@ impl Session {
         let host = &self.host;
         let is_stopped = || host.is_interrupted() && !was_stopped;
         let n_before = self.outbox.len();
+        let mut bare = Vec::new();
         for recorder in &self.recorders {
             match recorder.format {
                 Format::Table => {
+                    if recorder.has_times_only() {
+                        bare.push(recorder.span);
+                    }
                     let file =
                         (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
                     self.outbox.push(file);
@@ -234,6 +233,13 @@ impl Session {
         if is_stopped() {
             self.outbox.truncate(n_before);
             return false;
+        }
+        for table in bare {
+            self.warn(
+                &Diagnostic::warning("no point was traced, so the table holds times only")
+                    .at(table, "")
+                    .help("`trace C` adds the columns of a point"),
+            );
         }
         self.drop_recordings();
         true

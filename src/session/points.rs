@@ -7,7 +7,10 @@ use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
 
 /// Names that have a meaning of their own in every expression.
-const RESERVED: [&str; 3] = ["pi", "tau", "time"];
+pub(super) const RESERVED: [&str; 3] = ["pi", "tau", "time"];
+
+/// The word for every point.
+pub(super) const ALL: &str = "all";
 
 impl Session {
     pub(super) fn make_points(&mut self, declarations: &[PointDecl]) -> Result<(), Diagnostic> {
@@ -85,7 +88,14 @@ impl Session {
     pub(super) fn selected(&mut self, selection: &Selection) -> Result<Vec<PointId>, Diagnostic> {
         match selection {
             Selection::All => Ok(self.world.points().ids().collect()),
-            Selection::Names(names) => names.iter().map(|name| self.point(name)).collect(),
+            Selection::Names(names) => {
+                let mut points = Vec::new();
+                for name in names {
+                    let point = self.point(name);
+                    points.push(point.map_err(|problem| self.or_word(problem, name, ALL))?);
+                }
+                Ok(points)
+            }
         }
     }
 

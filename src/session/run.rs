@@ -134,6 +134,11 @@ impl Session {
         span: Span,
         hand: impl Fn(&mut Self, u64),
     ) -> Result<(Flow, u64), Diagnostic> {
+        let clock = self.world.clock();
+        if !(clock.time() + n as f64 * clock.dt).is_finite() {
+            return Err(Diagnostic::error("the clock does not go that far")
+                .at(span, format!("time would be beyond {}", format_number(f64::MAX))));
+        }
         self.begin_motion();
         let settings = self.preferences.solve;
         let mut summary = self.run.take().unwrap_or(Summary::new());

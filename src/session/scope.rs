@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::Session;
+use super::points::{ALL, RESERVED};
 use crate::diag::{Diagnostic, Span, format_number, nearest};
-use crate::lang::ast::{Axis, Name, PartKind};
+use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::world::{ConstraintId, Entity, Formula, PointId, Word};
 
 /// The names that a block or an instance adds.
@@ -287,10 +288,30 @@ impl Session {
         known.extend(self.scope().bindings.iter().map(|(name, _)| &**name));
         known.extend(names.iter().filter_map(|(name, _)| name.strip_prefix(prefix.as_str())));
         known.sort_unstable();
-        match nearest(text, known.iter().copied()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem,
+        // One letter is too near to `pi` to mean it.
+        if text.chars().nth(1).is_some() {
+            known.extend(RESERVED);
         }
+        match (Function::named(text), nearest(text, known.iter().copied())) {
+            (Some(function), _) => {
+                problem.help(format!("it is a function: `{}`", function.usages()[0]))
+            }
+            (None, _) if text == ALL => problem.help(format!(
+                "`{ALL}` stands behind `freeze`, `thaw` and `untrace`; `clear` empties the world"
+            )),
+            (None, Some(near)) => problem.help(format!("did you mean `{near}`?")),
+            (None, None) => problem,
+        }
+    }
+
+    /// The error for a name that nothing has where a word could have stood: says so if that was
+    /// probably meant.
+    pub(super) fn or_word(&self, problem: Diagnostic, name: &Name, word: &str) -> Diagnostic {
+        let text = self.sources.slice(name.span);
+        if self.world.names().is_free(text) && nearest(text, [word]).is_some() {
+            return problem.help(format!("did you mean the word `{word}`?"));
+        }
+        problem
     }
 
     /// The names that differ from this one in their last index only: the least and the

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
-use crate::constraint::{Constraint, Point, Relation};
+use crate::constraint::{Constraint, Field, Point, Relation};
 use crate::diag::Diagnostic;
 
 /// By constraint, the numbers that running changes of it.
@@ -67,7 +67,7 @@ impl World {
 
     /// The states of all constraints that running changes.
     fn states(&self) -> States {
-        self.constraints().filter_map(|(id, r)| Some((id, r.constraint.state()?))).collect()
+        self.constraints().filter_map(|(id, r)| Some((id, whole_state(&r.constraint)?))).collect()
     }
 
     /// All constraints with live values, whole.
@@ -107,9 +107,9 @@ impl World {
     }
 
     fn restore_state(&mut self, id: ConstraintId, state: &[f64]) {
-        if let Some(record) = self.constraints.get_mut(id.idx()) {
-            record.constraint.set_state(state);
-        }
+        let Some(record) = self.constraints.get_mut(id.idx()) else { return };
+        let is_live = record.drivers().iter().any(|(field, _)| *field == Field::Ratio);
+        restore_whole(&mut record.constraint, state, is_live);
     }
 
     /// The motion that brings back the start: time 0, every point where it stood when the
@@ -169,7 +169,8 @@ impl World {
     pub(super) fn note_start_state(&mut self, id: ConstraintId) {
         if self.clock.frame > 0
             && !self.start_states.contains_key(&id)
-            && let Some(state) = self.constraints.get(id.idx()).and_then(|r| r.constraint.state())
+            && let Some(record) = self.constraints.get(id.idx())
+            && let Some(state) = whole_state(&record.constraint)
         {
             self.start_states.insert(id, state);
         }
@@ -178,6 +179,36 @@ impl World {
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
+    }
+}
+
+/// The state of a constraint, then how wheels meshed for it and their ratio: `reset` undoes
+/// what a gear change or switching on made of the mesh.
+fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
+    let mut whole = constraint.state()?;
+    whole.extend(constraint.captured());
+    whole.extend(constraint.get(Field::Ratio));
+    Some(whole)
+}
+
+/// Brings back what [`whole_state`] gave, or a state alone. Another ratio than then stays, as if
+/// it had been changed then; a live one is about to be evaluated.
+fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
+    let n_state = constraint.state().map_or(0, |state| state.len());
+    let n_mesh = constraint.captured().len();
+    if whole.len() < n_state + n_mesh {
+        return constraint.set_state(whole);
+    }
+    let (state, rest) = whole.split_at(n_state);
+    let (mesh, ratio) = rest.split_at(n_mesh);
+    let now = constraint.get(Field::Ratio);
+    if let &[then] = ratio {
+        constraint.set(Field::Ratio, then);
+    }
+    constraint.set_captured(mesh);
+    constraint.set_state(state);
+    if let Some(now) = now.filter(|_| !is_live) {
+        constraint.set(Field::Ratio, now);
     }
 }
 

@@ -137,19 +137,22 @@ fn changing() -> BoxedStrategy<Command> {
 
 /// Each sort of part at most once, one at least.
 fn change_parts() -> BoxedStrategy<Vec<ChangePart>> {
-    let all = (relation(), vec(expr(), 5)).prop_map(|(relation, mut values)| {
-        let mut value = || values.pop().expect("five values");
-        std::vec![
-            ChangePart::Relation(relation),
-            ChangePart::Radius(value()),
-            ChangePart::Speed(value()),
-            ChangePart::Phase(value()),
-            ChangePart::At(value()),
-            ChangePart::Ratio(value()),
-            ChangePart::Inside,
-            ChangePart::Unbounded,
-        ]
-    });
+    let all =
+        (relation(), vec(expr(), 5), pair(), pair()).prop_map(|(relation, mut values, on, to)| {
+            let mut value = || values.pop().expect("five values");
+            std::vec![
+                ChangePart::Relation(relation),
+                ChangePart::Radius(value()),
+                ChangePart::Speed(value()),
+                ChangePart::Phase(value()),
+                ChangePart::At(value()),
+                ChangePart::Ratio(value()),
+                ChangePart::Inside,
+                ChangePart::Unbounded,
+                ChangePart::On(on),
+                ChangePart::To(to),
+            ]
+        });
     all.prop_shuffle().prop_flat_map(|all| proptest::sample::subsequence(all, 1..=3)).boxed()
 }
 

@@ -216,7 +216,7 @@ pub(super) const MECHANISM: &[Entry] = &[
         usage: "change NAME PART ...",
         summary: "change any trailing part of the statement that made a thing",
         help: "The parts: `= e`, `<= e`, `>= e`, `in a..b`, `radius e`, `speed e`, `phase e`, `at e`,\n\
-             `ratio e`, `inside`, `unbounded`.",
+             `ratio e`, `inside`, `unbounded`, `on A B`, `to A B`.",
         example: "change crank speed 2rev\n\
              change coupler = 4\n\
              change coupler in 3..4",

@@ -85,6 +85,28 @@ pub fn entry(word: &str) -> Option<&'static Entry> {
     commands().chain(topics()).find(|entry| entry.keyword == word)
 }
 
+/// The command or subject that says what a word means which begins none.
+pub fn about(word: &str) -> Option<&'static Entry> {
+    entry(match word {
+        "frozen" => "point",
+        "to" | "over" => "drag",
+        "all" => "freeze",
+        "radius" | "speed" | "phase" => "motor",
+        "unbounded" => "glider",
+        "at" => "hinge",
+        "ratio" | "inside" => "cog",
+        "in" => "relations",
+        "cascade" => "delete",
+        "within" => "assert",
+        "every" => "trace",
+        "stop" => "record",
+        "as" => "use",
+        "pi" | "tau" | "time" => "expressions",
+        "units" | "deg" | "rad" | "rev" | "rpm" | "s" | "ms" => "numbers",
+        _ => return None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,6 +4,15 @@ use super::{Entry, Section};
 
 pub(super) const TOPICS: &[Entry] = &[
     Entry {
+        keyword: "add",
+        section: Section::Topics,
+        usage: "add CONSTRAINT",
+        summary: "means the same as the constraint alone",
+        help: "",
+        example: "add length B C = 3.5\n\
+             add coupler: length B C = 3.5",
+    },
+    Entry {
         keyword: "names",
         section: Section::Topics,
         usage: "p, p[3], left.B",
@@ -52,7 +61,9 @@ pub(super) const TOPICS: &[Entry] = &[
              rho         relaxation coefficient, 0.5; also for some constraints\n\
              weight      how strongly a point resists being moved; for some points\n\
              iterations  most iterations between two frames, 30\n\
-             tolerance   stop below this residual, relative to the scene's size, 1e-12",
+             tolerance   stop below this residual, relative to the scene's size, 1e-12\n\
+             dead-points where a motor cannot go on: hold, stop or reverse\n\
+             cog         wheels that are made from here on: holonomic, or the paper's velocity form",
         example: "set tolerance 1e-9",
     },
     Entry {

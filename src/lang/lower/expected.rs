@@ -54,6 +54,7 @@ impl Expected {
                 Rule::name
                 | Rule::names
                 | Rule::ident
+                | Rule::setting
                 | Rule::pair
                 | Rule::binding
                 | Rule::point_decl
@@ -120,6 +121,7 @@ impl fmt::Display for Expected {
 fn noun(verb: &str, is_first: bool) -> &'static str {
     match verb {
         "freeze" | "thaw" | "move" | "drag" | "point" | "trace" | "untrace" => "a point",
+        "change" if !is_first => "a point",
         "let" => "a parameter",
         "set" if is_first => "a setting",
         "off" | "on" => "a constraint",
@@ -160,9 +162,9 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::within | Rule::kw_within => "within",
         Rule::in_time | Rule::kw_in => "in",
         Rule::kw_frozen => "frozen",
-        Rule::kw_to => "to",
+        Rule::to_line | Rule::kw_to => "to",
         Rule::kw_over => "over",
-        Rule::kw_on => "on",
+        Rule::on_line | Rule::kw_on => "on",
         Rule::kw_unbounded => "unbounded",
         Rule::kw_inside => "inside",
         Rule::kw_cascade => "cascade",

@@ -106,6 +106,9 @@ impl Reader<'_> {
             _ if expected.has("a relation") && is_number => {
                 format!("did you mean `= {}`?", brief(word))
             }
+            _ if verb == "change" && last_word(before) == Some("to") => {
+                "a value stands behind `=`: `change coupler = 4`".to_owned()
+            }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
             }

@@ -18,7 +18,7 @@ pub(super) struct Prefix {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads `label:` and `add`; gives what it found and where the verb begins.
+    /// Reads `label:` and `add`, in either order; gives what it found and where the verb begins.
     pub fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
         let text = &self.text[head.clone()];
         let Some(kind) = prefix_of(text) else {
@@ -33,6 +33,9 @@ impl<'a> Reader<'a> {
             prefix.label = Some(cursor.name()?);
         }
         prefix.add = cursor.take(Rule::kw_add).map(|pair| cursor.span(&pair));
+        if cursor.peek() == Some(Rule::name) {
+            prefix.label = Some(cursor.name()?);
+        }
         let verb = cursor.take(Rule::verb).expect("the grammar has a verb behind a prefix");
         Ok((prefix, cursor.span(&verb).start as usize))
     }
@@ -109,7 +112,8 @@ impl<'a> Reader<'a> {
         } else {
             nearest(word, words.chain(["add"]))
         };
-        match near.or_else(|| other_tongue(word)) {
+        let fits = |word: &&str| !expects_constraint || constraint::rule(word).is_some();
+        match near.or_else(|| other_tongue(word).filter(fits)) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.is_empty() => {
                 problem.help(format!("to see what it is worth, write `print {shown}`"))

@@ -117,7 +117,7 @@ pub(super) fn lower(
             relation: relation(c)?,
             within: c.clause(Rule::within)?,
         },
-        Rule::help => Command::Help(c.ident_if_any()),
+        Rule::help => Command::Help(c.setting_if_any()),
         Rule::trace => Command::Trace { names: c.names()?, every: c.clause(Rule::every)? },
         Rule::untrace => Command::Untrace(c.selection()?),
         Rule::expose => expose(c)?,
@@ -186,6 +186,11 @@ fn change_parts(c: &mut Cursor) -> Result<Vec<ChangePart>, Diagnostic> {
             Rule::kw_inside | Rule::kw_unbounded => {
                 c.next();
                 if rule == Rule::kw_inside { ChangePart::Inside } else { ChangePart::Unbounded }
+            }
+            Rule::on_line | Rule::to_line => {
+                let part = c.take(rule).expect("it is the next thing");
+                let line = c.within(part).pair()?;
+                if rule == Rule::on_line { ChangePart::On(line) } else { ChangePart::To(line) }
             }
             _ => {
                 let value = c.clause(rule)?.expect("the grammar has a clause here");

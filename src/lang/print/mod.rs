@@ -239,6 +239,8 @@ impl Display for ChangePart {
             Self::Ratio(value) => write!(f, "ratio {value}"),
             Self::Inside => f.write_str("inside"),
             Self::Unbounded => f.write_str("unbounded"),
+            Self::On(line) => write!(f, "on {line}"),
+            Self::To(line) => write!(f, "to {line}"),
         }
     }
 }
