@@ -59,6 +59,7 @@ pub(super) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
         && (island.has_velocities()
+            || island.plan.is_linear()
             || attempt.is_safe(motion_since(island, island.history.origin()), limits)
                 && island.watched_point_over().is_none())
     {

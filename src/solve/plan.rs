@@ -105,6 +105,12 @@ impl Plan {
         self.blocks.is_empty() && self.rest.len() == 1
     }
 
+    /// Whether every constraint says outright where its point is: there is one solution, and no
+    /// branch to lose.
+    pub fn is_linear(&self) -> bool {
+        self.rest.is_empty() && self.blocks.iter().all(|block| block.form == Form::Assignment)
+    }
+
     /// Whether every point is found one by one.
     pub fn is_complete(&self) -> bool {
         self.rest.is_empty()
