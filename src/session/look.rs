@@ -42,6 +42,10 @@ impl Session {
         span: Span,
     ) -> Result<(), Diagnostic> {
         let slack = within.map_or(Ok(0.0), |e| self.number(e))?;
+        if let Some(e) = within.filter(|_| slack < 0.0) {
+            return Err(Diagnostic::error("a tolerance is not negative")
+                .at(e.span, format!("this is {}", format_number(slack))));
+        }
         let a = self.value(left)?;
         let (holds, wanted, difference) = match relation {
             Relation::In(range) => {
