@@ -186,7 +186,7 @@ impl Session {
                 self.end_laps();
                 self.give_receipt();
                 let label = self.label(statement.span);
-                self.journal.commit(&label);
+                self.commit(&label);
                 Ok(flow)
             }
             Err(problem) => {
@@ -222,7 +222,7 @@ impl Session {
                 .kind(Kind::Interrupted));
         }
         self.post()?;
-        self.journal.commit("");
+        self.commit("");
         Ok(())
     }
 

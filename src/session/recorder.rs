@@ -58,6 +58,11 @@ impl Recorder {
         Reel { keep: self.shots.len(), then: Vec::new() }
     }
 
+    /// Whether this is its reel as it is.
+    pub const fn is_at(&self, reel: &Reel) -> bool {
+        reel.keep == self.shots.len() && reel.then.is_empty()
+    }
+
     /// Winds to the end that `reel` describes; gives the end it had.
     pub fn wind(&mut self, reel: Reel) -> Reel {
         let keep = reel.keep.min(self.shots.len());

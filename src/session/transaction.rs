@@ -168,6 +168,32 @@ impl Session {
         answer
     }
 
+    /// Ends the command under way. One that left everything as it was is none to be taken back.
+    pub(super) fn commit(&mut self, label: &str) {
+        let changes = &self.journal.current;
+        let is_idle = changes.iter().all(|change| match change {
+            Change::World(edit) => self.world.is_already(edit),
+            Change::Preferences(preferences) => **preferences == self.preferences,
+            Change::Reels(reels) => {
+                reels.len() == self.recorders.len()
+                    && self.recorders.iter().zip(reels).all(|(r, reel)| r.is_at(reel))
+            }
+            // Looked at below: it takes the longest.
+            Change::Memory(_) => true,
+            _ => false,
+        });
+        let is_idle = is_idle
+            && changes.iter().all(|change| match change {
+                Change::Memory(memory) => memory.is_same(&self.solver.memory()),
+                _ => true,
+            });
+        if is_idle {
+            self.journal.take_current();
+        } else {
+            self.journal.commit(label);
+        }
+    }
+
     /// Takes back what the command under way did.
     pub(super) fn roll_back(&mut self) {
         self.outbox.clear();

@@ -91,6 +91,12 @@ impl Memory {
         self.made_by
     }
 
+    /// Whether another makes no difference: with which settings nothing was solved is none.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let is_bare = self.islands.is_empty() && other.islands.is_empty();
+        is_bare || self == other
+    }
+
     /// Adds what is remembered of an island; nothing of one that was never solved.
     pub(super) fn insert(&mut self, island: &Island) {
         if !island.is_new {

@@ -11,6 +11,7 @@ mod evaluate;
 mod formula;
 mod function;
 mod id;
+mod idle;
 mod live;
 mod made;
 mod motion;

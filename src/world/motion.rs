@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::idle::same_place;
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
 use crate::constraint::{Constraint, Field, Point, Relation};
@@ -63,6 +64,20 @@ impl World {
         share(&mut motion.start_states, &earlier.start_states, are_same_states);
         share(&mut motion.states, &earlier.states, are_same_states);
         motion
+    }
+
+    /// Whether this is the motion there is.
+    pub(super) fn is_at(&self, motion: &Motion) -> bool {
+        let traces = self.traces.iter().zip(&motion.traces);
+        self.clock == motion.clock
+            && are_same_places(&self.points.at, &motion.at)
+            && are_same_places(&self.points.start, &motion.start)
+            && are_same_states(&self.start_states, &motion.start_states)
+            && are_same_states(&self.states(), &motion.states)
+            && self.driven() == motion.driven
+            && self.traces.len() == motion.traces.len()
+            && traces.into_iter().all(|(trace, tail)| tail.is_all_of(&trace.samples))
+            && motion.ghosts.is_all_of(&self.ghosts)
     }
 
     /// The states of all constraints that running changes.
@@ -227,8 +242,7 @@ fn share<T>(copy: &mut Rc<T>, with: &Rc<T>, is_same: impl Fn(&T, &T) -> bool) {
 /// The same to the bit: 0 and -0 differ.
 #[allow(clippy::ptr_arg, reason = "a measure for `share`")]
 fn are_same_places(a: &Vec<Point>, b: &Vec<Point>) -> bool {
-    let bits = |p: &Point| [p.x.to_bits(), p.y.to_bits()];
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bits(a) == bits(b))
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_place(a, b))
 }
 
 /// The same to the bit.

@@ -43,6 +43,11 @@ impl<T> Tail<T> {
         Self { keep: list.len(), then: Vec::new() }
     }
 
+    /// Whether this is how the list is.
+    pub fn is_all_of(&self, list: &[T]) -> bool {
+        self.keep == list.len() && self.then.is_empty()
+    }
+
     /// Nothing left of the list.
     pub const fn cleared() -> Self {
         Self { keep: 0, then: Vec::new() }
