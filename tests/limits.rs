@@ -276,6 +276,20 @@ fn a_run_may_end_at_the_last_good_frame() {
 }
 
 #[test]
+fn a_run_that_ends_early_is_as_one_that_was_never_longer() {
+    let mut stopped = run_into("stop");
+    stopped.run("trace C\nexpose every 7\nrecord \"a.csv\"\nstep 60");
+    let mut stepped = run_into("stop");
+    stepped.run("trace C\nexpose every 7\nrecord \"a.csv\"\nfor i in 1..50 { step }");
+    assert_eq!(stopped.session.to_script(), stepped.session.to_script());
+    let table = |talking: &mut Talking| {
+        talking.run("record stop");
+        talking.talk.files()
+    };
+    assert_eq!(table(&mut stopped), table(&mut stepped));
+}
+
+#[test]
 fn a_motor_may_turn_back() {
     let mut talking = run_into("reverse");
     talking.run("step 60");

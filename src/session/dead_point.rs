@@ -2,6 +2,7 @@
 
 use super::Session;
 use super::limits_of::degrees;
+use super::recorder::{Recorder, Reel};
 use crate::constraint::geometry::wrap;
 use crate::constraint::{Field, Relation as _};
 use crate::solve::{Halt, Memory, Method};
@@ -33,36 +34,64 @@ impl AtDeadPoint {
     }
 }
 
-/// All that a frame changes, as it was before; kept only where the frame may have to be taken
-/// back.
-pub(super) struct Before {
+/// A way back to the beginning of a frame, while frames may have to be taken back: all that
+/// frames change, as it was before one of them. From there the frames since are done again, to
+/// the same bits. One is kept after 0, 1, 2, 4, 8 ... frames: looking at the whole scene before
+/// each would cost more than moving what moves in it.
+pub(super) struct WayBack {
+    /// The first frame that could be taken back.
+    first: u64,
+    /// The frame that this is the beginning of.
+    pub frame: u64,
     motion: Motion,
     memory: Memory,
+    reels: Vec<Reel>,
 }
 
 /// How a run goes on after a frame that was not solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Next {
     /// The frame counts.
     On,
-    /// The frame was taken back and is to be done again.
-    Again,
-    /// The frame was taken back and the run is over.
+    /// The frame is to be taken back and done again, with these motors turning back.
+    Again(Vec<ConstraintId>),
+    /// The frame is to be taken back and the run is over.
     Stop,
 }
 
 impl Session {
-    /// What a frame that may have to be taken back is about to change.
-    pub(super) fn before_frame(&mut self) -> Option<Before> {
-        let may_be_taken_back =
-            self.preferences.dead_points != AtDeadPoint::Hold && self.world.has_running_motors();
-        may_be_taken_back
-            .then(|| Before { motion: self.world.motion(), memory: self.solver.memory() })
+    /// Keeps a way back from frame `k`, which is about to begin, where that is due or `always`.
+    pub(super) fn keep_way_back(&mut self, way_back: &mut Option<WayBack>, k: u64, always: bool) {
+        if self.preferences.dead_points == AtDeadPoint::Hold || !self.world.has_running_motors() {
+            *way_back = None;
+            return;
+        }
+        let first = way_back.as_ref().map_or(k, |way| way.first);
+        let is_due =
+            way_back.as_ref().is_none_or(|way| k - first >= 2 * (way.frame - first) || always);
+        if is_due {
+            *way_back = Some(WayBack {
+                first,
+                frame: k,
+                motion: self.world.motion(),
+                memory: self.solver.memory(),
+                reels: self.recorders.iter().map(Recorder::mark).collect(),
+            });
+        }
+    }
+
+    /// Puts everything as it was before the frame that a way back is kept of.
+    pub(super) fn go_back(&mut self, way: WayBack) {
+        self.world.apply(Edit::Motion(Box::new(way.motion)));
+        self.solver.set_memory(way.memory);
+        for (recorder, reel) in self.recorders.iter_mut().zip(way.reels) {
+            recorder.wind(reel);
+        }
     }
 
     /// Looks for motors that met a dead point in frame `k` of `n`, which was not solved, and
-    /// does what is to be done then.
-    pub(super) fn met(&mut self, before: Option<Before>, k: u64, n: u64) -> Next {
+    /// says what is to be done then.
+    pub(super) fn met(&mut self, has_way_back: bool, k: u64, n: u64) -> Next {
         let halted = self.solver.halted();
         let met: Vec<(ConstraintId, String)> =
             halted.into_iter().filter_map(|(id, halt)| Some((id, self.tell_halt(halt)?))).collect();
@@ -78,13 +107,12 @@ impl Session {
             })
             .collect();
         let told = told.join(", ");
-        match (self.preferences.dead_points, before) {
-            (AtDeadPoint::Stop, Some(before)) => {
-                self.take_back(before);
+        match self.preferences.dead_points {
+            AtDeadPoint::Stop if has_way_back => {
                 self.note(format!("{told}: stopped after {} of {n} frames", k - 1));
                 Next::Stop
             }
-            (AtDeadPoint::Reverse, Some(before)) => {
+            AtDeadPoint::Reverse if has_way_back => {
                 if let Some((id, ..)) = met.iter().find(|(id, ..)| !self.can_reverse(*id)) {
                     let name = self.world.name_of(Entity::Constraint(*id));
                     self.note(format!(
@@ -93,10 +121,8 @@ impl Session {
                     ));
                     return Next::On;
                 }
-                self.take_back(before);
-                met.iter().for_each(|(id, ..)| self.reverse(*id));
                 self.note(format!("{told} in frame {frame}; it turns back"));
-                Next::Again
+                Next::Again(met.into_iter().map(|(id, _)| id).collect())
             }
             _ => {
                 self.note(format!(
@@ -125,17 +151,13 @@ impl Session {
         }
     }
 
-    fn take_back(&mut self, before: Before) {
-        self.world.apply(Edit::Motion(Box::new(before.motion)));
-        self.solver.set_memory(before.memory);
-    }
-
     /// Whether a motor's speed is a number, not an expression.
     fn can_reverse(&self, id: ConstraintId) -> bool {
         self.world.constraint(id).is_some_and(|record| record.driver(Field::Speed).is_none())
     }
 
-    fn reverse(&mut self, id: ConstraintId) {
+    /// Makes a motor turn back.
+    pub(super) fn reverse(&mut self, id: ConstraintId) {
         let Some(mut record) = self.world.constraint(id).cloned() else { return };
         if let Some(speed) = record.constraint.get(Field::Speed) {
             record.constraint.set(Field::Speed, -speed);

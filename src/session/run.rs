@@ -21,6 +21,8 @@ pub(super) struct Limits {
 
 /// Iterations of `relax` between two looks at whether the user wants to stop.
 const RELAX_CHUNK: u64 = 256;
+/// With more iterations than that a frame may take so long that its user wants to stop it.
+const LONG: u32 = 10_000;
 
 impl Session {
     pub(super) fn promised(&mut self, promise: &Promise) -> Result<Limits, Diagnostic> {
@@ -149,23 +151,33 @@ impl Session {
         let leaves_nothing = self.world.traces().is_empty()
             && self.recorders.is_empty()
             && self.preferences.expose_every.is_none();
+        let mut way_back = None;
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
                 break;
             }
-            let before = self.before_frame();
-            self.attend();
-            hand(self, k);
-            let mut report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
+            // Frames that the time decides about are not the same when done again.
+            self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
+            let mut report = self.one_frame(k, &limits, &hand)?;
             if report.status != Status::Converged {
-                match self.met(before, k, n) {
+                let next = self.met(way_back.is_some(), k, n);
+                if next != Next::On
+                    && let Some(way) = way_back.take()
+                {
+                    let again = way.frame..k;
+                    self.go_back(way);
+                    for k in again {
+                        let report = self.one_frame(k, &limits, &hand)?;
+                        self.keep_frame(report.status != Status::Converged);
+                    }
+                }
+                match next {
                     Next::On => {}
-                    Next::Again => {
-                        self.attend();
-                        hand(self, k);
-                        report = self.pass(&limits).map_err(|why| self.in_frame(why))?;
+                    Next::Again(motors) => {
+                        motors.into_iter().for_each(|id| self.reverse(id));
+                        report = self.one_frame(k, &limits, &hand)?;
                     }
                     Next::Stop => break,
                 }
@@ -187,6 +199,18 @@ impl Session {
         }
     }
 
+    /// Lets frame `k` pass.
+    fn one_frame(
+        &mut self,
+        k: u64,
+        limits: &Limits,
+        hand: impl Fn(&mut Self, u64),
+    ) -> Result<Report, Diagnostic> {
+        self.attend();
+        hand(self, k);
+        self.pass(limits).map_err(|why| self.in_frame(why))
+    }
+
     /// Adds to an error in which frame it came up.
     fn in_frame(&self, why: Diagnostic) -> Diagnostic {
         let clock = self.world.clock();
@@ -195,18 +219,15 @@ impl Session {
 
     fn pass(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
         let Self { solver, world, preferences, host, .. } = self;
-        match limits.seconds {
-            None => {
-                let budget = Budget { tolerance: limits.tolerance, stop: None };
-                solver.pass(world, &preferences.solve, &budget)
-            }
-            Some(seconds) => {
-                let deadline = host.seconds() + seconds;
-                let is_late = || host.seconds() >= deadline;
-                let budget = Budget { tolerance: limits.tolerance, stop: Some(&is_late) };
-                solver.pass(world, &preferences.solve, &budget)
-            }
-        }
+        let may_be_long = preferences.solve.iterations > LONG;
+        let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
+        let is_over = || {
+            may_be_long && host.is_interrupted()
+                || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+        };
+        let has_end = may_be_long || deadline.is_some();
+        let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
+        solver.pass(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
     }
 
     pub(super) fn relax(&mut self, n: Option<&Expr>) -> Result<Flow, Diagnostic> {

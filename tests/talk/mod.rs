@@ -9,11 +9,15 @@ use std::rc::Rc;
 use linkwork::diag::{Diagnostic, Sources};
 use linkwork::session::{Flow, Host, Session};
 
+/// A file that was written: where, and what.
+pub type Written = (PathBuf, Vec<u8>);
+
 /// What a session printed and told.
 #[derive(Clone, Default)]
 pub struct Talk {
     printed: Rc<RefCell<Vec<String>>>,
     told: Rc<RefCell<Vec<String>>>,
+    written: Rc<RefCell<Vec<Written>>>,
     clock: Rc<Cell<f64>>,
     tick: Rc<Cell<f64>>,
 }
@@ -22,6 +26,11 @@ impl Talk {
     /// The lines printed since this was last asked for.
     pub fn printed(&self) -> Vec<String> {
         self.printed.take()
+    }
+
+    /// The files written since this was last asked for.
+    pub fn files(&self) -> Vec<Written> {
+        self.written.take()
     }
 
     /// Lets the clock go on so many seconds whenever it is looked at; it stands still otherwise.
@@ -48,7 +57,8 @@ impl Host for Talk {
         std::fs::read_to_string(path)
     }
 
-    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.written.borrow_mut().push((path.to_path_buf(), bytes.to_vec()));
         Ok(())
     }
 
