@@ -295,7 +295,7 @@ mod unix {
         while !folder.path().join("begun.svg").exists() {
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
-        std::thread::sleep(std::time::Duration::from_millis(100));
+        std::thread::sleep(std::time::Duration::from_millis(10));
         let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         assert!(interrupt.expect("there is a kill").success());
         let out = child.wait_with_output().expect("it ends");
@@ -304,6 +304,29 @@ mod unix {
         assert!(said.contains("of 1000000000 frames"), "{said}");
         assert_eq!(text(&out.stdout), "");
         assert!(folder.path().join("paths.csv").exists());
+    }
+
+    #[test]
+    fn ctrl_c_ends_a_frame_of_very_many_iterations() {
+        let script = "point p[0] = (0, 0) frozen
+            for i in 1..3000 { point p[i] = (i, 0); length p[i-1] p[i] = 1.001 }
+            freeze p[3000]
+            set method relaxation
+            set iterations 1e9
+            svg \"begun.svg\"
+            step 1000";
+        let folder = folder(&[("a.link", script)]);
+        let child = endless(folder.path());
+        while !folder.path().join("begun.svg").exists() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.expect("there is a kill").success());
+        let out = child.wait_with_output().expect("it ends");
+        let said = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(130), "{said}");
+        assert!(said.contains("stopped after 1 of 1000 frames"), "{said}");
     }
 
     #[test]
