@@ -25,11 +25,7 @@ impl Inputs {
 
     /// A motor turned on.
     pub fn note_turn(&mut self, c: u32, before: Heading) {
-        if self.turns.capacity() == 0 {
-            // Most islands are driven by one motor.
-            self.turns.reserve_exact(1);
-        }
-        self.turns.push((c, before));
+        push_one(&mut self.turns, (c, before));
     }
 
     /// Values of a constraint changed.
@@ -40,7 +36,7 @@ impl Inputs {
             motor.set_heading(first);
             self.turns.retain(|(turned, _)| *turned != c);
         }
-        self.constraints.push((c, before));
+        push_one(&mut self.constraints, (c, before));
     }
 
     /// The constraints that changed, as they were before; `now` are those of the island.
@@ -95,4 +91,12 @@ impl Inputs {
             std::mem::swap(&mut x[*p as usize], other);
         }
     }
+}
+
+/// Appends to a list that mostly holds one: one motor, or one length, drives most islands.
+fn push_one<T>(list: &mut Vec<T>, item: T) {
+    if list.capacity() == 0 {
+        list.reserve_exact(1);
+    }
+    list.push(item);
 }
