@@ -287,13 +287,13 @@ mod unix {
             .expect("the program starts")
     }
 
-    /// Runs a script until shortly after it wrote `begun.svg`.
-    fn interrupted(folder: &Path) -> Output {
+    /// Runs a script until so many milliseconds after it wrote `begun.svg`.
+    fn interrupted(folder: &Path, after: u64) -> Output {
         let child = endless(folder);
         while !folder.join("begun.svg").exists() {
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
-        std::thread::sleep(std::time::Duration::from_millis(10));
+        std::thread::sleep(std::time::Duration::from_millis(after));
         let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         assert!(interrupt.expect("there is a kill").success());
         let out = child.wait_with_output().expect("it ends");
@@ -305,7 +305,7 @@ mod unix {
     fn ctrl_c_stops_between_frames_and_keeps_what_was_recorded() {
         let script = format!("{RECORDED}\nsvg \"begun.svg\"\nstep 1e9\nprint \"never\"");
         let folder = folder(&[("a.link", &script)]);
-        let out = interrupted(folder.path());
+        let out = interrupted(folder.path(), 20);
         let said = text(&out.stderr);
         assert!(said.contains("of 1000000000 frames"), "{said}");
         assert_eq!(text(&out.stdout), "");
@@ -322,8 +322,8 @@ mod unix {
             svg \"begun.svg\"
             step 1000";
         let folder = folder(&[("a.link", script)]);
-        let said = text(&interrupted(folder.path()).stderr);
-        assert!(said.contains("of 1000 frames"), "{said}");
+        let said = text(&interrupted(folder.path(), 300).stderr);
+        assert!(said.contains("stopped after 1 of 1000 frames"), "{said}");
     }
 
     #[test]

@@ -180,6 +180,12 @@ pub enum Field {
     Ratio,
 }
 
+impl Field {
+    /// All of them.
+    pub const ALL: [Self; 8] =
+        [Self::Lo, Self::Hi, Self::X, Self::Y, Self::Radius, Self::Speed, Self::Phase, Self::Ratio];
+}
+
 /// The excess of a measured value over its bounds, over any number type.
 fn excess<T: Real>(bounds: Bounds, f: T, field: &impl Fn(Field, f64) -> T) -> T {
     if bounds.is_equality() || f.value() < bounds.lo {

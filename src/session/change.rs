@@ -50,6 +50,15 @@ impl Session {
         for part in lines.into_iter().chain(others) {
             self.change_part(&mut record, name, part)?;
         }
+        let is_on_another_line = parts.iter().any(|part| matches!(part, ChangePart::On(_)));
+        if let Constraint::Rack(rack) = &record.constraint
+            && is_on_another_line
+            && self.world.clock().frame > 0
+        {
+            let points = self.world.points();
+            let at_start = Rack::new(rack.points, points.start_column()).into();
+            self.edit(self.world.begin_with(id, &at_start));
+        }
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())
     }

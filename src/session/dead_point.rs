@@ -37,7 +37,8 @@ impl AtDeadPoint {
 /// A way back to the beginning of a frame, while frames may have to be taken back: all that
 /// frames change, as it was before one of them. From there the frames since are done again, to
 /// the same bits. One is kept after 0, 1, 2, 4, 8 ... frames: looking at the whole scene before
-/// each would cost more than moving what moves in it.
+/// each would cost more than moving what moves in it. Frames that a limit of time may cut short are
+/// not the same when done again: with one, it is kept before each.
 pub(super) struct WayBack {
     /// The first frame that could be taken back.
     first: u64,

@@ -114,7 +114,8 @@ impl Recorder {
 
     /// Whether no row of a table says where a point is.
     pub fn has_times_only(&self) -> bool {
-        self.shots.iter().all(|shot| matches!(shot, Shot::Row(_, row) if row.is_empty()))
+        !self.shots.is_empty()
+            && self.shots.iter().all(|shot| matches!(shot, Shot::Row(_, row) if row.is_empty()))
     }
 
     /// The table: a line of names, then a line a frame. A point that was not traced at a

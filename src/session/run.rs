@@ -1,6 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
-use super::dead_point::Next;
+use super::dead_point::{Next, WayBack};
 use super::perform::format_count;
 use super::receipt::Summary;
 use super::{Diagnostic, Flow, Session};
@@ -17,6 +17,15 @@ pub(super) struct Limits {
     pub tolerance: Option<f64>,
     /// The wall time that no frame is to exceed.
     pub seconds: Option<f64>,
+}
+
+/// What a user who wants to stop does to a frame on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stop {
+    /// Ends one that may take long.
+    Allowed,
+    /// Nothing.
+    Ignored,
 }
 
 /// Iterations of `relax` between two looks at whether the user wants to stop.
@@ -160,31 +169,26 @@ impl Session {
             }
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
-            let mut report = self.one_frame(k, &limits, &hand)?;
+            let mut report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
             if report.status != Status::Converged {
                 let next = self.met(way_back.is_some(), k, n);
                 if next != Next::On
                     && let Some(way) = way_back.take()
                 {
-                    let again = way.frame..k;
-                    self.go_back(way);
-                    for k in again {
-                        let report = self.one_frame(k, &limits, &hand)?;
-                        self.keep_frame(report.status != Status::Converged);
-                    }
+                    self.go_back_to(k, way, &hand)?;
                 }
                 match next {
                     Next::On => {}
                     Next::Again(motors) => {
                         motors.into_iter().for_each(|id| self.reverse(id));
-                        report = self.one_frame(k, &limits, &hand)?;
+                        report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
                     }
                     Next::Stop => break,
                 }
             }
             summary.add(&report, self.world.clock().frame, span);
             if !leaves_nothing {
-                self.keep_frame(report.status != Status::Converged || report.is_interrupted);
+                self.keep_frame(is_missed(&report));
             }
         }
         summary.seconds += self.host.seconds() - begun;
@@ -204,11 +208,29 @@ impl Session {
         &mut self,
         k: u64,
         limits: &Limits,
+        stop: Stop,
         hand: impl Fn(&mut Self, u64),
     ) -> Result<Report, Diagnostic> {
         self.attend();
         hand(self, k);
-        self.pass(limits).map_err(|why| self.in_frame(why))
+        self.pass(limits, stop).map_err(|why| self.in_frame(why))
+    }
+
+    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
+    /// already, so none is cut short: what comes out is what was.
+    fn go_back_to(
+        &mut self,
+        k: u64,
+        way: WayBack,
+        hand: impl Fn(&mut Self, u64),
+    ) -> Result<(), Diagnostic> {
+        let again = way.frame..k;
+        self.go_back(way);
+        for k in again {
+            let report = self.one_frame(k, &Limits::default(), Stop::Ignored, &hand)?;
+            self.keep_frame(is_missed(&report));
+        }
+        Ok(())
     }
 
     /// Adds to an error in which frame it came up.
@@ -217,9 +239,9 @@ impl Session {
         why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }
 
-    fn pass(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
+    fn pass(&mut self, limits: &Limits, stop: Stop) -> Result<Report, Diagnostic> {
         let Self { solver, world, preferences, host, .. } = self;
-        let may_be_long = preferences.solve.iterations > LONG;
+        let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
         let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
         let is_over = || {
             may_be_long && host.is_interrupted()
@@ -299,6 +321,11 @@ impl Session {
         self.note(text);
         Ok(())
     }
+}
+
+/// Whether a frame counts as missed.
+fn is_missed(report: &Report) -> bool {
+    report.status != Status::Converged || report.is_interrupted
 }
 
 /// A number for talk: three digits say enough.

@@ -18,7 +18,6 @@ const FIELDS: [Field; 7] =
 impl Ends {
     /// The ends of the frame an island is in: its present values, and those before.
     pub fn of_frame(island: &mut Island) -> Self {
-        island.inputs.tidy();
         let constraints = island.inputs.constraints_before(&island.constraints).into_iter();
         let constraints =
             constraints.map(|(c, before)| (c, before, island.constraints[c as usize].clone()));

@@ -35,7 +35,6 @@ impl Island {
         if self.history.origin().len() != self.n_free {
             return;
         }
-        self.inputs.tidy();
         let constraints = self.inputs.constraints_before(&self.constraints);
         let mut x = self.x.clone();
         x[..self.n_free].copy_from_slice(self.history.origin());

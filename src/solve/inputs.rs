@@ -5,8 +5,8 @@ use crate::constraint::{Constraint, Heading, Point};
 /// What changed since the last visit, with the values before.
 #[derive(Default)]
 pub(super) struct Inputs {
-    /// Motors that turned on, which is all that most frames change. None that is in `constraints`
-    /// had turned before that.
+    /// Motors that turned on, which is all that most frames change. One that is in `constraints`
+    /// too turned after its values changed.
     turns: Vec<(u32, Heading)>,
     /// Constraints whose values changed.
     constraints: Vec<(u32, Constraint)>,
@@ -40,7 +40,8 @@ impl Inputs {
     }
 
     /// The constraints that changed, as they were before; `now` are those of the island.
-    pub fn constraints_before(&self, now: &[Constraint]) -> Vec<(u32, Constraint)> {
+    pub fn constraints_before(&mut self, now: &[Constraint]) -> Vec<(u32, Constraint)> {
+        self.tidy();
         let turned = self.turns.iter().map(|&(c, heading)| {
             let mut before = now[c as usize].clone();
             if let Constraint::Motor(motor) = &mut before {

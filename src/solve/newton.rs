@@ -15,7 +15,7 @@ const LEAST_DAMPING: f64 = 1e-6;
 const FLOOR: f64 = 1e-11;
 /// A step longer than this part of the size is no longer a small change.
 const LONGEST_STEP: f64 = 0.5;
-/// Steps that gain less of what they promise are taken back.
+/// Steps that gain less of what they promise are taken in part, or back.
 const LEAST_GAIN: f64 = 1e-4;
 /// A part of a step is taken where all of it leads up, if it gains at least this much of what that
 /// part promises.

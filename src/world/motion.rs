@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::idle::same_place;
+use super::idle::{are_same_places, are_same_states};
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
 use crate::constraint::{Constraint, Field, Point, Relation};
@@ -191,6 +191,11 @@ impl World {
         }
     }
 
+    /// The edit that makes `reset` bring back a constraint as if it had been this at the start.
+    pub fn begin_with(&self, id: ConstraintId, constraint: &Constraint) -> Edit {
+        Edit::StartState(id, whole_state(constraint).map(Vec::into_boxed_slice))
+    }
+
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
@@ -237,17 +242,4 @@ fn share<T>(copy: &mut Rc<T>, with: &Rc<T>, is_same: impl Fn(&T, &T) -> bool) {
     if is_same(copy, with) {
         copy.clone_from(with);
     }
-}
-
-/// The same to the bit: 0 and -0 differ.
-#[allow(clippy::ptr_arg, reason = "a measure for `share`")]
-fn are_same_places(a: &Vec<Point>, b: &Vec<Point>) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_place(a, b))
-}
-
-/// The same to the bit.
-fn are_same_states(a: &States, b: &States) -> bool {
-    let bits = |state: &[f64]| state.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
-    let is_same = |((i, a), (j, b)): ((_, &Vec<f64>), (_, &Vec<f64>))| i == j && bits(a) == bits(b);
-    a.len() == b.len() && a.iter().zip(b).all(is_same)
 }

@@ -59,6 +59,11 @@ impl Points {
         self.start[id.idx()]
     }
 
+    /// Where `reset` puts all handles given out so far.
+    pub fn start_column(&self) -> &[Point] {
+        &self.start
+    }
+
     /// Whether no constraint may move it.
     pub fn is_frozen(&self, id: PointId) -> bool {
         self.is_frozen[id.idx()]
