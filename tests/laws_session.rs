@@ -170,6 +170,26 @@ fn config() -> ProptestConfig {
     }
 }
 
+#[test]
+fn what_was_at_rest_when_it_was_saved_is_not_solved_again() {
+    let mut seat = Seat::new(".");
+    seat.must(
+        "point A = (0.8, -1.77), B = (0.35, -2.2) frozen, C = (-1.94, 2.21) frozen
+         point D = (-0.49, -0.97)
+         hinge A on B C at 0.3
+         length D A = 1.21
+         length D B = 1.3
+         length D C = 9
+         step 2",
+    );
+    let mut other = loaded(&seat.world());
+    for statement in ["solve", "step"] {
+        seat.must(statement);
+        other.must(statement);
+        check_same(&other.world(), &seat.world(), &format!("after `{statement}`"));
+    }
+}
+
 proptest! {
     #![proptest_config(config())]
 

@@ -58,6 +58,8 @@ pub(super) struct Island {
     /// Whether the user edited it since it was solved: it is solved as it is before time
     /// goes on.
     pub is_edited: bool,
+    /// Whether it is to be visited in the next frame: what is brought back sleeps on otherwise.
+    pub is_awake: bool,
     /// The energy at which a way off a saddle was last looked for; 0 if not since the last
     /// converged pose.
     pub probed_at: f64,
@@ -154,6 +156,7 @@ impl Island {
             n_evaluations: FIRST_VISIT * members.len() as u32,
             is_new: true,
             is_edited: false,
+            is_awake: true,
             probed_at: 0.0,
             inputs: Inputs::default(),
             before: None,
@@ -263,6 +266,7 @@ impl Island {
         // A saddle of what was is not one of what is.
         self.probed_at = 0.0;
         self.is_edited = true;
+        self.is_awake = true;
         self.history.forget();
         self.inputs.clear();
         self.remembered.take();

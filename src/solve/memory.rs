@@ -35,7 +35,8 @@ mod head {
     pub const N_FEASIBLE: usize = 7;
     pub const N_DIRECTIONS: usize = 8;
     pub const IS_EDITED: usize = 9;
-    pub const FINGERPRINT: usize = 10;
+    pub const IS_AWAKE: usize = 10;
+    pub const FINGERPRINT: usize = 11;
     /// How many there are; a fingerprint takes two numbers for each of its three parts.
     pub const LEN: usize = FINGERPRINT + 6;
 }
@@ -145,6 +146,7 @@ fn recall(island: &Island) -> Arc<[f64]> {
         numbers[head::RESIDUAL] = island.residual.min(f64::MAX);
         numbers[head::PROBED_AT] = island.probed_at;
         numbers[head::IS_EDITED] = flag(island.is_edited);
+        numbers[head::IS_AWAKE] = flag(island.is_awake);
         numbers[head::HAS_DEGREE] = flag(island.has_degree);
         numbers[head::IS_SMOOTH] = flag(island.is_smooth());
         numbers[head::N_PAST] = island.history.n_past() as f64;
@@ -187,6 +189,7 @@ pub(super) fn restore(island: &mut Island, numbers: &[f64]) {
     island.residual = head[head::RESIDUAL];
     island.is_new = false;
     island.is_edited = head[head::IS_EDITED] != 0.0;
+    island.is_awake = head[head::IS_AWAKE] != 0.0;
     island.probed_at = head[head::PROBED_AT];
     if head[head::HAS_DEGREE] != 0.0 {
         island.set_smooth(head[head::IS_SMOOTH] != 0.0);

@@ -293,7 +293,10 @@ impl Solver {
                 self.is_awake.fill(false);
             }
             for &k in &made {
-                self.wake(k);
+                // One that was asleep when it was remembered sleeps on.
+                if self.topology.get(k).is_some_and(|island| island.is_awake) {
+                    self.wake(k);
+                }
             }
             if is_doubtful {
                 // What was brought back is as doubtful as what was there.
@@ -414,6 +417,9 @@ impl Solver {
         }
         if !std::mem::replace(&mut self.is_awake[at], true) {
             self.awake.push(k);
+            if let Some(island) = self.topology.get_mut(k) {
+                island.is_awake = true;
+            }
         }
     }
 
@@ -457,6 +463,7 @@ impl Solver {
             return;
         };
         write_back(island, world);
+        let is_awake = island.is_awake;
         if let Some(p) = island.turned_over.take() {
             let id = island.points[p as usize];
             report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
@@ -478,7 +485,7 @@ impl Solver {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        if visit.is_awake {
+        if is_awake {
             self.wake(k);
         }
     }

@@ -36,8 +36,6 @@ pub(super) struct Visit {
     pub size: f64,
     /// The coefficient of relaxation, if it had to be lowered.
     pub lowered: Option<f64>,
-    /// Whether the next frame is to visit it again.
-    pub is_awake: bool,
 }
 
 /// Solves an island. Touches nothing else: visits may be made in any order, or side by side.
@@ -48,7 +46,7 @@ pub(super) fn visit(
     task: Task,
     work: &mut Counters,
 ) -> Visit {
-    let mut visit = Visit { outcome: None, size: 1.0, lowered: None, is_awake: false };
+    let mut visit = Visit { outcome: None, size: 1.0, lowered: None };
     work.islands_visited += 1;
     island.remembered.take();
     island.before = None;
@@ -57,6 +55,7 @@ pub(super) fn visit(
     if task == Task::Frame && !is_driven && is_at_rest {
         // Nothing moved it for a whole frame: what comes next does not go on from before.
         island.history.forget();
+        island.is_awake = false;
         return visit;
     }
     island.prepare();
@@ -92,7 +91,7 @@ pub(super) fn visit(
     island.settle_inputs();
     visit.size = size;
     visit.lowered = lowered;
-    visit.is_awake = is_driven || outcome.status == Status::Stalled;
+    island.is_awake = is_driven || outcome.status == Status::Stalled;
     visit.outcome = Some(outcome);
     visit
 }
