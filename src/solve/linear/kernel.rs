@@ -6,8 +6,6 @@
 // They become part of a function that may use wider vectors than the rest of the program.
 #![allow(clippy::inline_always)]
 
-use rayon::prelude::*;
-
 use super::block::Pivots;
 
 /// Rows of a tile.
@@ -24,12 +22,6 @@ pub struct Panel<'a> {
     pub ld: usize,
 }
 
-/// Products from so many multiplications on are shared out to all cores: a tenth of a millisecond,
-/// ten times what it takes to call the others.
-pub const ENOUGH: usize = 500_000;
-/// Columns that one core takes at a time.
-const SHARE: usize = 4 * WIDE;
-
 /// Subtracts `l D l^T` from the lower trapezoid of `c`: rows `j..n_rows` of each of `n_columns`
 /// columns `j`.
 ///
@@ -44,75 +36,13 @@ pub fn subtract_product(
     packed: &mut [f64],
     [n_rows, n_columns]: [usize; 2],
 ) {
-    if n_rows * n_columns * d.len() >= ENOUGH && rayon::current_num_threads() > 1 {
-        subtract_side_by_side(c, ldc, l, d, [n_rows, n_columns]);
-    } else {
-        subtract_columns(c, ldc, l, d, packed, [0, n_columns, n_rows]);
-    }
-}
-
-/// The same on all cores. Each column is worked out as it is on one.
-fn subtract_side_by_side(
-    c: &mut [f64],
-    ldc: usize,
-    l: Panel,
-    d: &[f64],
-    [n_rows, n_columns]: [usize; 2],
-) {
-    c.par_chunks_mut(SHARE * ldc).enumerate().for_each(|(k, c)| {
-        let (first, end) = (k * SHARE, ((k + 1) * SHARE).min(n_columns));
-        subtract_share(c, ldc, l, d, &mut vec![0.0; WIDE * d.len()], [first, end, n_rows]);
-    });
-}
-
-fn subtract_share(
-    c: &mut [f64],
-    ldc: usize,
-    l: Panel,
-    d: &[f64],
-    packed: &mut [f64],
-    which: [usize; 3],
-) {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") {
-        #[allow(unsafe_code)]
-        // SAFETY: the instructions exist, as was just asked.
-        return unsafe { subtract_share_avx2(c, ldc, l, d, packed, which) };
-    }
-    subtract_columns(c, ldc, l, d, packed, which);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn subtract_share_avx2(
-    c: &mut [f64],
-    ldc: usize,
-    l: Panel,
-    d: &[f64],
-    packed: &mut [f64],
-    which: [usize; 3],
-) {
-    subtract_columns(c, ldc, l, d, packed, which);
-}
-
-/// The same for the columns `first..end`, of which `c` holds nothing before the first.
-#[inline(always)]
-fn subtract_columns(
-    c: &mut [f64],
-    ldc: usize,
-    l: Panel,
-    d: &[f64],
-    packed: &mut [f64],
-    [first, end, n_rows]: [usize; 3],
-) {
-    let mut j = first;
-    while j < end {
-        let c = &mut c[(j - first) * ldc..];
-        if end - j >= WIDE {
-            strip::<WIDE>(c, ldc, l, d, packed, [j, n_rows]);
+    let mut j = 0;
+    while j < n_columns {
+        if n_columns - j >= WIDE {
+            strip::<WIDE>(&mut c[j * ldc..], ldc, l, d, packed, [j, n_rows]);
             j += WIDE;
         } else {
-            strip::<2>(c, ldc, l, d, packed, [j, n_rows]);
+            strip::<2>(&mut c[j * ldc..], ldc, l, d, packed, [j, n_rows]);
             j += 2;
         }
     }
@@ -183,10 +113,8 @@ fn tile<const R: usize, const C: usize>(c: &mut [f64], ldc: usize, a: Panel, b: 
     }
 }
 
-/// Columns factored one by one before their product is subtracted from the others of the block.
+/// Columns factored one by one before their product is subtracted from the others.
 const STRIP: usize = 8;
-/// Columns factored before their product is subtracted from all later ones.
-const BLOCK: usize = 64;
 
 /// Factors the first columns of a symmetric matrix with `n_rows` rows, given below the diagonal,
 /// as many as `d` has room for: on return `l` holds L below the diagonal and 1 / D on it, `d`
@@ -200,16 +128,14 @@ pub fn factor_panel(
     pivots: &mut Pivots,
 ) {
     let ld = n_rows;
-    let n_pivots = d.len();
-    for start in (0..n_pivots).step_by(STRIP) {
-        let block = start / BLOCK * BLOCK;
-        let end = (start + STRIP).min(n_pivots);
+    for start in (0..d.len()).step_by(STRIP) {
+        let end = (start + STRIP).min(d.len());
         let (done, rest) = l.split_at_mut(start * ld);
         subtract_product(
             &mut rest[start..],
             ld,
-            Panel { numbers: &done[block * ld..], ld }.from(start),
-            &d[block..start],
+            Panel { numbers: done, ld }.from(start),
+            &d[..start],
             packed,
             [n_rows - start, end - start],
         );
@@ -227,12 +153,6 @@ pub fn factor_panel(
                 *c *= reciprocal;
             }
             column[j] = reciprocal;
-        }
-        if end.is_multiple_of(BLOCK) && end < n_pivots {
-            let (done, later) = l.split_at_mut(end * ld);
-            let panel = Panel { numbers: &done[block * ld..], ld }.from(end);
-            let rest = [n_rows - end, n_pivots - end];
-            subtract_product(&mut later[end..], ld, panel, &d[block..end], packed, rest);
         }
     }
 }
