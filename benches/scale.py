@@ -1,8 +1,8 @@
 """How a frame grows up to the largest scenes: `python3 benches/scale.py`.
 
 Wall time a frame, as the program's own receipt says it, of a second run or drag: the first one
-makes the matrices. The least of three, with the iterations a frame and the growth as an exponent
-of the number of constraints.
+makes the matrices. The least of nine, the sizes in turn, with the iterations a frame and the growth
+as an exponent of the number of constraints.
 """
 
 import math
@@ -12,7 +12,7 @@ import tempfile
 
 from program import ROOT, build, table
 
-ROUNDS = 3
+ROUNDS = 9
 WARM = 5
 UNITS = {"ns": 1e-3, "us": 1, "ms": 1e3, "s": 1e6}
 
@@ -52,11 +52,14 @@ def frame(script, n, more):
 
 rows = []
 for name, (script, more, sizes, count) in SCENES.items():
+    runs = {n: [] for n in sizes}
+    for _ in range(ROUNDS):
+        for n in sizes:
+            frames = max(20, min(400, 2_000_000 // n)) if script == "w5c-four-bars" else 20
+            runs[n].append(frame(script, n, more(n, frames)))
     last = None
     for n in sizes:
-        frames = max(20, min(400, 2_000_000 // n)) if script == "w5c-four-bars" else 20
-        runs = [frame(script, n, more(n, frames)) for _ in range(ROUNDS)]
-        micros, iterations = min(runs)
+        micros, iterations = min(runs[n])
         growth = math.log(micros / last[0]) / math.log(count(n) / last[1]) if last else None
         shown = f"{growth:.2f}" if growth else ""
         rows.append([name.format(n), f"{micros / 1e3:.3g}", iterations, shown])
