@@ -175,7 +175,7 @@ impl Session {
                 if next != Next::On
                     && let Some(way) = way_back.take()
                 {
-                    self.go_back_to(k, way, &hand)?;
+                    self.go_back_to(k, way, &limits, &hand)?;
                 }
                 match next {
                     Next::On => {}
@@ -222,12 +222,14 @@ impl Session {
         &mut self,
         k: u64,
         way: WayBack,
+        limits: &Limits,
         hand: impl Fn(&mut Self, u64),
     ) -> Result<(), Diagnostic> {
+        let limits = Limits { tolerance: limits.tolerance, seconds: None };
         let again = way.frame..k;
         self.go_back(way);
         for k in again {
-            let report = self.one_frame(k, &Limits::default(), Stop::Ignored, &hand)?;
+            let report = self.one_frame(k, &limits, Stop::Ignored, &hand)?;
             self.keep_frame(is_missed(&report));
         }
         Ok(())
