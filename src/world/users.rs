@@ -31,9 +31,8 @@ impl User {
     }
 }
 
-/// By point, what holds or mentions it. Made when it is first asked for, since only
-/// `delete` asks, and kept up from then on, so that a thousand deletions look
-/// at the scene once.
+/// By point, what holds or mentions it. Made when it is first asked for, since only `delete` asks,
+/// and kept up from then on, so that a thousand deletions look at the scene once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PointUsers(OnceCell<BTreeSet<(PointId, User)>>);
 
