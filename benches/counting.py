@@ -57,11 +57,11 @@ LOADS = {
 # An effect: the files that carry it out and nothing else, and a statement that calls for it.
 EFFECTS = {
     "cog wheels": (
-        ["constraint/cog.rs", "constraint/cog_velocity.rs"],
+        ["constraint/kinds/cog.rs", "constraint/kinds/cog_velocity.rs"],
         "point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1",
     ),
     "racks": (
-        ["constraint/rack.rs"],
+        ["constraint/kinds/rack.rs"],
         "point G = (-9, -1) frozen, H = (9, -1) frozen, W = (6, 0), R = (6, -1)\n"
         "length W R = 1\nrack W R on G H",
     ),
@@ -69,9 +69,9 @@ EFFECTS = {
         ["world/formula.rs", "world/arithmetic.rs"],
         "point E = (9, 9) frozen, F = (9, 8)\nlength E F = 1 + 0.1 * sin(time)",
     ),
-    "derivatives": (["solve/rates.rs"], "print velocity(C)"),
+    "derivatives": (["solve/velocity.rs"], "print velocity(C)"),
     "traces": (["world/trace.rs"], "trace C"),
-    "ghosts and recordings": (["session/recorder.rs"], 'record "paths.csv"'),
+    "ghosts and recordings": (["session/undo/recorder.rs"], 'record "paths.csv"'),
 }
 
 linkwork = build("profiling")

@@ -1,6 +1,6 @@
 //! What the linear algebra of an island costs: `cargo bench --bench linear`.
 
-use linkwork::solve::linear::{NormalMatrix, Storage};
+use linkwork::linalg::{NormalMatrix, Storage};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::hint::black_box;
 use std::time::{Duration, Instant};

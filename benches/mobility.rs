@@ -1,7 +1,7 @@
 //! What the analysis of a mechanism costs: `cargo bench --bench mobility`.
 
 use linkwork::constraint::{Bounds, Constraint, Length, Point};
-use linkwork::solve::mobility::{Scene, analyse};
+use linkwork::mobility::{Scene, analyse};
 use std::time::Instant;
 
 fn bar(x: &[Point], a: u32, b: u32) -> Constraint {

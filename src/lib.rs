@@ -4,6 +4,8 @@ pub mod cli;
 pub mod constraint;
 pub mod diag;
 pub mod lang;
+pub mod linalg;
+pub mod mobility;
 pub mod render;
 pub mod repl;
 pub mod session;

@@ -6,15 +6,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 10] = [
+const ROOMS: [(&str, &[&str]); 12] = [
     ("diag", &[]),
     ("lang", &["diag"]),
     ("constraint", &["diag"]),
     ("world", &["diag", "constraint"]),
-    ("solve", &["diag", "constraint", "world"]),
+    ("linalg", &[]),
+    ("mobility", &["constraint", "linalg"]),
+    ("solve", &["diag", "constraint", "world", "linalg", "mobility"]),
     ("render", &["diag", "constraint", "world"]),
-    ("study", &["diag", "constraint", "world", "solve", "render"]),
-    ("session", &["diag", "lang", "constraint", "world", "solve", "render", "study"]),
+    ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
+    ("session", &["diag", "lang", "constraint", "world", "mobility", "solve", "render", "study"]),
     (
         "repl",
         &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "cli"],
@@ -30,7 +32,7 @@ const HOMES: [(&str, &[&str]); 9] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/args.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
-    ("nalgebra", &["solve/"]),
+    ("nalgebra", &["linalg/", "mobility/"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/lower/"]),
     ("rustc_hash", &["world/names.rs"]),

@@ -4,7 +4,7 @@ mod talk;
 
 use std::process::Command;
 
-use linkwork::solve::mobility::Pose;
+use linkwork::mobility::Pose;
 use talk::Talking;
 
 /// `check` finds these counts and nothing that contradicts.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-use linkwork::constraint::Relation as _;
+use linkwork::constraint::ConstraintKind as _;
 use linkwork::diag::Span;
 use linkwork::lang::ast::{Body, Command, Expr, Function, Node, Promise, Statement};
 use linkwork::session::Session;

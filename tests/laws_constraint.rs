@@ -1,9 +1,9 @@
 //! What every kind of constraint promises, held against random scenes of one generator.
 
 use linkwork::constraint::{
-    Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
-    Field, Glider, Hinge, Jet, Kind, Length, Motor, Orientation, Period, Place, Point, PointIdx,
-    Rack, Real, Relation, Rigid, Row, Vector,
+    Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind, Coordinate, Distance, Equal,
+    Equivalence, Field, Glider, Hinge, Jet, Kind, Length, Motor, Orientation, Period, Point,
+    PointIdx, Rack, Real, Rigid, Row, Vec2, Vector,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestCaseError};
@@ -189,7 +189,7 @@ fn rows(c: &Constraint, x: &[Point]) -> Vec<Row> {
 fn equations(c: &Constraint, motion: &[[Vector; 3]]) -> Vec<Jet> {
     let place = |p: PointIdx| {
         let [x, v, a] = motion[p as usize];
-        Place { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
+        Vec2 { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
     };
     // Nothing but the points moves; a motor stands still.
     let field =

@@ -1,6 +1,6 @@
 //! The sparse linear algebra against dense algebra that knows nothing of patterns.
 
-use linkwork::solve::linear::{NormalMatrix, RowBasis, Storage};
+use linkwork::linalg::{NormalMatrix, RowBasis, Storage};
 use nalgebra::{DMatrix, DVector};
 
 /// A small reproducible source of numbers (Steele, Lea and Flood, `SplitMix64`).

@@ -2,7 +2,7 @@
 
 mod talk;
 
-use linkwork::constraint::Relation as _;
+use linkwork::constraint::ConstraintKind as _;
 use linkwork::constraint::Row;
 use linkwork::session::Session;
 use linkwork::world::{Entity, PointId};

@@ -3,8 +3,8 @@
 mod talk;
 
 use linkwork::constraint::geometry::wrap;
+use linkwork::mobility::{End, Range, Reach};
 use linkwork::session::Session;
-use linkwork::solve::mobility::{End, Range, Reach};
 use linkwork::world::Entity;
 use talk::Talking;
 

@@ -1,9 +1,10 @@
 //! Freedoms, redundancy, conflicts and poses of mechanisms whose answers are known.
 
 use linkwork::constraint::{
-    Bounds, Coincidence, Constraint, Glider, Length, Motor, Orientation, Period, Point, Relation,
+    Bounds, Coincidence, Constraint, ConstraintKind, Glider, Length, Motor, Orientation, Period,
+    Point,
 };
-use linkwork::solve::mobility::{
+use linkwork::mobility::{
     Analysis, Directions, Pose, Scene, analyse, conflict_with, freedom, motion_of,
 };
 

@@ -65,12 +65,12 @@ fn a_run_that_was_edited_before_the_interruption_does_too() {
     check(mechanisms(Method::Auto), 25, |s| {
         let (motor, _) = s.world.constraints().next().expect("a motor");
         s.set(motor, Field::Speed, 1.0);
-        s.solver.attend(&mut s.world, &s.settings);
+        s.solver.sync(&mut s.world, &s.settings);
     });
     check(mechanisms(Method::Auto), 25, |s| {
         let (last, _) = s.world.constraints().next_back().expect("wheels");
         s.world.apply(Edit::Switch(last, false));
-        s.solver.attend(&mut s.world, &s.settings);
+        s.solver.sync(&mut s.world, &s.settings);
     });
 }
 

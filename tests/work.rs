@@ -122,7 +122,7 @@ fn dragging_one_of_many_is_the_work_of_one() {
         let Some(Entity::Point(d)) = world.names().get("D[1]") else { panic!("no point") };
         let mut all = Counters::default();
         for k in 1..=COUNTED {
-            solver.attend(&mut world, &settings);
+            solver.sync(&mut world, &settings);
             world.apply(Edit::Move(d, Point::new(4.0 + 0.01 * k as f64, 6.0)));
             all.add(&pass(&mut world, &mut solver));
         }

@@ -1,9 +1,9 @@
 //! `linkwork accuracy`: runs a script in silence, then studies its motion.
 
 use super::args::Study;
-use super::rehearsal::rehearse;
+use super::output;
+use super::quiet::rehearse;
 use super::run::Status;
-use super::talk;
 use crate::session::{Flow, Telling};
 
 /// Studies a script's motion.
@@ -17,7 +17,7 @@ pub fn accuracy(wish: &Study) -> Status {
         Ok(Flow::Stopped) => Status::Interrupted,
         Ok(_) => Status::Fine,
         Err(problem) => {
-            talk::show(&problem, session.sources());
+            output::show(&problem, session.sources());
             Status::of(&problem)
         }
     }

@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::args::Examination;
-use super::rehearsal::rehearse;
+use super::output;
+use super::quiet::rehearse;
 use super::run::Status;
-use super::talk;
 use crate::session::Check;
 
 /// Runs a script and says what there is to know about the mechanism at its end.
@@ -16,9 +16,9 @@ pub fn script(examination: &Examination) -> Status {
     };
     let check = session.examine();
     if examination.json {
-        talk::answer(&format!("{:#}", to_json(&check)));
+        output::answer(&format!("{:#}", to_json(&check)));
     } else {
-        check.lines().iter().for_each(|line| talk::answer(line));
+        check.lines().iter().for_each(|line| output::answer(line));
     }
     if check.is_sound() { Status::Fine } else { Status::BrokenPromise }
 }

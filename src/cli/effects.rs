@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::args::Examination;
-use super::rehearsal::rehearse;
+use super::output;
+use super::quiet::rehearse;
 use super::run::Status;
-use super::talk;
 use crate::session::{EffectRow, Effects};
 
 /// Runs a script and says which effects its scene has switched on, why, and what each costs.
@@ -16,9 +16,9 @@ pub fn script(examination: &Examination) -> Status {
     };
     let effects = session.effects_on();
     if examination.json {
-        talk::answer(&format!("{:#}", to_json(&effects)));
+        output::answer(&format!("{:#}", to_json(&effects)));
     } else {
-        effects.lines().iter().for_each(|line| talk::answer(line));
+        effects.lines().iter().for_each(|line| output::answer(line));
     }
     Status::Fine
 }

@@ -2,16 +2,16 @@
 
 mod accuracy;
 mod args;
-mod bar;
 mod check;
 mod effects;
 mod files;
 pub(crate) mod interrupt;
-pub(crate) mod obey;
-mod outside;
-mod rehearsal;
+pub(crate) mod output;
+mod process_host;
+mod progress;
+mod quiet;
 mod run;
-pub(crate) mod talk;
+pub(crate) mod transcript;
 
 use std::process::ExitCode;
 
@@ -26,6 +26,6 @@ pub fn run() -> ExitCode {
         Some(args::Command::Effects(examination)) => effects::script(&examination),
         None => run::session(&args.session),
     };
-    talk::flush();
+    output::flush();
     status.into()
 }

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use super::args::{Batch, Outside};
-use super::obey::{Outcome, Typed};
-use super::outside::Process;
-use super::{files, interrupt, talk};
+use super::process_host::Process;
+use super::transcript::{Outcome, Typed};
+use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
 use crate::lang::is_incomplete;
 use crate::session::{Flow, Host, Session, reason};
@@ -79,7 +79,7 @@ pub fn script(file: &Path, session: &mut Session) -> Status {
         Err(e) => {
             let why = reason(&e);
             let problem = Diagnostic::error(format!("cannot read `{name}`: {why}"));
-            talk::show(&problem, session.sources());
+            output::show(&problem, session.sources());
             return Status::Unreadable;
         }
     };
@@ -93,12 +93,12 @@ pub fn script(file: &Path, session: &mut Session) -> Status {
         Ok(Flow::Stopped) => Status::Interrupted,
         Ok(_) => Status::Fine,
         Err(problem) => {
-            talk::show(&problem, session.sources());
+            output::show(&problem, session.sources());
             // What was recorded up to here is not lost.
             if let Err(second) = session.finish()
                 && second != problem
             {
-                talk::show(&second, session.sources());
+                output::show(&second, session.sources());
             }
             Status::of(&problem)
         }
@@ -137,7 +137,7 @@ pub fn session(outside: &Outside) -> Status {
     match session.finish() {
         Ok(()) => status,
         Err(problem) => {
-            talk::show(&problem, session.sources());
+            output::show(&problem, session.sources());
             Status::of(&problem)
         }
     }
@@ -161,7 +161,7 @@ fn typed_ahead(session: &mut Session) -> Status {
             Ok(_) => {}
             Err(e) => {
                 let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
-                talk::show(&problem, session.sources());
+                output::show(&problem, session.sources());
                 return Status::Unreadable;
             }
         }

@@ -6,7 +6,7 @@
 //! constraint, or allocates while relaxing.
 //!
 //! ```
-//! use linkwork::constraint::{Bounds, Constraint, Length, Point, Relation};
+//! use linkwork::constraint::{Bounds, Constraint, Length, Point, ConstraintKind};
 //!
 //! let mut x = [Point::new(0.0, 0.0), Point::new(5.0, 0.0)];
 //! let w = [0.0, 1.0]; // the first point is frozen
@@ -17,64 +17,37 @@
 //! assert_eq!(x[1], Point::new(3.0, 0.0));
 //! ```
 
-pub mod geometry;
-
-// What the kinds are made of.
-mod bounds;
-mod jet;
-mod line;
-mod linear;
-mod place;
-mod row;
-mod turns;
-mod winding;
-
-// The kinds.
-mod cog;
-mod cog_velocity;
-mod coincidence;
-mod coordinate;
-mod distance;
-mod equal;
-mod equivalence;
-mod glider;
-mod hinge;
-mod length;
-mod motor;
-mod orientation;
-mod rack;
-mod rigid;
-
-// All kinds together.
 mod kinds;
+mod parts;
 
-pub use bounds::Bounds;
-pub use cog::Cog;
-pub use cog_velocity::CogVelocity;
-pub use coincidence::Coincidence;
-pub use coordinate::Coordinate;
-pub use distance::Distance;
-pub use equal::Equal;
-pub use equivalence::Equivalence;
-pub use geometry::{Point, Vector};
-pub use glider::Glider;
-pub use hinge::Hinge;
-pub use jet::{Jet, Real};
+pub use kinds::cog::Cog;
+pub use kinds::cog_velocity::CogVelocity;
+pub use kinds::coincidence::Coincidence;
+pub use kinds::coordinate::Coordinate;
+pub use kinds::distance::Distance;
+pub use kinds::equal::Equal;
+pub use kinds::equivalence::Equivalence;
+pub use kinds::glider::Glider;
+pub use kinds::hinge::Hinge;
+pub use kinds::length::Length;
+pub use kinds::motor::{Heading, Motor};
+pub use kinds::orientation::{Orientation, Period};
+pub use kinds::rack::Rack;
+pub use kinds::rigid::Rigid;
 pub use kinds::{Constraint, Kind};
-pub use length::Length;
-pub use motor::{Heading, Motor};
-pub use orientation::{Orientation, Period};
-pub use place::Place;
-pub use rack::Rack;
-pub use rigid::Rigid;
-pub use row::{PointIdx, Row};
-pub use turns::Turns;
+pub use parts::bounds::Bounds;
+pub use parts::geometry;
+pub use parts::geometry::{Point, Vector};
+pub use parts::jet::{Jet, Real};
+pub use parts::row::{PointIdx, Row};
+pub use parts::turns::Turns;
+pub use parts::vec2::Vec2;
 
 /// What every constraint answers.
 ///
 /// `x` are the positions, `w` the inverse masses of all points (0: frozen); both are indexed
 /// by [`PointIdx`].
-pub trait Relation {
+pub trait ConstraintKind {
     /// The points it holds, in the order of its statement.
     fn points(&self) -> &[PointIdx];
 
@@ -99,7 +72,7 @@ pub trait Relation {
     /// inactive row. `field(k, v)` gives the number for the constraint's own value `v`.
     fn equations<T: Real>(
         &self,
-        x: &impl Fn(PointIdx) -> Place<T>,
+        x: &impl Fn(PointIdx) -> Vec2<T>,
         field: &impl Fn(Field, f64) -> T,
         equation: &mut impl FnMut(T),
     );

@@ -123,8 +123,8 @@ fn line_end(text: &str, at: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Diagnostic, SourceId};
     use super::*;
+    use crate::diag::{Diagnostic, SourceId};
 
     /// Draws an error at `range` of `text`.
     fn drawn(text: &str, range: std::ops::Range<usize>) -> String {

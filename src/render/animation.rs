@@ -1,14 +1,14 @@
 //! One picture that moves, made from the scenes of a motion.
 
-use super::cast::Cast;
-use super::curve::Curve;
+use super::animation_tracks::Cast;
+use super::canvas::{Ink, Lettering};
 use super::document::{self, Group};
 use super::figure::Figure;
-use super::ink::{Ink, Lettering};
-use super::motion::{Motion, visibility};
+use super::keyframes::{Motion, visibility};
 use super::scene::{Pose, Scene};
+use super::trace::Curve;
 use super::view::{Options, View};
-use super::{pen, strip};
+use super::{legend, trace_animation};
 use std::rc::Rc;
 
 /// A picture holds at most so many frames times parts: some ten megabytes. Beyond it frames
@@ -140,7 +140,7 @@ impl Animation {
             }
         }
         let follow = |(curve, n_samples): &(Curve, Vec<usize>)| {
-            pen::follow(curve, self.view.page(), n_samples, times, self.duration())
+            trace_animation::follow(curve, self.view.page(), n_samples, times, self.duration())
         };
         all.iter().flat_map(follow).collect()
     }
@@ -149,7 +149,7 @@ impl Animation {
         let none = Lettering::new();
         let mut ink = Ink::new(self.view.page(), &[], &none);
         let curves = self.frames.last().map_or(&[][..], |(scene, _)| &scene.curves);
-        strip::draw(&mut ink, curves);
+        legend::draw(&mut ink, curves);
         ink.finish().into_iter().map(|figure| (figure, None)).collect()
     }
 }

@@ -8,7 +8,7 @@ use svg::node::Text;
 use svg::node::element::{Element, Style};
 
 use super::figure::{Figure, Outline, Shape};
-use super::motion::{Change, Motion, Track};
+use super::keyframes::{Change, Motion, Track};
 use super::number::rounded;
 use super::page::{Page, STRIP};
 use super::style::{self, PAPER};

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::cover::{Area, Cover, OVER_PART};
-use super::ink::{Ink, Lettering};
+use super::canvas::{Ink, Lettering};
+use super::occupancy::{Area, Cover, OVER_PART};
 use super::page::Page;
 use super::parts::{Form, Joint};
 use super::scene::{Pose, Scene};

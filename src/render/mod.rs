@@ -14,22 +14,22 @@
 //! ```
 
 // From a world to what is to be drawn.
-mod curve;
+mod classify;
 mod groups;
 mod parts;
-mod plan;
 mod samples;
 mod scene;
+mod trace;
 
 // From there to figures on a page.
-mod cover;
+mod canvas;
 mod figure;
-mod ink;
+mod legend;
 mod lettering;
 mod number;
+mod occupancy;
 mod page;
 mod path;
-mod strip;
 mod style;
 mod view;
 
@@ -38,9 +38,9 @@ pub mod chart;
 
 // Figures in motion.
 mod animation;
-mod cast;
-mod motion;
-mod pen;
+mod animation_tracks;
+mod keyframes;
+mod trace_animation;
 
 mod document;
 

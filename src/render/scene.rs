@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use super::curve::Curve;
+use super::classify;
 use super::page::Extent;
 use super::parts::{Form, Part};
-use super::plan;
+use super::trace::Curve;
 use crate::constraint::Point;
 use crate::world::{Ghost, World};
 
@@ -87,7 +87,7 @@ impl Scene {
 impl Pose {
     /// A world as it stands.
     fn of(world: &World) -> Self {
-        Self { parts: plan::parts(world).into(), at: world.points().column().into() }
+        Self { parts: classify::parts(world).into(), at: world.points().column().into() }
     }
 
     /// The same parts where they were, without those that had not all their points then, and

@@ -1,13 +1,13 @@
 //! A view: what all pictures of one mechanism in motion share, so that they can be laid one
 //! on the other.
 
+use super::canvas::{Ink, Lettering};
 use super::document::{self, Group};
 use super::figure::Figure;
-use super::ink::{Ink, Lettering};
+use super::legend;
 use super::lettering;
 use super::page::{Extent, Page};
 use super::scene::{Pose, Scene};
-use super::strip;
 
 /// Names are placed to suit so many scenes of a motion.
 const N_PROBES: usize = 16;
@@ -87,7 +87,7 @@ pub fn svg_with_view(scene: &Scene, view: &View, options: &Options) -> String {
     for curve in &scene.curves {
         curve.draw(&mut ink);
     }
-    strip::draw(&mut ink, &scene.curves);
+    legend::draw(&mut ink, &scene.curves);
     groups.push(Group::of(ink.finish()));
     document::write(&view.page, &groups, options)
 }

@@ -7,7 +7,7 @@ mod history;
 use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
-use crate::cli::obey::Typed;
+use crate::cli::transcript::Typed;
 use crate::session::{Flow, Session};
 
 /// Talks with the user until they leave.

@@ -4,61 +4,40 @@
 //! edits, lets the solver work, and hands what is to be printed or written to a [`Host`].
 //! It never touches a terminal, and never leaves half an edit behind.
 
-mod accuracy;
-mod bind;
-mod blocks;
-mod change;
-mod constrain;
-mod dead_point;
-mod delete;
-mod describe;
-mod diagnose;
-mod effects;
-mod fingerprint;
+mod commands;
+mod dispatch;
 mod host;
-mod journal;
-mod laps;
-mod limits;
-mod limits_of;
-mod look;
-mod outside;
-mod perform;
-mod pictures;
-mod points;
-mod receipt;
-mod recorder;
-mod restore;
-mod run;
-mod save;
-mod scope;
-mod series;
-mod settings;
-mod subject;
-mod transaction;
+mod overrides;
+mod quotas;
+mod report;
+mod resolve;
+mod scene_hash;
+mod settled;
+mod undo;
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use accuracy::Telling;
-pub use dead_point::AtDeadPoint;
-pub use diagnose::{Check, Unsatisfiable};
-pub use effects::{Effects, Row as EffectRow};
+pub use commands::accuracy::Telling;
+pub use commands::dead_point::AtDeadPoint;
+pub use commands::diagnose::{Check, Unsatisfiable};
+pub use commands::effects::{Effects, Row as EffectRow};
+pub use commands::settings::{Preferences, SETTINGS};
 pub use host::{Host, Nowhere, reason};
-pub use outside::evaluate_binding;
-pub use receipt::{Summary, Way};
-pub use settings::{Preferences, SETTINGS};
+pub use overrides::evaluate_binding;
+pub use report::{Summary, Way};
 
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, Span};
 use crate::lang::ast::{Definition, Statement};
 use crate::solve::Solver;
 use crate::world::World;
-use journal::Journal;
-use laps::Laps;
-use outside::Override;
-use recorder::Recorder;
-use scope::Scope;
-use series::SeriesList;
+use commands::plot::SeriesList;
+use overrides::Override;
+use resolve::scope::Scope;
+use undo::journal::Journal;
+use undo::last_motion::LastMotion;
+use undo::recorder::Recorder;
 
 /// A world with everything that a user can say to it.
 pub struct Session {
@@ -92,7 +71,7 @@ pub struct Session {
     last_run: Option<Summary>,
     /// What the command under way has run so far.
     run: Option<Summary>,
-    laps: Laps,
+    last_motion: LastMotion,
     series: SeriesList,
 }
 
@@ -131,7 +110,7 @@ impl Session {
             outbox: Vec::new(),
             last_run: None,
             run: None,
-            laps: Laps::default(),
+            last_motion: LastMotion::default(),
             series: SeriesList::new(),
         }
     }
@@ -177,14 +156,14 @@ impl Session {
     /// What is wrong with it; the world is then as it was.
     pub fn execute(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements = 0;
-        let result = self.perform(statement).and_then(|flow| {
-            self.post()?;
+        let result = self.dispatch(statement).and_then(|flow| {
+            self.flush_outbox()?;
             Ok(flow)
         });
         match result {
             Ok(flow) => {
-                self.end_laps();
-                self.give_receipt();
+                self.end_legs();
+                self.report_run();
                 let label = self.label(statement.span);
                 self.commit(&label);
                 Ok(flow)
@@ -221,14 +200,14 @@ impl Session {
             return Err(Diagnostic::error("stopped before the recording was written")
                 .kind(Kind::Interrupted));
         }
-        self.post()?;
+        self.flush_outbox()?;
         self.commit("");
         Ok(())
     }
 
     /// Writes the files of a command that succeeded. One that cannot be written keeps no
     /// other back.
-    fn post(&mut self) -> Result<(), Diagnostic> {
+    fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
         let mut result = Ok(());
         for (path, bytes, span) in std::mem::take(&mut self.outbox) {
             if let Err(e) = self.host.write(&path, &bytes)

@@ -5,51 +5,27 @@
 //! exact to rounding where there is a solution and fits best where there is none. Nothing
 //! here knows statements, clocks on the wall or files.
 
-pub mod linear;
-pub mod mobility;
-
-// What the methods work on.
-mod crew;
-mod ends;
-mod fingerprint;
-mod footprint;
-mod halt;
-mod history;
-mod inputs;
-mod island;
-mod memory;
-mod method;
-mod plan;
-mod rates;
-mod rows;
-mod spectrum;
-mod topology;
-mod watch;
-
-// The methods.
-mod anderson;
-mod auto;
-mod block;
-mod conjugate;
-mod descent;
-mod follow;
-mod nesterov;
-mod newton;
-mod relaxation;
-mod struggle;
-mod successive;
-mod sweep;
-
-// Their face.
+// The face: what is asked, what comes back.
+mod dead_point;
 mod pass;
+mod report;
 mod settings;
 mod solver;
-mod status;
-mod visit;
 
-pub use footprint::{Effect, is_inequality, is_wheel};
-pub use halt::Halt;
-pub use memory::Memory;
+// A call, island by island.
+mod cost;
+mod dispatch;
+mod parallel;
+mod velocity;
+
+// What is solved, how it is followed from frame to frame, and by which method.
+mod frame;
+mod island;
+mod method;
+
+pub use cost::{Effect, is_inequality, is_wheel};
+pub use dead_point::Halt;
+pub use island::snapshot::Memory;
+pub use report::{Budget, Counters, Report, Status};
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
-pub use status::{Budget, Counters, Report, Status};

@@ -11,7 +11,7 @@ const MEASURE_ROUNDS: u32 = 60;
 impl Solver {
     /// Lets one frame pass: the clock ticks, live values are evaluated, the pose is solved,
     /// and solved again until values that are measured on it agree with it. Points that a hand
-    /// drags along in this frame are moved after [`Solver::attend`] and before this.
+    /// drags along in this frame are moved after [`Solver::sync`] and before this.
     ///
     /// # Errors
     /// A live expression that has no value at this time or in this pose.
@@ -22,7 +22,7 @@ impl Solver {
         budget: &Budget,
     ) -> Result<Report, Diagnostic> {
         if self.is_behind() {
-            self.attend(world, settings);
+            self.sync(world, settings);
         }
         world.advance()?;
         let mut report = self.frame(world, settings, budget);

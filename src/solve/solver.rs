@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::crew::{self, Guest};
+use super::dispatch::{Task, Visit, check, turn_back, visit, write_back};
 use super::island::Island;
-use super::memory::{self, Memory};
-use super::rates;
+use super::island::partition::{Home, Topology};
+use super::island::snapshot::{self, Memory};
+use super::parallel::{self, Guest};
+use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
-use super::status::{Budget, Counters, Report, Status};
-use super::topology::{Home, Topology};
-use super::visit::{Task, Visit, check, turn_back, visit, write_back};
+use super::velocity;
 use crate::constraint::{Point, Vector};
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
@@ -90,8 +90,8 @@ impl Solver {
 
     /// Takes in what the user edited. To be called before the clock goes on and before a point
     /// is dragged along with it, so that a frame knows what it began with.
-    pub fn attend(&mut self, world: &mut World, settings: &Settings) {
-        self.take_in(world, settings, Cause::Hand, &mut Counters::default());
+    pub fn sync(&mut self, world: &mut World, settings: &Settings) {
+        self.apply_changes(world, settings, Cause::Hand, &mut Counters::default());
     }
 
     /// All that later results depend on besides the world and the settings.
@@ -118,7 +118,7 @@ impl Solver {
         *self = Self { pending: memory, settings, is_stale: true, ..Self::new() };
     }
 
-    /// Whether what was remembered waits for [`Solver::attend`].
+    /// Whether what was remembered waits for [`Solver::sync`].
     pub(super) fn is_behind(&self) -> bool {
         self.is_stale
     }
@@ -135,7 +135,7 @@ impl Solver {
     /// # Errors
     /// A live value that has none now.
     pub fn rates(&mut self, world: &mut World, settings: &Settings) -> Result<Rates, Diagnostic> {
-        self.attend(world, settings);
+        self.sync(world, settings);
         let n = world.points().column().len();
         let still = || vec![Vector::ZERO; n];
         let mut rates = Rates { velocity: still(), acceleration: still() };
@@ -147,7 +147,7 @@ impl Solver {
             let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
             for k in all {
                 if let Some(island) = self.topology.get_mut(k) {
-                    rates::solve(island, &fields, &mut rates);
+                    velocity::solve(island, &fields, &mut rates);
                 }
             }
         }
@@ -196,7 +196,7 @@ impl Solver {
     ) -> Report {
         let mut report = Report::default();
         let cause = if task == Task::Frame { Cause::Clock } else { Cause::Hand };
-        let made = self.take_in(world, settings, cause, &mut report.counters);
+        let made = self.apply_changes(world, settings, cause, &mut report.counters);
         if task == Task::Frame {
             for &k in &made {
                 if let Some(island) = self.topology.get_mut(k) {
@@ -207,7 +207,7 @@ impl Solver {
         if task == Task::Settle
             && let Some(tolerance) = budget.tolerance
         {
-            self.doubt(|island| island.residual > tolerance);
+            self.invalidate(|island| island.residual > tolerance);
         }
         self.missed.clear();
         let mut due = std::mem::take(&mut self.due);
@@ -216,7 +216,7 @@ impl Solver {
             self.is_awake[k as usize] = false;
         }
         let can_share = budget.stop.is_none() && due.len() > 1;
-        if can_share && crew::pays(&self.topology.effort_of(&due)) {
+        if can_share && parallel::pays(&self.topology.effort_of(&due)) {
             self.visit_side_by_side(&due, world, settings, budget, task, &mut report);
         } else {
             for &k in &due {
@@ -248,7 +248,7 @@ impl Solver {
     }
 
     /// Brings the islands up to date with what changed in the world; gives the new ones.
-    fn take_in(
+    fn apply_changes(
         &mut self,
         world: &mut World,
         settings: &Settings,
@@ -263,7 +263,7 @@ impl Solver {
             (before.method, before.tolerance) != (settings.method, settings.tolerance)
         });
         if is_doubtful {
-            self.doubt(|_| true);
+            self.invalidate(|_| true);
         }
         let mut touched = world.take_touched(self.touched.take().unwrap_or_default());
         if std::mem::take(&mut self.is_stale) {
@@ -285,7 +285,7 @@ impl Solver {
             made = self.topology.update(&touched, world, &mut self.pending);
             work.islands_rebuilt += made.len() as u64;
             for &k in &made {
-                self.remind(k);
+                self.restore_island(k);
             }
             self.pending = Memory::default();
             if touched.all {
@@ -300,7 +300,7 @@ impl Solver {
             }
             if is_doubtful {
                 // What was brought back is as doubtful as what was there.
-                self.doubt(|_| true);
+                self.invalidate(|_| true);
             }
             let topology = &self.topology;
             // An island that takes the place of one that was awake is to be woken again.
@@ -320,11 +320,11 @@ impl Solver {
             match self.topology.home(id) {
                 Home::None => {}
                 Home::Checked => self.check(world, id, settings),
-                Home::Island(k) => self.take_in_values(world, k, id),
+                Home::Island(k) => self.apply_values(world, k, id),
             }
         }
         for &p in &touched.moved {
-            self.take_in_move(world, p, settings);
+            self.apply_move(world, p, settings);
         }
         if cause == Cause::Hand && is_changed {
             for k in self.awake.clone() {
@@ -341,10 +341,10 @@ impl Solver {
     }
 
     /// Gives a new island the memory that waits for it.
-    fn remind(&mut self, k: u32) {
+    fn restore_island(&mut self, k: u32) {
         let Some(island) = self.topology.get_mut(k) else { return };
         if let Some(remembered) = self.pending.take(island) {
-            memory::restore(island, &remembered);
+            snapshot::restore(island, &remembered);
             if island.status != Status::Converged {
                 self.unsolved.insert(k);
             }
@@ -352,7 +352,7 @@ impl Solver {
     }
 
     /// What counted as solved may not any more.
-    fn doubt(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
+    fn invalidate(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
         let all: Vec<u32> = self.topology.iter().map(|(k, _)| k).collect();
         for k in all {
             if let Some(island) = self.topology.get_mut(k)
@@ -374,7 +374,7 @@ impl Solver {
         self.topology.get(k).is_some_and(|island| island.has_same(c, record))
     }
 
-    fn take_in_values(&mut self, world: &World, k: u32, id: ConstraintId) {
+    fn apply_values(&mut self, world: &World, k: u32, id: ConstraintId) {
         let c = self.topology.local_constraint(id);
         if let (Some(island), Some(record)) = (self.topology.get_mut(k), world.constraint(id)) {
             island.set_values(c, &record.constraint);
@@ -382,7 +382,7 @@ impl Solver {
         }
     }
 
-    fn take_in_move(&mut self, world: &World, p: PointId, settings: &Settings) {
+    fn apply_move(&mut self, world: &World, p: PointId, settings: &Settings) {
         if p.idx() >= world.points().column().len() || !world.points().is_alive(p) {
             return;
         }
@@ -447,7 +447,7 @@ impl Solver {
         let islands = due.iter().filter_map(|&k| Some((k, self.topology.lend(k)?)));
         let mut guests: Vec<Guest> =
             islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
-        let work = crew::visit_all(&mut guests, settings, budget.tolerance, task);
+        let work = parallel::visit_all(&mut guests, settings, budget.tolerance, task);
         report.counters.add(&work);
         for Guest { k, island, visit } in guests {
             self.topology.give_back(k, island);

@@ -3,8 +3,8 @@
 use super::course::Course;
 use super::reference::{self, Found, Reference};
 use super::report::{Cut, Measure, Row, Study, Why};
-use super::rung::{Rung, Step};
 use super::sample::Subject;
+use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
 
 /// What a study needs of the world outside.

@@ -11,8 +11,8 @@ mod measure;
 mod picture;
 mod reference;
 mod report;
-mod rung;
 mod sample;
+mod setting_ladder;
 mod table;
 
 pub use advice::{Advice, Wish};
@@ -21,5 +21,5 @@ pub use measure::{Outside, study};
 pub use picture::picture;
 pub use reference::freedoms;
 pub use report::{Cut, Measure, Row, Study, Why};
-pub use rung::{Rung, Step, ladder};
+pub use setting_ladder::{Rung, Step, ladder};
 pub use table::{csv, format_seconds, json, table};

@@ -6,7 +6,7 @@ use super::measure::Outside;
 use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
 use crate::diag::{Diagnostic, format_number};
-use crate::solve::mobility::{self, Analysis, Directions, Scene, analyse, freedom};
+use crate::mobility::{self, Analysis, Directions, Scene, analyse, freedom};
 use crate::solve::{Budget, Method, Report, Settings, Status};
 use crate::world::{PointId, World};
 

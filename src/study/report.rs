@@ -1,7 +1,7 @@
 //! What a study found.
 
 use super::reference::rounded;
-use super::rung::Rung;
+use super::setting_ladder::Rung;
 use crate::solve::Settings;
 
 /// What came of a study.

@@ -4,7 +4,7 @@ use super::course::{Course, Replay};
 use super::measure::Outside;
 use super::reference::Reference;
 use super::report::Why;
-use super::rung::{Rung, Step};
+use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
 use crate::solve::{Budget, Report, Settings, Solver, Status};
 use crate::world::World;

@@ -1,7 +1,7 @@
 //! Arithmetic on values: operators and functions, with errors that point at their place.
 
 use super::{Function, Operator, Value};
-use crate::constraint::{Place, Real};
+use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, Span, format_number};
 
 /// The value itself if it is finite.
@@ -42,7 +42,7 @@ pub fn operate<T: Real>(
             return Err(Diagnostic::error("division by zero").at(right, "this is 0"));
         }
         (Operator::Divide, Number(a), Number(b)) => Number(a / b),
-        (Operator::Divide, Vector(v), Number(b)) => Vector(Place { x: v.x / b, y: v.y / b }),
+        (Operator::Divide, Vector(v), Number(b)) => Vector(Vec2 { x: v.x / b, y: v.y / b }),
         (Operator::Power, Number(a), Number(b)) => Number(power(a, b).ok_or_else(|| {
             let what = if a.value() == 0.0 {
                 "0 to a negative power"
@@ -74,11 +74,11 @@ pub fn call<T: Real>(
         Function::Cross => Number(cross(vector(0), vector(1))),
         Function::Rotate => {
             let phi = number(1);
-            Vector(vector(0).times(Place { x: phi.cos(), y: phi.sin() }))
+            Vector(vector(0).times(Vec2 { x: phi.cos(), y: phi.sin() }))
         }
         Function::Polar => {
             let phi = number(1);
-            Vector(Place { x: phi.cos(), y: phi.sin() }.scale(number(0)))
+            Vector(Vec2 { x: phi.cos(), y: phi.sin() }.scale(number(0)))
         }
         Function::Midpoint => Vector((vector(0) + vector(1)).scale(T::constant(0.5))),
         Function::Distance => Number(length(vector(1) - vector(0))),
@@ -130,12 +130,12 @@ fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
     Ok(Value::Number(y.atan2(x)))
 }
 
-fn cross<T: Real>(a: Place<T>, b: Place<T>) -> T {
+fn cross<T: Real>(a: Vec2<T>, b: Vec2<T>) -> T {
     a.x * b.y - a.y * b.x
 }
 
 /// The length of a vector; the value never overflows before its result does.
-fn length<T: Real>(v: Place<T>) -> T {
+fn length<T: Real>(v: Vec2<T>) -> T {
     let squares = v.norm();
     let exact = crate::constraint::Vector::new(v.x.value(), v.y.value()).norm();
     if squares.value() == exact { squares } else { squares.chain(exact, 1.0, 0.0) }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::made::{Batch, Made};
+use super::batch::{Batch, Made};
 use super::trace::Tail;
 use super::{
     Clock, ConstraintId, Entity, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Environment, ParameterId, PointId, Value, World};
-use crate::constraint::{Jet, Place, Real, Vector};
+use crate::constraint::{Jet, Real, Vec2, Vector};
 use crate::diag::Diagnostic;
 
 /// Velocities and accelerations of all points, by handle.
@@ -57,20 +57,20 @@ impl Environment<f64> for Here<'_> {
         }))
     }
 
-    fn position(&self, id: PointId) -> Place<f64> {
+    fn position(&self, id: PointId) -> Vec2<f64> {
         let p = self.world.points.at(id);
-        Place { x: p.x, y: p.y }
+        Vec2 { x: p.x, y: p.y }
     }
 
     fn time(&self) -> f64 {
         self.world.clock.time()
     }
 
-    fn rates(&self, id: PointId) -> Option<(Place<f64>, Place<f64>)> {
+    fn rates(&self, id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
         let rates = self.rates?;
         let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
         let (v, a) = (at(&rates.velocity), at(&rates.acceleration));
-        Some((Place { x: v.x, y: v.y }, Place { x: a.x, y: a.y }))
+        Some((Vec2 { x: v.x, y: v.y }, Vec2 { x: a.x, y: a.y }))
     }
 }
 
@@ -104,23 +104,23 @@ impl Environment<Jet> for Moving<'_> {
         Ok(match Here::new(self.world, None).parameter(id)? {
             Value::Number(n) => Value::Number(Jet::constant(n)),
             Value::Vector(v) => {
-                Value::Vector(Place { x: Jet::constant(v.x), y: Jet::constant(v.y) })
+                Value::Vector(Vec2 { x: Jet::constant(v.x), y: Jet::constant(v.y) })
             }
         })
     }
 
-    fn position(&self, id: PointId) -> Place<Jet> {
+    fn position(&self, id: PointId) -> Vec2<Jet> {
         let p = self.world.points.at(id);
         let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
         let (v, a) = (at(&self.rates.velocity), at(&self.rates.acceleration));
-        Place { x: Jet::new(p.x, v.x, a.x), y: Jet::new(p.y, v.y, a.y) }
+        Vec2 { x: Jet::new(p.x, v.x, a.x), y: Jet::new(p.y, v.y, a.y) }
     }
 
     fn time(&self) -> Jet {
         Jet::new(self.world.clock.time(), 1.0, 0.0)
     }
 
-    fn rates(&self, _id: PointId) -> Option<(Place<Jet>, Place<Jet>)> {
+    fn rates(&self, _id: PointId) -> Option<(Vec2<Jet>, Vec2<Jet>)> {
         None
     }
 }

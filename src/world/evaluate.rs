@@ -4,7 +4,7 @@ use super::environments::{Here, Moving};
 use super::{
     ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, User, Value, Word, World,
 };
-use crate::constraint::{Field, Jet, Real, Relation};
+use crate::constraint::{ConstraintKind, Field, Jet, Real};
 use crate::diag::Diagnostic;
 
 impl World {

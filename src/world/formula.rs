@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::arithmetic::{call, finite, operate};
 use super::{Function, ParameterId, PointId, Shape};
-use crate::constraint::{Place, Real};
+use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
 
 /// The place of what no text says.
@@ -114,7 +114,7 @@ pub enum Value<T = f64> {
     /// A number.
     Number(T),
     /// A vector.
-    Vector(Place<T>),
+    Vector(Vec2<T>),
 }
 
 impl<T: Real> Value<T> {
@@ -143,7 +143,7 @@ impl<T: Real> Value<T> {
     }
 
     /// The vector; formulas are checked for shape when they are bound.
-    pub fn vector(self) -> Place<T> {
+    pub fn vector(self) -> Vec2<T> {
         match self {
             Self::Vector(v) => v,
             Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
@@ -159,11 +159,11 @@ pub trait Environment<T: Real> {
     /// Where the parameter's own formula has no value.
     fn parameter(&self, id: ParameterId) -> Result<Value<T>, Diagnostic>;
     /// The position of a point.
-    fn position(&self, id: PointId) -> Place<T>;
+    fn position(&self, id: PointId) -> Vec2<T>;
     /// The time.
     fn time(&self) -> T;
     /// Velocity and acceleration of a point; none where they cannot be had.
-    fn rates(&self, id: PointId) -> Option<(Place<T>, Place<T>)>;
+    fn rates(&self, id: PointId) -> Option<(Vec2<T>, Vec2<T>)>;
 }
 
 impl Formula {
@@ -230,11 +230,11 @@ impl Formula {
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
             Node::Vector(x, y) => {
-                Vector(Place { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
+                Vector(Vec2 { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
             }
             Node::Negate(a) => match a.evaluate(env)? {
                 Number(n) => Number(-n),
-                Vector(v) => Vector(Place { x: -v.x, y: -v.y }),
+                Vector(v) => Vector(Vec2 { x: -v.x, y: -v.y }),
             },
             Node::X(a) => Number(a.evaluate(env)?.vector().x),
             Node::Y(a) => Number(a.evaluate(env)?.vector().y),

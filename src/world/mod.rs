@@ -4,41 +4,41 @@
 //! here iterates towards a solution, parses, prints or holds a number that is not finite.
 
 mod arithmetic;
+mod batch;
 mod clock;
+mod dependencies;
 mod edit;
 mod environments;
 mod evaluate;
 mod formula;
 mod function;
 mod id;
-mod idle;
-mod live;
-mod made;
 mod motion;
+mod name;
 mod names;
 mod points;
 mod records;
+mod same;
 mod touched;
 mod trace;
 mod users;
-mod word;
 
 pub use arithmetic::{call, operate};
+pub use batch::{Batch, Made};
 pub use clock::Clock;
 pub use edit::Edit;
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
-pub use made::{Batch, Made};
 pub use motion::Motion;
+pub use name::Word;
 pub use names::Names;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use users::User;
-pub use word::Word;
 
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ pub struct World {
     start_states: BTreeMap<ConstraintId, Vec<f64>>,
     traces: Vec<Trace>,
     ghosts: Vec<Ghost>,
-    live: live::Live,
+    live: dependencies::Live,
     point_users: users::PointUsers,
     touched: Box<Touched>,
     revision: u64,

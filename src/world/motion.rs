@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::idle::{are_same_places, are_same_states};
+use super::same::{are_same_places, are_same_states};
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
-use crate::constraint::{Constraint, Field, Point, Relation};
+use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 use crate::diag::Diagnostic;
 
 /// By constraint, the numbers that running changes of it.

@@ -1,7 +1,7 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
 use super::{Depends, Formula, Value, Word};
-use crate::constraint::{Bounds, Constraint, Field, Relation};
+use crate::constraint::{Bounds, Constraint, ConstraintKind, Field};
 use crate::diag::{Diagnostic, format_number};
 
 /// A constraint with its name and what drives its values.

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
-use crate::constraint::Relation;
+use crate::constraint::ConstraintKind;
 
 use super::{ConstraintId, Entity, Formula, Mention, ParameterId, PointId, Record, World};
 

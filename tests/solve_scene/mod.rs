@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test binary uses what it needs")]
 
 use linkwork::constraint::{
-    Bounds, Constraint, Coordinate, Equal, Field, Glider, Length, Motor, Orientation, Period,
-    Point, Relation,
+    Bounds, Constraint, ConstraintKind, Coordinate, Equal, Field, Glider, Length, Motor,
+    Orientation, Period, Point,
 };
 use linkwork::solve::{Budget, Report, Settings, Solver};
 use linkwork::world::{Clock, ConstraintId, Edit, PointId, PointRecord, Record, World};
@@ -113,7 +113,7 @@ impl Scene {
 
     /// One frame in which `hand` acts as the clock goes on.
     pub fn drive(&mut self, hand: impl FnOnce(&mut Self)) -> Report {
-        self.solver.attend(&mut self.world, &self.settings);
+        self.solver.sync(&mut self.world, &self.settings);
         hand(self);
         self.world.advance().expect("no live expressions here");
         self.solver.frame(&mut self.world, &self.settings, &Budget::default())

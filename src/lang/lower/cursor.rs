@@ -10,9 +10,9 @@ use crate::lang::ast::{
 };
 
 use super::Reader;
+use super::errors::refusal;
 use super::expr::{MAX_DEPTH, Tree, lower_expr};
 use super::grammar::Rule;
-use super::refusal;
 
 /// A position in the parts of a statement.
 pub(super) struct Cursor<'a> {

@@ -6,11 +6,9 @@
 
 mod constraint;
 mod cursor;
-mod expected;
+mod errors;
 mod expr;
-mod mistake;
-mod opening;
-mod refusal;
+mod prefix;
 mod verb;
 
 #[cfg(test)]

@@ -10,8 +10,8 @@ use crate::lang::ast::{
 
 use super::constraint;
 use super::cursor::Cursor;
+use super::errors::refusal;
 use super::grammar::Rule;
-use super::refusal;
 
 /// The rule that reads statements beginning with `word`.
 pub(super) fn rule(word: &str) -> Option<Rule> {

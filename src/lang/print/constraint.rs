@@ -2,8 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::super::ast::{Constraint, Pair};
 use super::{Clause, Names};
+use crate::lang::ast::{Constraint, Pair};
 
 impl Display for Pair {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {

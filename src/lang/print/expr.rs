@@ -4,8 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::diag::format_number;
 
-use super::super::expr::{Axis, BinaryOp, Expr, Name, Node, Number, PartKind};
 use super::commas;
+use crate::lang::expr::{Axis, BinaryOp, Expr, Name, Node, Number, PartKind};
 
 /// How tight what stands in the text binds: a looser one in its place needs parentheses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,8 +3,8 @@
 use super::Draw;
 use super::bar::arrow_head;
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::canvas::Ink;
 use crate::render::figure::{Layer, Placement};
-use crate::render::ink::Ink;
 use crate::render::path::Path;
 use crate::render::style::Class;
 use std::f64::consts::FRAC_PI_2;

@@ -1,8 +1,8 @@
 //! Bars: where a straight part lies and how long it is on the page.
 
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::canvas::Ink;
 use crate::render::figure::{Figure, Layer, Placement};
-use crate::render::ink::Ink;
 use crate::render::path::Path;
 use crate::render::style::Class;
 

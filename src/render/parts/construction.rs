@@ -3,8 +3,8 @@
 use super::Draw;
 use super::bar::Span;
 use crate::constraint::PointIdx;
+use crate::render::canvas::Ink;
 use crate::render::figure::Layer;
-use crate::render::ink::Ink;
 use crate::render::path::Path;
 use crate::render::style::Class;
 

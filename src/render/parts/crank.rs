@@ -3,8 +3,8 @@
 use super::Draw;
 use super::bar::{Span, arrow_head, outlined};
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::canvas::Ink;
 use crate::render::figure::{Figure, Layer, Placement};
-use crate::render::ink::Ink;
 use crate::render::page::Extent;
 use crate::render::path::Path;
 use crate::render::style::{Class, MOTOR};

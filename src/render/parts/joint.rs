@@ -2,8 +2,8 @@
 
 use super::Draw;
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::canvas::Ink;
 use crate::render::figure::{Layer, Placement};
-use crate::render::ink::Ink;
 use crate::render::path::Path;
 use crate::render::style::{BASE_LINE, Class, JOINT, MOTOR, letter};
 use std::rc::Rc;

@@ -41,8 +41,8 @@ pub use web::Web;
 
 use std::rc::Rc;
 
+use super::canvas::Ink;
 use super::figure::Key;
-use super::ink::Ink;
 use super::page::Extent;
 use crate::constraint::{Point, PointIdx};
 

@@ -3,7 +3,7 @@
 use super::Draw;
 use super::bar::{Span, outlined};
 use crate::constraint::PointIdx;
-use crate::render::ink::Ink;
+use crate::render::canvas::Ink;
 use crate::render::style::Class;
 
 /// A solid bar between two joints.

@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use super::bar::Span;
 use super::{Draw, teeth};
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::render::canvas::Ink;
 use crate::render::figure::{Layer, Placement};
 use crate::render::groups::Groups;
-use crate::render::ink::Ink;
 use crate::render::page::Extent;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -340,7 +340,7 @@ fn draw_plain(ink: &mut Ink, centre: Point, radius: f64, is_ring: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::ink::Lettering;
+    use crate::render::canvas::Lettering;
     use crate::render::page::Page;
 
     fn page_over(at: &[Point], train: &Train) -> Page {

@@ -4,8 +4,8 @@ use super::Draw;
 use super::bar::Span;
 use super::plate::polygon_from;
 use crate::constraint::PointIdx;
+use crate::render::canvas::Ink;
 use crate::render::figure::Layer;
-use crate::render::ink::Ink;
 use crate::render::style::Class;
 
 /// A lightly filled triangle.

@@ -1,0 +1,79 @@
+//! The outside of a session that runs in a process: files, a clock, Ctrl-C.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::args::Outside;
+use super::progress::Bar;
+use super::{files, interrupt, output};
+use crate::diag::{Diagnostic, Severity, Sources};
+use crate::session::Host;
+
+/// The process as a session sees it.
+pub struct Process {
+    out: PathBuf,
+    is_quiet: bool,
+    allows_any_path: bool,
+    begun: Instant,
+    bar: Bar,
+}
+
+impl Process {
+    /// The process with the user's wishes.
+    pub fn new(outside: &Outside) -> Self {
+        Self {
+            out: outside.out.clone(),
+            is_quiet: outside.quiet,
+            allows_any_path: outside.allow_any_path,
+            begun: Instant::now(),
+            bar: Bar::default(),
+        }
+    }
+}
+
+impl Host for Process {
+    fn print(&mut self, line: &str) {
+        output::answer(line);
+    }
+
+    fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
+        if !self.is_quiet || what.severity == Severity::Error {
+            output::show(what, sources);
+        }
+    }
+
+    fn is_listening(&self) -> bool {
+        !self.is_quiet
+    }
+
+    fn is_interrupted(&self) -> bool {
+        interrupt::is_asked()
+    }
+
+    fn read(&mut self, path: &Path) -> io::Result<String> {
+        files::read(path)
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        files::write(&self.written(path), bytes)
+    }
+
+    fn written(&self, path: &Path) -> PathBuf {
+        self.out.join(path)
+    }
+
+    fn allows_any_path(&self) -> bool {
+        self.allows_any_path
+    }
+
+    fn progress(&self, share: f64) {
+        if !self.is_quiet {
+            self.bar.show(share);
+        }
+    }
+
+    fn seconds(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+}

@@ -1,0 +1,315 @@
+//! The cog wheel constraint, section 3.10, as an equation between angles.
+//!
+//! The paper states it between velocities, which have to be integrated and drift. The same
+//! condition integrates in closed form: with the centre line at alpha and the wheels at
+//! theta1 and theta2, `theta1 - alpha` and `r (alpha - theta2)` grow alike.
+
+use super::orientation::turning;
+use crate::constraint::parts::geometry::has_direction;
+use crate::constraint::parts::turns::simplest_fraction;
+use crate::constraint::parts::winding::Winding;
+use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use std::f64::consts::TAU;
+
+/// Two wheels in mesh: `theta1 - (1 + r) alpha + r theta2 = K`, in radians.
+///
+/// theta1 and theta2 are the angles of the markers seen from their centres, alpha that of
+/// the second centre seen from the first, r the second radius over the first, negative for
+/// a wheel inside the other. K is what it was at creation. Angles are counted on beyond
+/// half a turn from the last accepted pose, so a frame may turn each by less than that.
+///
+/// While a marker lies on its centre the constraint asks for nothing; while the centres lie
+/// on each other alpha stays as it was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cog {
+    /// Centre and marker of the one wheel, centre and marker of the other.
+    pub points: [PointIdx; 4],
+    ratio: f64,
+    /// The ratio as numbers of teeth, the second wheel's over the first's, where they exist.
+    teeth: Option<(f64, f64)>,
+    /// theta1, alpha, theta2 as last accepted.
+    lifted: [Winding; 3],
+    /// What the whole turns of these angles contribute to the equation.
+    wound: f64,
+    k: f64,
+}
+
+/// The vectors whose angles the constraint compares: x1 to x2, x1 to x3, x3 to x4.
+struct Spokes<V>([V; 3]);
+
+impl Cog {
+    /// Wheels in mesh as they stand.
+    pub fn new(points: [PointIdx; 4], ratio: f64, x: &[Point]) -> Self {
+        let mut cog = Self {
+            points,
+            ratio,
+            teeth: teeth(ratio),
+            lifted: [Winding::default(); 3],
+            wound: 0.0,
+            k: 0.0,
+        };
+        let [x1, x2, x3, x4] = cog.places(x);
+        cog.lifted = [x2 - x1, x3 - x1, x4 - x3].map(|v| Winding::new(v.angle()));
+        cog.k = cog.mesh(cog.lifted.map(|winding| winding.angle));
+        cog
+    }
+
+    fn places(&self, x: &[Point]) -> [Point; 4] {
+        self.points.map(|p| x[p as usize])
+    }
+
+    /// The left side of the equation without whole turns.
+    fn mesh(&self, [theta1, alpha, theta2]: [f64; 3]) -> f64 {
+        (theta1 - alpha) + self.ratio * (theta2 - alpha)
+    }
+
+    /// None while a marker has no angle.
+    fn spokes(&self, x: &[Point]) -> Option<Spokes<Vector>> {
+        let [a, b, c, d] = self.points;
+        if a == d && b == c {
+            // Each marker is the other's centre: one segment, on which nothing can turn.
+            return None;
+        }
+        let [x1, x2, x3, x4] = self.places(x);
+        let centres = if self.alpha_counts(x1, x3) { x3 - x1 } else { Vector::ZERO };
+        (has_direction(x1, x2) && has_direction(x3, x4)).then_some(Spokes([
+            x2 - x1,
+            centres,
+            x4 - x3,
+        ]))
+    }
+
+    /// Whether the line of centres has a part in the equation.
+    fn alpha_counts(&self, x1: Point, x3: Point) -> bool {
+        self.ratio != -1.0 && has_direction(x1, x3)
+    }
+
+    /// The angles of the spokes, counted on from the accepted ones.
+    fn angles(&self, spokes: &Spokes<Vector>) -> [f64; 3] {
+        std::array::from_fn(|i| match spokes.0[i] {
+            Vector::ZERO => self.lifted[i].angle,
+            v => self.lifted[i].near(v.angle()),
+        })
+    }
+
+    fn value(&self, spokes: &Spokes<Vector>) -> f64 {
+        self.mesh(self.angles(spokes)) + (self.wound - self.k)
+    }
+
+    fn row(&self, spokes: &Spokes<Vector>) -> Row {
+        let [a, b, c, d] = self.points;
+        let [v12, v13, v34] = spokes.0;
+        let (p1, p2) = (turning(v12), turning(v34) * self.ratio);
+        let p_alpha = if v13 == Vector::ZERO { v13 } else { turning(v13) * (1.0 + self.ratio) };
+        Row::new(self.value(spokes))
+            .with(a, p_alpha - p1)
+            .with(b, p1)
+            .with(c, -p_alpha - p2)
+            .with(d, p2)
+    }
+}
+
+/// Numbers of teeth in the ratio r, the second wheel's and the first's.
+fn teeth(ratio: f64) -> Option<(f64, f64)> {
+    simplest_fraction(ratio, f64::EPSILON * ratio.abs())
+}
+
+impl ConstraintKind for Cog {
+    fn points(&self) -> &[PointIdx] {
+        &self.points
+    }
+
+    fn points_mut(&mut self) -> &mut [PointIdx] {
+        &mut self.points
+    }
+
+    fn n_rows(&self) -> usize {
+        1
+    }
+
+    fn residual(&self, x: &[Point]) -> f64 {
+        self.spokes(x).map_or(0.0, |spokes| self.value(&spokes))
+    }
+
+    /// Exact to first order, as the centres' line turns with the centres: a few repeats
+    /// reach rounding.
+    fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
+        if let Some(spokes) = self.spokes(x) {
+            self.row(&spokes).correct(w, move_by);
+        }
+    }
+
+    fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
+        row(self.spokes(x).map_or_else(|| Row::inactive(&self.points), |s| self.row(&s)));
+    }
+
+    fn equations<T: Real>(
+        &self,
+        x: &impl Fn(PointIdx) -> Vec2<T>,
+        _field: &impl Fn(Field, f64) -> T,
+        equation: &mut impl FnMut(T),
+    ) {
+        let [x1, x2, x3, x4] = self.points.map(x);
+        let value = |p: Vec2<T>| p.value().to_point();
+        if !(has_direction(value(x1), value(x2)) && has_direction(value(x3), value(x4))) {
+            return equation(T::constant(0.0));
+        }
+        let counted = |i: usize, v: Vec2<T>| {
+            let direction = v.angle();
+            let angle = self.lifted[i].near(direction.value());
+            direction + T::constant(angle - direction.value())
+        };
+        let (theta1, theta2) = (counted(0, x2 - x1), counted(2, x4 - x3));
+        let alpha = if self.alpha_counts(value(x1), value(x3)) {
+            counted(1, x3 - x1)
+        } else {
+            T::constant(self.lifted[1].angle)
+        };
+        let mesh = (theta1 - alpha) + T::constant(self.ratio) * (theta2 - alpha);
+        equation(mesh + T::constant(self.wound - self.k));
+    }
+
+    fn get(&self, field: Field) -> Option<f64> {
+        (field == Field::Ratio).then_some(self.ratio)
+    }
+
+    fn set(&mut self, field: Field, value: f64) -> bool {
+        if field == Field::Ratio && value != self.ratio {
+            // A gear change: the wheels mesh on from where they stand, turns so far forgotten.
+            let angles = self.lifted.map(|winding| winding.angle);
+            let f = self.mesh(angles) + (self.wound - self.k);
+            self.ratio = value;
+            self.teeth = teeth(value);
+            self.lifted = angles.map(Winding::new);
+            self.wound = 0.0;
+            self.k = self.mesh(angles) - f;
+        }
+        field == Field::Ratio
+    }
+
+    fn state(&self) -> Option<Vec<f64>> {
+        let windings = self.lifted.iter().flat_map(|w| w.to_numbers());
+        Some(windings.chain([self.wound]).collect())
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        if let &[a, b, c, d, e, f, wound] = state {
+            self.lifted = [[a, b], [c, d], [e, f]].map(Winding::from_numbers);
+            self.wound = wound;
+        }
+    }
+
+    fn captured(&self) -> Vec<f64> {
+        vec![self.k]
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        if let &[k] = captured {
+            self.k = k;
+        }
+    }
+
+    fn pick_up(&mut self, x: &[Point]) {
+        *self = Self::new(self.points, self.ratio, x);
+    }
+
+    fn accept(&mut self, x: &[Point]) {
+        let Some(Spokes(vectors)) = self.spokes(x) else { return };
+        for (winding, v) in self.lifted.iter_mut().zip(vectors) {
+            if v != Vector::ZERO {
+                winding.follow(v.angle());
+            }
+        }
+        // Wheels that mesh keep `first + r second` small however far they run; summed in
+        // teeth it is exact, so nothing is lost in a million turns.
+        let [n1, n_alpha, n2] = self.lifted.map(|winding| winding.turns);
+        let (first, second) = ((n1 - n_alpha) as f64, (n2 - n_alpha) as f64);
+        self.wound = TAU
+            * match self.teeth {
+                Some((p, q)) => (first * q + second * p) / q,
+                None => second.mul_add(self.ratio, first),
+            };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wheels on frozen centres after the first has made `i` of `n` parts of a turn.
+    fn pair(i: i64, n: i64, (first, second): (i64, i64)) -> [Point; 4] {
+        let spoke = |k: i64| {
+            Vector::polar(1.0, (k.rem_euclid(n * second) as f64) * TAU / (n * second) as f64)
+        };
+        let (o1, o2) = (Point::new(1.0, 2.0), Point::new(5.0, 3.0));
+        [o1, o1 + spoke(i * second), o2, o2 + spoke(-i * first)]
+    }
+
+    #[test]
+    fn external_wheels_turn_opposite_ways_and_return() {
+        // Teeth 12 and 36: the second turns a third as far, the other way.
+        let mut cog = Cog::new([0, 1, 2, 3], 3.0, &pair(0, 36, (1, 3)));
+        let there = 0..36 * 20_000;
+        for i in there.clone().chain(there.rev()) {
+            let x = pair(i, 36, (1, 3));
+            assert!(cog.residual(&x).abs() < 1e-13, "frame {i}: {}", cog.residual(&x));
+            cog.accept(&x);
+        }
+    }
+
+    #[test]
+    fn a_ratio_without_teeth_keeps_its_digits() {
+        let ratio = std::f64::consts::SQRT_2;
+        let x = |i: i32| {
+            let theta = f64::from(i) * 0.1;
+            let [o1, o2] = [Point::ORIGIN, Point::new(3.0, 0.0)];
+            [o1, o1 + Vector::polar(1.0, theta * ratio), o2, o2 + Vector::polar(1.0, -theta)]
+        };
+        let mut cog = Cog::new([0, 1, 2, 3], ratio, &x(0));
+        for i in 0..100_000 {
+            assert!(cog.residual(&x(i)).abs() < 1e-11);
+            cog.accept(&x(i));
+        }
+    }
+
+    #[test]
+    fn a_planet_in_a_frozen_ring_turns_three_times_back() {
+        // Ratio -1/4: theta2 = -3 alpha, a rosette of four leaves.
+        let x = |i: i64| {
+            let [alpha, theta] = [i, -3 * i].map(|k| (k.rem_euclid(360) as f64).to_radians());
+            let centre = Point::ORIGIN + Vector::polar(0.75, alpha);
+            [Point::ORIGIN, Point::new(1.0, 0.0), centre, centre + Vector::polar(0.25, theta)]
+        };
+        let mut cog = Cog::new([0, 1, 2, 3], -0.25, &x(0));
+        for i in (0..360_000).chain((0..360_000).rev()) {
+            assert!(cog.residual(&x(i)).abs() < 1e-13, "frame {i}");
+            cog.accept(&x(i));
+        }
+    }
+
+    #[test]
+    fn concentric_wheels_of_ratio_minus_one_turn_together() {
+        let x = |phi: f64| {
+            [
+                Point::ORIGIN,
+                Vector::polar(1.0, phi).to_point(),
+                Point::ORIGIN,
+                Vector::polar(2.0, phi + 1.0).to_point(),
+            ]
+        };
+        let cog = Cog::new([0, 1, 2, 3], -1.0, &x(0.0));
+        assert!(cog.residual(&x(0.7)).abs() < 1e-15);
+        let mut rows = Vec::new();
+        cog.jacobian(&x(0.7), &mut |row| rows.push(row));
+        assert!(rows[0].is_active && rows[0].norm_squared(&[1.0; 4]) > 0.0);
+    }
+
+    #[test]
+    fn a_gear_change_is_no_jump() {
+        let mut cog = Cog::new([0, 1, 2, 3], 3.0, &pair(0, 36, (1, 3)));
+        (0..100).for_each(|i| cog.accept(&pair(i, 36, (1, 3))));
+        let x = pair(99, 36, (1, 3));
+        assert!(cog.set(Field::Ratio, 5.0));
+        assert!(cog.residual(&x).abs() < 1e-14);
+    }
+}

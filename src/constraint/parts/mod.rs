@@ -1,0 +1,11 @@
+//! What the kinds are made of.
+
+pub mod bounds;
+pub mod geometry;
+pub mod jet;
+pub mod line;
+pub mod linear;
+pub mod row;
+pub mod turns;
+pub mod vec2;
+pub mod winding;

@@ -1,0 +1,253 @@
+//! What is wrong where the grammar stops: what was found, and what to type instead.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use crate::diag::{Diagnostic, Span};
+use crate::lang::ast::Unit;
+use crate::lang::catalogue;
+
+use super::expected::{Expected, PATH};
+use super::refusal;
+use crate::lang::lower::grammar::Rule;
+use crate::lang::lower::prefix::{first_word, is_word_char};
+use crate::lang::lower::{Reader, verb};
+
+impl Reader<'_> {
+    /// What to say when `rule` does not fit the bytes `range`.
+    pub fn syntax_error(
+        &self,
+        error: &Error<Rule>,
+        rule: Rule,
+        range: &Range<usize>,
+    ) -> Diagnostic {
+        let (InputLocation::Pos(at) | InputLocation::Span((at, _))) = error.location;
+        let stopped_at = range.start + at;
+        let at = self.start_of_sign(range.start, stopped_at);
+        let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
+            // Little stack was left to begin with, and pest stopped before it ran out.
+            return refusal::too_long(self.span(range.clone()));
+        };
+        let word = first_word(&self.text[range.clone()]);
+        let before = self.text[range.start..at].trim_end();
+        let expected = Expected::new(positives, word, before == word);
+        let found = self.found_at(at, range.end);
+        let message = match found.what {
+            Found::End if rule == Rule::prefix => "the statement is not complete".to_owned(),
+            Found::End => format!("`{word}` is not complete"),
+            _ => format!("unexpected {}", found.term),
+        };
+        let label =
+            if at < stopped_at { "not expected here".to_owned() } else { expected.to_string() };
+        let problem = Diagnostic::error(message).at(found.span, label);
+        let misspelt = expected.near(found.word(self)).or_else(|| {
+            // Taken for a name, it was meant to be the keyword that is now missing.
+            expected.near(last_word(before).filter(|word| word.len() > 2)?)
+        });
+        let help = match misspelt {
+            Some(near) => Some(format!("did you mean `{near}`?")),
+            None => self.hint(&found, &expected, word, before, range.end),
+        };
+        let problem = match help {
+            Some(help) => problem.help(help),
+            None => problem,
+        };
+        let problem = match self.line_held_open(range.start, at) {
+            Some(comma) => problem.also(comma, "this comma holds the statement open"),
+            None => problem,
+        };
+        match catalogue::entry(word) {
+            Some(entry) => problem.help(format!("usage: `{}`", entry.usage)),
+            None => problem,
+        }
+    }
+
+    /// Where the sign begins that `at` is in: of `==` the first `=` is read as one of its own.
+    fn start_of_sign(&self, start: usize, at: usize) -> usize {
+        let begins_sign = |from: usize| {
+            let rest = self.text.get(from..).unwrap_or("");
+            SIGNS.iter().any(|sign| sign.len() > at - from && rest.starts_with(sign))
+        };
+        let before = (start.max(at.saturating_sub(2))..at).find(|&from| begins_sign(from));
+        before.unwrap_or(at)
+    }
+
+    /// What to type instead of what was found behind `before`.
+    fn hint(
+        &self,
+        found: &FoundAt,
+        expected: &Expected,
+        verb: &str,
+        before: &str,
+        end: usize,
+    ) -> Option<String> {
+        let word = found.word(self);
+        let behind = &self.text[found.span.range().end..end];
+        let is_number = word.starts_with(|char: char| char.is_ascii_digit());
+        let help = match &*found.term {
+            "`=`" if before == verb && verb != "let" => format!(
+                "`{verb}` is a command; to give a parameter of that name a value, write \
+                 `let {verb} = ...`"
+            ),
+            "`=`" if verb == "set" => format!("leave the `=` out: `{} ...`", brief(before)),
+            "`.`" if behind.starts_with(is_word_char) => {
+                "only vectors have components: `(x, y).x`".to_owned()
+            }
+            "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
+            _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
+            _ if expected.terms == [PATH] && !word.is_empty() => {
+                format!(
+                    "a path stands in quotes: `{verb} \"{}\"`",
+                    brief(&format!("{word}{behind}"))
+                )
+            }
+            _ if expected.has("a relation") && is_number => {
+                format!("did you mean `= {}`?", brief(word))
+            }
+            _ if verb == "change" && last_word(before) == Some("to") => {
+                "a value stands behind `=`: `change coupler = 4`".to_owned()
+            }
+            _ if expected.has("`to`") && verb == "distance" => {
+                "for the distance of two points, write `length A B`".to_owned()
+            }
+            _ if word.starts_with('\'') => "a string stands in double quotes: `\"...\"`".to_owned(),
+            _ if before.ends_with(|char: char| char.is_ascii_digit())
+                && Unit::ALL.iter().any(|unit| unit.suffix() == word) =>
+            {
+                format!(
+                    "the unit stands right behind its number: `{}{word}`",
+                    brief(last_number(before))
+                )
+            }
+            _ => return found.meaning().map(str::to_owned),
+        };
+        Some(help)
+    }
+
+    /// What stands at `at` in a statement that ends at `end`.
+    pub fn found_at(&self, at: usize, end: usize) -> FoundAt {
+        let statement = &self.text[..end];
+        let rest = &statement[at..];
+        let Some(first) = rest.chars().next() else {
+            let end = statement.trim_end().len();
+            return FoundAt { what: Found::End, term: String::new(), span: self.span(end..end) };
+        };
+        let (what, len) = if first == '"' {
+            (Found::String, rest.find('\n').unwrap_or(rest.len()))
+        } else if is_word_char(first) {
+            let len = rest.find(|char| !is_word_char(char)).unwrap_or(rest.len());
+            (Found::Word, len)
+        } else {
+            let sign = SIGNS.iter().find(|sign| rest.starts_with(**sign));
+            (Found::Sign, sign.map_or(first.len_utf8(), |sign| sign.len()))
+        };
+        let term = match what {
+            Found::String => "string".to_owned(),
+            Found::Sign => match odd_char(first) {
+                Some(odd) => odd.to_owned(),
+                None => format!("`{}`", brief(&rest[..len])),
+            },
+            _ => format!("`{}`", brief(&rest[..len])),
+        };
+        FoundAt { what, term, span: self.span(at..at + len) }
+    }
+
+    /// The comma at the end of the line above `at`, if the line of `at` begins with a verb:
+    /// then it was probably meant to be a statement of its own.
+    fn line_held_open(&self, start: usize, at: usize) -> Option<Span> {
+        let before = &self.text[start..at];
+        let newline = before.rfind('\n')?;
+        let line = before[newline..].trim_start();
+        verb::rule(first_word(line))?;
+        let comma = before[..newline].trim_end().strip_suffix(',')?.len() + start;
+        Some(self.span(comma..comma + 1))
+    }
+}
+
+/// Signs of more than one character that are, or look as if they were, of the language.
+const SIGNS: [&str; 16] = [
+    "...", "..", ":=", "==", "<=", ">=", "=<", "=>", "!=", "<>", "**", "&&", "||", "+=", "-=", "//",
+];
+
+/// What stands where the grammar expected something else.
+pub(crate) struct FoundAt {
+    what: Found,
+    /// As a message calls it.
+    pub term: String,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Found {
+    End,
+    Word,
+    String,
+    Sign,
+}
+
+impl FoundAt {
+    fn word<'a>(&self, reader: &Reader<'a>) -> &'a str {
+        if self.what == Found::Word { &reader.text[self.span.range()] } else { "" }
+    }
+
+    /// What a sign of another language is called here.
+    pub fn meaning(&self) -> Option<&'static str> {
+        Some(match self.term.trim_matches('`') {
+            "==" => "one `=` compares, and one gives a value",
+            ":=" => "write `=`",
+            "=<" => "write `<=`",
+            "=>" => "write `>=`",
+            "!=" | "<>" => "the relations are `=`, `<`, `<=`, `>`, `>=` and `in a..b`",
+            "**" => "a power is written `a^b`",
+            "%" => "the remainder is `mod(a, b)`",
+            ".." => "a range stands behind `in`",
+            "..." => "a range is written `a..b`",
+            "//" => "a comment begins with `#`",
+            "+=" | "-=" => "write out the new value behind a single `=`",
+            "." => "a digit stands behind a decimal point: `2.0`, or `2`",
+            "[" => "an index stands right behind its name: `p[3]`",
+            "{" => "a block belongs to `for` and `define` only",
+            "\u{201c}" | "\u{201d}" | "\u{201e}" | "\u{2018}" | "\u{2019}" => {
+                "a string stands in straight quotes: `\"...\"`"
+            }
+            "\u{2212}" | "\u{2013}" | "\u{2014}" => "a minus is the `-` of the keyboard",
+            "\u{d7}" | "\u{b7}" => "a product is written `a * b`",
+            "\u{b0}" => "degrees are written `90deg`",
+            NO_BREAK_SPACE | ODD_BLANK => "type a space of the keyboard in its place",
+            _ => return None,
+        })
+    }
+}
+
+const NO_BREAK_SPACE: &str = "no-break space";
+const ODD_BLANK: &str = "odd blank";
+
+/// The beginning of a word, if it is too long for a message.
+pub(crate) fn brief(word: &str) -> Cow<'_, str> {
+    match word.char_indices().nth(40) {
+        Some((end, _)) => Cow::Owned(format!("{}...", &word[..end])),
+        None => Cow::Borrowed(word),
+    }
+}
+
+fn odd_char(char: char) -> Option<&'static str> {
+    match char {
+        '\u{a0}' | '\u{202f}' | '\u{2007}' => Some(NO_BREAK_SPACE),
+        _ if char.is_whitespace() => Some(ODD_BLANK),
+        _ if char.is_control() => Some("control character"),
+        _ => None,
+    }
+}
+
+/// The word that `text` ends with.
+fn last_word(text: &str) -> Option<&str> {
+    let word = text.rsplit(|char| !is_word_char(char)).next()?;
+    (!first_word(word).is_empty()).then_some(word)
+}
+
+/// The digits that `text` ends with.
+fn last_number(text: &str) -> &str {
+    text.rsplit(|char: char| !char.is_ascii_digit() && char != '.').next().unwrap_or("")
+}

@@ -1,0 +1,256 @@
+//! What a statement begins with: a label, `add`, and the verb that says how to read the rest.
+
+use std::ops::Range;
+
+use crate::diag::{Diagnostic, Span, nearest};
+use crate::lang::ast::Name;
+use crate::lang::catalogue;
+
+use super::errors::mistake::brief;
+use super::grammar::Rule;
+use super::{Reader, constraint, verb};
+
+/// What stands in front of a verb.
+#[derive(Default)]
+pub(super) struct Prefix {
+    pub label: Option<Name>,
+    pub add: Option<Span>,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads `label:` and `add`, in either order; gives what it found and where the verb begins.
+    pub fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
+        let text = &self.text[head.clone()];
+        let Some(kind) = prefix_of(text) else {
+            return Ok((Prefix::default(), head.start));
+        };
+        if let Some(problem) = self.misused_colon(text, kind, head.start) {
+            return Err(problem);
+        }
+        let mut prefix = Prefix::default();
+        let mut cursor = self.read(Rule::prefix, head.clone())?;
+        if cursor.peek() == Some(Rule::name) {
+            prefix.label = Some(cursor.name()?);
+        }
+        prefix.add = cursor.take(Rule::kw_add).map(|pair| cursor.span(&pair));
+        if cursor.peek() == Some(Rule::name) {
+            prefix.label = Some(cursor.name()?);
+        }
+        let verb = cursor.take(Rule::verb).expect("the grammar has a verb behind a prefix");
+        Ok((prefix, cursor.span(&verb).start as usize))
+    }
+
+    /// The first word and the rule to read its statement with.
+    pub fn verb(
+        &self,
+        prefix: &Prefix,
+        range: &Range<usize>,
+    ) -> Result<(&'a str, Rule), Diagnostic> {
+        let word = first_word(&self.text[range.clone()]);
+        let Some(rule) = verb::rule(word) else {
+            return Err(self.unknown_verb(word, prefix, range));
+        };
+        let is_constraint = constraint::rule(word).is_some();
+        let span = self.span(range.start..range.start + word.len());
+        if let Some(label) = prefix.label.as_ref().filter(|_| !is_constraint) {
+            let problem = Diagnostic::error("only a constraint has a name in front")
+                .at(label.span, "this name")
+                .also(span, "not a constraint");
+            return Err(if rule == Rule::point {
+                problem.help("a point is named behind the word: `point A = (0, 0)`")
+            } else {
+                problem.help("leave the name and the `:` out")
+            });
+        }
+        if let Some(add) = prefix.add.filter(|_| !is_constraint && rule != Rule::point) {
+            return Err(Diagnostic::error("`add` goes before a constraint or `point`")
+                .at(add, "")
+                .also(span, "neither of them")
+                .help(format!("leave it out: `{word} ...`")));
+        }
+        Ok((word, rule))
+    }
+
+    fn misused_colon(&self, text: &str, kind: PrefixKind, start: usize) -> Option<Diagnostic> {
+        let PrefixKind::Label { colon } = kind else { return None };
+        if !text[colon..].starts_with(":=") {
+            return None;
+        }
+        let name = brief(text[..colon].trim_end());
+        let span = self.span(start + colon..start + colon + 2);
+        Some(
+            Diagnostic::error("unexpected `:=`")
+                .at(span, "not an operator")
+                .help(format!("to define a parameter, write `let {name} = ...`")),
+        )
+    }
+
+    fn unknown_verb(&self, word: &str, prefix: &Prefix, range: &Range<usize>) -> Diagnostic {
+        let text = &self.text[range.clone()];
+        let span = self.span(range.start..range.start + word.len());
+        let rest = text[word.len()..].trim_start();
+        if word.is_empty() {
+            return self.no_verb(text, prefix, range);
+        }
+        let is_assigned = assigned_name(text);
+        if let Some(name) = is_assigned {
+            let span = self.span(range.start..range.start + name.len());
+            let name = brief(name);
+            return Diagnostic::error(format!("`{name} = ...` is not a statement"))
+                .at(span, "expected a command")
+                .help(format!("to define a parameter, write `let {name} = ...`"))
+                .help(format!("to declare a point, write `point {name} = (x, y)`"));
+        }
+        let shown = brief(word);
+        let problem = Diagnostic::error(format!("unknown command `{shown}`"));
+        let expects_constraint = prefix.label.is_some() || prefix.add.is_some();
+        let problem = problem
+            .at(span, if expects_constraint { "expected a constraint" } else { "not a command" });
+        let words = catalogue::commands().map(|entry| entry.keyword);
+        let near = if expects_constraint {
+            nearest(word, words.filter(|word| constraint::rule(word).is_some()))
+        } else {
+            nearest(word, words.chain(["add"]))
+        };
+        let fits = |word: &&str| !expects_constraint || constraint::rule(word).is_some();
+        match near.or_else(|| other_tongue(word).filter(fits)) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None if rest.is_empty() => {
+                problem.help(format!("to see what it is worth, write `print {shown}`"))
+            }
+            None if rest.starts_with('(') => {
+                problem.help(format!("to make what a definition says, write `use {shown}(...)`"))
+            }
+            None => problem.help("`help` lists the commands"),
+        }
+    }
+
+    /// The statement begins with something that is no word.
+    fn no_verb(&self, text: &str, prefix: &Prefix, range: &Range<usize>) -> Diagnostic {
+        let has_prefix = prefix.label.is_some() || prefix.add.is_some();
+        if text.is_empty() && has_prefix {
+            return Diagnostic::error("the statement is not complete")
+                .at(self.span(range.end..range.end), "expected a constraint")
+                .help("as in `coupler: length B C = 3.5`");
+        }
+        let expected = if has_prefix { "expected a constraint" } else { "expected a command" };
+        // A block without a head leaves nothing in front of its brace.
+        let end = if text.is_empty() { self.text.len() } else { range.end };
+        let found = self.found_at(range.start, end);
+        let problem =
+            Diagnostic::error(format!("unexpected {}", found.term)).at(found.span, expected);
+        match self.text.as_bytes()[range.start] {
+            b'0'..=b'9' | b'.' | b'(' | b'-' => {
+                problem.help("to compute a value, write `print ...`")
+            }
+            b'{' => problem.help("a block stands on the line of its `for` or `define`"),
+            b'"' => problem.help("to write a text, write `print \"...\"`"),
+            b'/' | b'%' => problem.help("a comment begins with `#`"),
+            b'?' => problem.help("`help` lists the commands"),
+            _ => match found.meaning() {
+                Some(meaning) => problem.help(meaning),
+                None => problem,
+            },
+        }
+    }
+}
+
+/// What the verbs of other tools are called here.
+fn other_tongue(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "plot" | "draw" => "svg",
+        "remove" | "rm" | "del" => "delete",
+        "ls" | "dir" => "list",
+        "echo" | "puts" => "print",
+        "enable" => "on",
+        "disable" => "off",
+        "var" | "param" => "let",
+        "source" | "import" | "read" => "include",
+        "write" => "save",
+        "open" => "load",
+        "repeat" | "while" | "loop" => "for",
+        "function" | "def" | "macro" => "define",
+        "bye" | "q" => "quit",
+        "rename" | "modify" | "edit" => "change",
+        "fix" | "ground" => "freeze",
+        "pin" => "coincidence",
+        "gear" => "cog",
+        "slider" => "glider",
+        "angle" => "orientation",
+        _ => return None,
+    })
+}
+
+#[derive(Clone, Copy)]
+enum PrefixKind {
+    Label { colon: usize },
+    Add,
+}
+
+/// What the statement `text` has in front of its verb.
+fn prefix_of(text: &str) -> Option<PrefixKind> {
+    let name = name_end(text);
+    let rest = &text[name..];
+    let behind = rest.trim_start_matches([' ', '\t']);
+    if name > 0 && behind.starts_with(':') {
+        return Some(PrefixKind::Label { colon: text.len() - behind.len() });
+    }
+    let is_add = first_word(text) == "add" && !behind.starts_with('=');
+    is_add.then_some(PrefixKind::Add)
+}
+
+/// The name that `text` gives a value to, if it reads `name = ...`.
+fn assigned_name(text: &str) -> Option<&str> {
+    let (name, rest) = text.split_at(name_end(text));
+    let rest = rest.trim_start();
+    let is_assigned = rest.starts_with('=') && !rest.starts_with("==");
+    (is_assigned && verb::rule(name).is_none()).then_some(name)
+}
+
+/// The word that `text` begins with; empty if with none.
+pub(super) fn first_word(text: &str) -> &str {
+    let starts = |char: char| char == '_' || char.is_alphabetic();
+    if !text.starts_with(starts) {
+        return "";
+    }
+    &text[..text.find(|char| !is_word_char(char)).unwrap_or(text.len())]
+}
+
+/// As the grammar's `word_char`.
+pub(super) fn is_word_char(char: char) -> bool {
+    matches!(char, '_' | '\'') || char.is_ascii_digit() || char.is_alphabetic()
+}
+
+/// How far the name goes that `text` begins with, its parts included.
+fn name_end(text: &str) -> usize {
+    let mut end = first_word(text).len();
+    if end == 0 {
+        return 0;
+    }
+    loop {
+        let rest = &text[end..];
+        let member = rest.strip_prefix('.').map_or("", first_word);
+        if !member.is_empty() {
+            end += 1 + member.len();
+        } else if rest.starts_with('[') {
+            let Some(index) = bracketed(rest) else { return end };
+            end += index;
+        } else {
+            return end;
+        }
+    }
+}
+
+/// How long the part in brackets is that `text` begins with.
+fn bracketed(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'[' => depth += 1,
+            b']' if depth == 1 => return Some(at + 1),
+            b']' => depth -= 1,
+            _ => {}
+        }
+    }
+    None
+}

@@ -1,0 +1,293 @@
+//! A scene at rest, as the analysis takes it, and its rows of length 1.
+
+use crate::constraint::{Constraint, ConstraintKind, Jet, Point, PointIdx, Row, Vec2, Vector};
+
+/// Constraints, in order of creation, at a pose.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// What must hold; results name constraints by their places here.
+    pub constraints: &'a [&'a Constraint],
+    /// The positions of all points.
+    pub x: &'a [Point],
+    /// The inverse masses of all points; 0: frozen.
+    pub w: &'a [f64],
+}
+
+/// One equation a constraint makes active, scaled to gradient length 1 in the metric of the
+/// weights, so that lengths and angles compare and `f` is a distance.
+#[derive(Debug, Clone)]
+pub struct UnitRow {
+    /// Which constraint, and which of its rows.
+    pub source: (usize, usize),
+    /// The distance to satisfaction, signed.
+    pub f: f64,
+    /// `f` divided by the value in the unit of the constraint.
+    pub scale: f64,
+    n_points: usize,
+    points: [u32; 4],
+    values: [f64; 8],
+}
+
+impl UnitRow {
+    /// The points that move, as indices into [`Rows::points`].
+    pub fn points(&self) -> &[u32] {
+        &self.points[..self.n_points]
+    }
+
+    /// The gradient by (x, y) of each of these points.
+    pub fn values(&self) -> &[f64] {
+        &self.values[..2 * self.n_points]
+    }
+
+    /// The same row over points with other indices.
+    pub fn renumbered(&self, place: impl Fn(u32) -> u32) -> Self {
+        let mut row = self.clone();
+        row.points[..row.n_points].iter_mut().for_each(|p| *p = place(*p));
+        row
+    }
+
+    /// Makes the row count `k` times.
+    pub fn count(&mut self, k: f64) {
+        self.f *= k;
+        self.values.iter_mut().for_each(|value| *value *= k);
+    }
+
+    /// Adds a further unknown, the first of the two at `place`. No row of a motor has four
+    /// points already.
+    pub fn add_unknown(&mut self, place: u32, gradient: f64) {
+        self.points[self.n_points] = place;
+        self.values[2 * self.n_points] = gradient;
+        self.n_points += 1;
+    }
+
+    /// The product with a vector of unknowns.
+    pub fn dot(&self, y: &[f64]) -> f64 {
+        let terms = self.points().iter().zip(self.values().as_chunks::<2>().0);
+        terms.map(|(&p, g)| g[0] * y[2 * p as usize] + g[1] * y[2 * p as usize + 1]).sum()
+    }
+
+    /// Adds `k` times the gradient to a vector of unknowns.
+    pub fn add_to(&self, k: f64, y: &mut [f64]) {
+        for (&p, g) in self.points().iter().zip(self.values().as_chunks::<2>().0) {
+            y[2 * p as usize] += k * g[0];
+            y[2 * p as usize + 1] += k * g[1];
+        }
+    }
+}
+
+/// The active rows of points that hang together, over the points that move.
+#[derive(Debug, Clone, Default)]
+pub struct Rows {
+    /// The points that move; their displacements divided by the roots of their weights are
+    /// the unknowns, (x, y) for each.
+    pub points: Vec<PointIdx>,
+    /// The rows, in order of creation.
+    pub rows: Vec<UnitRow>,
+}
+
+impl Rows {
+    /// How many unknowns there are.
+    pub fn n_unknowns(&self) -> usize {
+        2 * self.points.len()
+    }
+
+    /// The largest distance to satisfaction.
+    pub fn worst(&self) -> f64 {
+        self.rows.iter().fold(0.0, |worst, row| row.f.abs().max(worst))
+    }
+
+    /// Half the sum of the squares of the distances.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.rows.iter().map(|row| row.f * row.f).sum::<f64>()
+    }
+
+    /// Those rows that `keep` chooses, over the same points.
+    pub fn filtered(&self, keep: impl Fn(&UnitRow) -> bool) -> Self {
+        let rows = self.rows.iter().filter(|row| keep(row)).cloned().collect();
+        Self { points: self.points.clone(), rows }
+    }
+
+    /// Points and rows that share none of each other's points.
+    pub fn islands(self) -> Vec<Self> {
+        let mut sets = Sets::new(self.points.len());
+        for row in &self.rows {
+            for ends in row.points().windows(2) {
+                sets.join(ends[0], ends[1]);
+            }
+        }
+        let mut island_of = vec![usize::MAX; self.points.len()];
+        let mut islands: Vec<Self> = Vec::new();
+        let mut place = vec![0; self.points.len()];
+        for (k, &point) in self.points.iter().enumerate() {
+            let root = sets.find(k as u32) as usize;
+            if island_of[root] == usize::MAX {
+                island_of[root] = islands.len();
+                islands.push(Self::default());
+            }
+            let island = &mut islands[island_of[root]];
+            place[k] = island.points.len() as u32;
+            island.points.push(point);
+        }
+        for row in self.rows {
+            let root = sets.find(row.points[0]) as usize;
+            islands[island_of[root]].rows.push(row.renumbered(|p| place[p as usize]));
+        }
+        islands
+    }
+}
+
+impl Scene<'_> {
+    /// The active rows over all points that move, and the constraints that hold none of them
+    /// and yet are off by more than `tolerance`.
+    pub fn rows(&self, tolerance: f64) -> (Rows, Vec<usize>) {
+        let moving = self.w.iter().enumerate().filter(|&(_, &w)| w > 0.0);
+        let points = moving.map(|(p, _)| p as PointIdx).collect();
+        let mut unsatisfiable = Vec::new();
+        let all = 0..self.constraints.len();
+        let rows = self.rows_and_rest(points, all, &mut |constraint, row| {
+            if row.distance(self.w) > tolerance {
+                unsatisfiable.push(constraint);
+            }
+        });
+        unsatisfiable.dedup();
+        (rows, unsatisfiable)
+    }
+
+    /// The places of all constraints that hang together with one through points that move,
+    /// itself included, ascending.
+    pub fn neighbours(&self, constraint: usize) -> Vec<usize> {
+        let mut sets = Sets::new(self.x.len());
+        let moves = |p: &&PointIdx| self.w[**p as usize] > 0.0;
+        for constraint in self.constraints {
+            let moving: Vec<_> = constraint.points().iter().filter(moves).collect();
+            moving.windows(2).for_each(|ends| sets.join(*ends[0], *ends[1]));
+        }
+        let mut root =
+            |k: usize| self.constraints[k].points().iter().find(moves).map(|&p| sets.find(p));
+        let here = root(constraint);
+        let all = 0..self.constraints.len();
+        all.filter(|&k| k == constraint || here.is_some() && root(k) == here).collect()
+    }
+
+    /// The rows of an island as they are at this pose.
+    pub fn rows_like(&self, island: &Rows) -> Rows {
+        let mut constraints: Vec<_> = island.rows.iter().map(|row| row.source.0).collect();
+        constraints.dedup();
+        let rows = self.rows_over(island.points.clone(), &constraints);
+        let sources: Vec<_> = island.rows.iter().map(|row| row.source).collect();
+        rows.filtered(|row| sources.binary_search(&row.source).is_ok())
+    }
+
+    /// The rows of some constraints, over those points of theirs that move.
+    pub fn rows_over(&self, points: Vec<PointIdx>, constraints: &[usize]) -> Rows {
+        self.rows_and_rest(points, constraints.iter().copied(), &mut |_, _| ())
+    }
+
+    fn rows_and_rest(
+        &self,
+        points: Vec<PointIdx>,
+        constraints: impl Iterator<Item = usize>,
+        immovable: &mut impl FnMut(usize, &Row),
+    ) -> Rows {
+        let mut place = vec![None; self.x.len()];
+        for (k, &p) in points.iter().enumerate() {
+            place[p as usize] = Some(k as u32);
+        }
+        let mut rows = Vec::new();
+        for constraint in constraints {
+            let mut part = 0;
+            self.constraints[constraint].jacobian(self.x, &mut |row| {
+                if row.is_active {
+                    match self.unit(&row, &place, (constraint, part)) {
+                        Some(unit) => rows.push(unit),
+                        None => immovable(constraint, &row),
+                    }
+                }
+                part += 1;
+            });
+        }
+        Rows { points, rows }
+    }
+
+    fn unit(&self, row: &Row, place: &[Option<u32>], source: (usize, usize)) -> Option<UnitRow> {
+        let squared = row.norm_squared(self.w);
+        if squared == 0.0 {
+            return None;
+        }
+        let scale = 1.0 / squared.sqrt();
+        let mut unit = UnitRow {
+            source,
+            f: row.f * scale,
+            scale,
+            n_points: 0,
+            points: [0; 4],
+            values: [0.0; 8],
+        };
+        for (p, g) in row.terms() {
+            if let Some(place) = place[p as usize] {
+                let g = g * (self.w[p as usize].sqrt() * scale);
+                unit.points[unit.n_points] = place;
+                unit.values[2 * unit.n_points] = g.x;
+                unit.values[2 * unit.n_points + 1] = g.y;
+                unit.n_points += 1;
+            }
+        }
+        Some(unit)
+    }
+
+    /// The displacement of each point for a vector of unknowns.
+    pub fn displacements(&self, points: &[PointIdx], y: &[f64]) -> Vec<Vector> {
+        let mut moves = vec![Vector::ZERO; self.x.len()];
+        for (&p, y) in points.iter().zip(y.as_chunks::<2>().0) {
+            moves[p as usize] = Vector::new(y[0], y[1]) * self.w[p as usize].sqrt();
+        }
+        moves
+    }
+
+    /// The second derivative of each row along a straight motion with unknowns `y`.
+    pub fn curvatures(&self, rows: &Rows, y: &[f64]) -> Vec<f64> {
+        let velocity = self.displacements(&rows.points, y);
+        let at = |p: PointIdx| {
+            let (x, v) = (self.x[p as usize], velocity[p as usize]);
+            Vec2 { x: Jet::new(x.x, v.x, 0.0), y: Jet::new(x.y, v.y, 0.0) }
+        };
+        let mut curvatures = Vec::with_capacity(rows.rows.len());
+        for of_one in rows.rows.chunk_by(|a, b| a.source.0 == b.source.0) {
+            let mut wanted = of_one.iter().peekable();
+            let mut part = 0;
+            let field = |_, value| Jet::new(value, 0.0, 0.0);
+            self.constraints[of_one[0].source.0].equations(&at, &field, &mut |f| {
+                if let Some(row) = wanted.next_if(|row| row.source.1 == part) {
+                    curvatures.push(f.dd * row.scale);
+                }
+                part += 1;
+            });
+        }
+        curvatures
+    }
+}
+
+/// Disjoint sets, each known by its least member.
+pub struct Sets(Vec<u32>);
+
+impl Sets {
+    /// Each of `n` for itself.
+    pub fn new(n: usize) -> Self {
+        Self((0..n as u32).collect())
+    }
+
+    /// The least member of the set of `k`.
+    pub fn find(&mut self, mut k: u32) -> u32 {
+        while self.0[k as usize] != k {
+            self.0[k as usize] = self.0[self.0[k as usize] as usize];
+            k = self.0[k as usize];
+        }
+        k
+    }
+
+    /// Makes one set of those of `a` and `b`.
+    pub fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}

@@ -1,0 +1,320 @@
+//! Which parts the constraints and points of a world are drawn as.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use super::figure::Key;
+use super::groups::Groups;
+use super::parts::{
+    Angle, Arrows, Construction, Cord, Crank, Cross, Dimension, Foot, Form, Gears, Joint, Link,
+    Part, Plate, Rail, Ring, Rod, Sense, Telescope, Ticks, Web,
+};
+use crate::constraint::{
+    Bounds, Constraint, ConstraintKind, Field, Length, Orientation, Point, PointIdx,
+};
+use crate::world::{ConstraintId, Record, World};
+
+/// Triangles of rods are looked for among at most so many rods: a net of a thousand is a net
+/// without a filling too.
+const MOST_RODS: usize = 400;
+
+/// The parts of a world, in order of creation, points last.
+pub fn parts(world: &World) -> Vec<Part> {
+    let mut plan = Plan::new(world);
+    for (_, record) in world.constraints() {
+        plan.bars(record);
+        plan.segments(record);
+    }
+    for (id, record) in world.constraints() {
+        plan.constraint(id, record);
+    }
+    plan.webs();
+    plan.gears();
+    plan.joints();
+    plan.parts
+}
+
+struct Plan<'a> {
+    world: &'a World,
+    at: &'a [Point],
+    parts: Vec<Part>,
+    /// What a bar or an edge connects; a mark there needs no line of its own.
+    connected: BTreeSet<[PointIdx; 2]>,
+    /// Rods that are on, lower end first.
+    rods: BTreeSet<[PointIdx; 2]>,
+    /// Centres of motors that have a disc.
+    driven: BTreeMap<PointIdx, u8>,
+    equal: Marks,
+    parallel: Marks,
+    gears_on: Gears,
+    gears_off: Gears,
+    /// Whose each mesh is, those that are on and those that are off.
+    meshes: [Vec<(ConstraintId, Rc<str>)>; 2],
+}
+
+/// How many strokes mark each of several classes of segments.
+#[derive(Default)]
+struct Marks {
+    number_of: BTreeMap<[PointIdx; 2], usize>,
+    groups: Groups,
+    /// The classes, by their least member, in order of appearance.
+    classes: Vec<usize>,
+}
+
+impl Marks {
+    fn join(&mut self, [a, b, c, d]: [PointIdx; 4]) {
+        let [s, t] = [[a, b], [c, d]].map(|ends| {
+            let n = self.number_of.len();
+            *self.number_of.entry(sorted(ends)).or_insert(n)
+        });
+        self.groups.join(s, t);
+    }
+
+    /// One to three strokes: more cannot be told apart at a glance.
+    fn n_strokes(&mut self, ends: [PointIdx; 2]) -> u8 {
+        let class = self.groups.of(self.number_of[&sorted(ends)]);
+        let idx = self.classes.iter().position(|&c| c == class).unwrap_or_else(|| {
+            self.classes.push(class);
+            self.classes.len() - 1
+        });
+        (idx % 3) as u8 + 1
+    }
+}
+
+fn sorted([a, b]: [PointIdx; 2]) -> [PointIdx; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Whether two directions are asked to be the same or opposite.
+fn is_parallel(orientation: &Orientation) -> bool {
+    let Bounds { lo, .. } = orientation.bounds;
+    orientation.bounds.is_equality() && libm::sin(lo).abs() < 1e-9
+}
+
+/// The points of a constraint that holds this many.
+fn points<const N: usize>(constraint: &Constraint) -> [PointIdx; N] {
+    constraint.points().try_into().expect("a kind with this many points")
+}
+
+impl<'a> Plan<'a> {
+    fn new(world: &'a World) -> Self {
+        Self {
+            world,
+            at: world.points().column(),
+            parts: Vec::new(),
+            connected: BTreeSet::new(),
+            rods: BTreeSet::new(),
+            driven: BTreeMap::new(),
+            equal: Marks::default(),
+            parallel: Marks::default(),
+            gears_on: Gears::default(),
+            gears_off: Gears::default(),
+            meshes: [Vec::new(), Vec::new()],
+        }
+    }
+
+    /// Notes what a constraint connects.
+    fn bars(&mut self, record: &Record) {
+        let mut connect = |a, b| _ = self.connected.insert(sorted([a, b]));
+        match (&record.constraint, record.constraint.points()) {
+            (Constraint::Length(length), &[a, b]) => {
+                connect(a, b);
+                if record.is_on && length.bounds.is_equality() {
+                    self.rods.insert(sorted([a, b]));
+                }
+            }
+            (Constraint::Motor(_), &[a, b])
+            | (Constraint::Glider(_) | Constraint::Hinge(_), &[_, a, b]) => connect(a, b),
+            (
+                Constraint::Cog(_) | Constraint::CogVelocity(_) | Constraint::Rack(_),
+                &[a, b, c, d],
+            ) => {
+                connect(a, b);
+                connect(c, d);
+            }
+            (Constraint::Rigid(_), points) => {
+                for (k, &b) in points.iter().enumerate() {
+                    points[..k].iter().for_each(|&a| connect(a, b));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Notes which segments a constraint makes alike.
+    fn segments(&mut self, record: &Record) {
+        match &record.constraint {
+            Constraint::Equal(equal) => self.equal.join(equal.points),
+            Constraint::Equivalence(equivalence) => self.parallel.join(equivalence.points),
+            Constraint::Orientation(orientation) if is_parallel(orientation) => {
+                self.parallel.join(orientation.points);
+            }
+            _ => {}
+        }
+    }
+
+    fn constraint(&mut self, id: ConstraintId, record: &Record) {
+        match &record.constraint {
+            Constraint::Coordinate(c) => {
+                self.add(id, record, Cross { point: c.points[0], target: c.target });
+            }
+            Constraint::Coincidence(c) => self.add(id, record, Ring { points: c.points }),
+            Constraint::Equivalence(c) => {
+                self.carry(id, record, c.points);
+                self.arrows(id, record, c.points);
+            }
+            Constraint::Equal(c) => {
+                self.carry(id, record, c.points);
+                let [a, b, ..] = c.points;
+                let n_ticks = self.equal.n_strokes([a, b]);
+                self.add(id, record, Ticks { points: c.points, n_ticks });
+            }
+            Constraint::Length(c) => self.length(id, record, c),
+            Constraint::Orientation(c) => {
+                self.carry(id, record, c.points);
+                if is_parallel(c) {
+                    self.arrows(id, record, c.points);
+                } else {
+                    self.add(id, record, Angle { points: c.points });
+                }
+            }
+            Constraint::Motor(c) => {
+                let sense = Sense::of(record.constraint.get(Field::Speed).unwrap_or(0.0));
+                let n_motors = self.driven.entry(c.points[0]).or_default();
+                let rank = *n_motors;
+                *n_motors = n_motors.saturating_add(1);
+                self.add(id, record, Crank { points: c.points, sense, rank });
+            }
+            Constraint::Glider(c) => {
+                let [block, a, b] = c.points;
+                self.add(id, record, Rail { block, ends: [a, b], is_bounded: c.bounded });
+            }
+            Constraint::Hinge(c) => {
+                let [pin, a, b] = c.points;
+                self.add(id, record, Link { pin, ends: [a, b], ratio: c.ratio });
+            }
+            Constraint::Cog(_) | Constraint::CogVelocity(_) | Constraint::Rack(_) => {
+                self.mesh(id, record);
+            }
+            Constraint::Distance(c) => {
+                let [point, a, b] = c.points;
+                self.connection(id, record, [a, b]);
+                self.add(id, record, Dimension { point, line: [a, b] });
+            }
+            Constraint::Rigid(_) => match *record.constraint.points() {
+                [a, b] => self.add(id, record, Rod { points: [a, b] }),
+                ref points => self.add(id, record, Plate::new(points, self.at)),
+            },
+        }
+    }
+
+    fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<Form>) {
+        self.parts.push(Part {
+            key: Key::Constraint(id),
+            name: Rc::from(&*record.name),
+            is_off: !record.is_on,
+            form: form.into(),
+        });
+    }
+
+    /// Gives two segments lines where no bars are, for marks to hang on.
+    fn carry(&mut self, id: ConstraintId, record: &Record, [a, b, c, d]: [PointIdx; 4]) {
+        self.connection(id, record, [a, b]);
+        self.connection(id, record, [c, d]);
+    }
+
+    fn connection(&mut self, id: ConstraintId, record: &Record, ends: [PointIdx; 2]) {
+        if self.connected.insert(sorted(ends)) {
+            self.add(id, record, Construction { points: ends });
+        }
+    }
+
+    fn arrows(&mut self, id: ConstraintId, record: &Record, points: [PointIdx; 4]) {
+        let [a, b, ..] = points;
+        let n_chevrons = self.parallel.n_strokes([a, b]);
+        self.add(id, record, Arrows { points, n_chevrons });
+    }
+
+    fn length(&mut self, id: ConstraintId, record: &Record, length: &Length) {
+        let points = length.points;
+        let Bounds { lo, hi } = length.bounds;
+        let is_driven = record.drivers().iter().any(|(_, formula)| formula.depends().is_live());
+        if length.bounds.is_equality() && !is_driven {
+            self.add(id, record, Rod { points });
+        } else if length.bounds.is_equality() {
+            // The outer stage of an actuator has a length of its own; where it stood when
+            // the clock started is one that every frame agrees on.
+            let [a, b] = points.map(|p| self.world.points().start(crate::world::PointId(p)));
+            self.add(id, record, Telescope { points, outer: 0.55 * a.distance(b) });
+        } else if lo > 0.0 {
+            self.add(id, record, Telescope { points, outer: lo });
+        } else if hi.is_finite() {
+            self.add(id, record, Cord { points, length: hi });
+        }
+    }
+
+    fn mesh(&mut self, id: ConstraintId, record: &Record) {
+        let gears = if record.is_on { &mut self.gears_on } else { &mut self.gears_off };
+        let four = points(&record.constraint);
+        if let Constraint::Rack(_) = record.constraint {
+            let [o, a] = [four[0], four[1]].map(|p| self.at[p as usize]);
+            let radius = record.constraint.get(Field::Radius).unwrap_or_else(|| o.distance(a));
+            gears.add_rack(four, radius.abs());
+        } else {
+            gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
+        }
+        self.meshes[usize::from(!record.is_on)].push((id, Rc::from(&*record.name)));
+    }
+
+    fn gears(&mut self) {
+        let gears = [std::mem::take(&mut self.gears_on), std::mem::take(&mut self.gears_off)];
+        for (k, gears) in gears.into_iter().enumerate() {
+            for (mesh, train) in gears.trains() {
+                let (id, name) = self.meshes[k][mesh].clone();
+                let form = Form::Train(train);
+                self.parts.push(Part { key: Key::Constraint(id), name, is_off: k == 1, form });
+            }
+        }
+    }
+
+    /// Fills the triangles of rods.
+    fn webs(&mut self) {
+        if self.rods.len() > MOST_RODS {
+            return;
+        }
+        let mut neighbours: BTreeMap<PointIdx, Vec<PointIdx>> = BTreeMap::new();
+        for &[a, b] in &self.rods {
+            neighbours.entry(a).or_default().push(b);
+        }
+        for (&a, higher) in &neighbours {
+            for (k, &b) in higher.iter().enumerate() {
+                for &c in &higher[k + 1..] {
+                    if self.rods.contains(&[b, c]) {
+                        let points = [a, b, c];
+                        self.parts.push(Part {
+                            key: Key::Triangle(points),
+                            name: "".into(),
+                            is_off: false,
+                            form: Web { points }.into(),
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    fn joints(&mut self) {
+        let points = self.world.points();
+        for id in points.ids() {
+            let is_driven = self.driven.contains_key(&id.0);
+            let foot = match (points.is_frozen(id), is_driven) {
+                (false, _) => Foot::Free,
+                (true, false) => Foot::Frozen,
+                (true, true) => Foot::FrozenMotor,
+            };
+            let name: Rc<str> = points.name(id).into();
+            let form = Joint { point: id.0, name: name.clone(), foot, is_driven }.into();
+            self.parts.push(Part { key: Key::Point(id), name, is_off: false, form });
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! A path in a moving picture: it lies there lightly and is drawn over as its point moves.
+
+use super::canvas::{Ink, Lettering};
+use super::figure::{Figure, Outline};
+use super::keyframes::{Change, Motion, track};
+use super::number::rounded;
+use super::page::Page;
+use super::style::{Class, colour_number};
+use super::trace::Curve;
+
+/// How far the pen may be from its point, px.
+const TOLERANCE: f64 = 0.3;
+
+/// The figures of a path of which there were `n_samples` in each frame.
+pub fn follow(
+    curve: &Curve,
+    page: &Page,
+    n_samples: &[usize],
+    times: &[f64],
+    duration: f64,
+) -> Vec<(Figure, Option<Motion>)> {
+    let none = Lettering::new();
+    let mut ink = Ink::new(page, &[], &none);
+    let whole = curve.draw(&mut ink).clone();
+    let lengths = lengths(curve, page);
+    let length = lengths.last().copied().unwrap_or(0.0);
+    // A dash pattern begins anew at each stretch: only a path of one lends itself to it.
+    let [shape] = &whole.shapes[..] else {
+        return vec![(whole, None)];
+    };
+    let Outline::Path(path) = &shape.outline else {
+        return vec![(whole, None)];
+    };
+    let left: Vec<f64> =
+        n_samples.iter().map(|&n| length - n.checked_sub(1).map_or(0.0, |k| lengths[k])).collect();
+    let change = Change::Shape(0, "stroke-dashoffset");
+    let write = |row: &[f64]| rounded(row[0], 2);
+    let Some(track) = track(change, times, &left, 1, TOLERANCE, write) else {
+        return vec![(whole, None)];
+    };
+    let (mut faint, mut drawn) = (whole.clone(), whole.clone());
+    faint.shapes[0].class = Class::Faint(colour_number(curve.idx));
+    drawn.shapes[0].outline = Outline::Pen { path: path.clone(), length };
+    drawn.part += 1;
+    vec![(faint, None), (drawn, Some(Motion { duration, tracks: vec![track] }))]
+}
+
+/// How long the path is up to each of its samples, px.
+fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
+    let mut length = 0.0;
+    let mut last = None;
+    let up_to = |at| {
+        let here = page.px(at);
+        length += last.replace(here).map_or(0.0, |before| here.distance(before));
+        length
+    };
+    curve.samples.get().iter().map(|sample| sample.at).map(up_to).collect()
+}

@@ -1,0 +1,164 @@
+//! `accuracy`: what accuracy costs in time on this very scene.
+
+use std::path::{Path, PathBuf};
+
+use super::run::format_rounded;
+use crate::diag::Span;
+use crate::lang::ast::Promise;
+use crate::session::resolve::unbind::NOWHERE;
+use crate::session::{Diagnostic, Flow, Session};
+use crate::study::{
+    Advice, Course, Outside, Row, Study, Wish, csv, format_seconds, json, ladder, picture, study,
+    table,
+};
+
+/// How long a study takes at most, roughly, seconds: longer and nobody would ask.
+const SECONDS: f64 = 30.0;
+/// Frames studied unless the user says how many.
+const MOST_FRAMES: u64 = 720;
+/// Frames from now on where nothing has moved yet.
+const FRAMES: u64 = 360;
+/// A motion that is shorter than this is gone on with.
+const FEW_FRAMES: u64 = 10;
+
+/// How a study is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Telling {
+    /// A table to read.
+    Table,
+    /// A list of objects for a program.
+    Json,
+}
+
+impl Session {
+    pub(crate) fn accuracy(&mut self, promise: &Promise, span: Span) -> Result<Flow, Diagnostic> {
+        let limits = self.promised(promise)?;
+        let study = self.study(None, span)?;
+        if limits.tolerance.is_none() && limits.seconds.is_none() {
+            self.tell_study(&study, Telling::Table, span);
+        } else {
+            let wish = Wish { within: limits.tolerance, in_time: limits.seconds };
+            study.notes.iter().for_each(|text| self.note(text.clone()));
+            self.advise(&study, wish);
+        }
+        Ok(if study.is_stopped { Flow::Stopped } else { Flow::On })
+    }
+
+    /// Studies the motion so far, or of what is to come, over `n_frames` if given; writes
+    /// `accuracy.csv` and `accuracy.svg`.
+    ///
+    /// # Errors
+    /// Where there is nothing to study, or a file cannot be written.
+    pub fn study_accuracy(
+        &mut self,
+        n_frames: Option<u64>,
+        telling: Telling,
+    ) -> Result<Flow, Diagnostic> {
+        let study = self.study(n_frames, NOWHERE)?;
+        self.tell_study(&study, telling, NOWHERE);
+        self.flush_outbox()?;
+        Ok(if study.is_stopped { Flow::Stopped } else { Flow::On })
+    }
+
+    fn study(&mut self, n_frames: Option<u64>, span: Span) -> Result<Study, Diagnostic> {
+        if self.world.constraints().all(|(_, record)| !record.is_on) {
+            return Err(Diagnostic::error("there is nothing to study")
+                .at(span, "the scene has no constraint that is switched on"));
+        }
+        let course = self.course(n_frames);
+        let host = &self.host;
+        let outside = Outside {
+            now: &|| host.seconds(),
+            stop: &|| host.is_interrupted(),
+            progress: &|share| host.progress(share),
+            seconds: SECONDS,
+        };
+        study(&course, &ladder(), &outside)
+    }
+
+    /// The motion to study.
+    fn course(&mut self, n_frames: Option<u64>) -> Course {
+        let course = if let Some(course) = self.last_course() {
+            let goes_on = course.n_frames < FEW_FRAMES && course.is_without_hands();
+            let n = if goes_on { FRAMES } else { course.n_frames };
+            course.with_frames(n)
+        } else {
+            self.note("nothing has moved since the scene last changed: studied is what comes next");
+            let memory = self.solver.memory();
+            Course::ahead(&self.world, memory, self.preferences.solve, FRAMES)
+        };
+        match n_frames {
+            Some(n) => course.with_frames(n),
+            None if course.n_frames > MOST_FRAMES => {
+                self.note(format!(
+                    "studied are the first {MOST_FRAMES} of {} frames",
+                    course.n_frames
+                ));
+                course.with_frames(MOST_FRAMES)
+            }
+            None => course,
+        }
+    }
+
+    fn tell_study(&mut self, study: &Study, telling: Telling, span: Span) {
+        match telling {
+            Telling::Table => table(study).iter().for_each(|line| self.host.print(line)),
+            Telling::Json => json(study).lines().for_each(|line| self.host.print(line)),
+        }
+        let notes = study.notes.iter().cloned().chain(study.cut_notes());
+        notes.for_each(|text| self.note(text));
+        if study.is_stopped {
+            self.note("stopped: this is what was found so far");
+        }
+        self.note(study.summary());
+        let title = self.title(span);
+        let picture = picture(study, &title).into_bytes();
+        let files = [("accuracy.csv", csv(study).into_bytes()), ("accuracy.svg", picture)];
+        for (name, bytes) in files {
+            self.outbox.push((PathBuf::from(name), bytes, span));
+        }
+    }
+
+    /// What a picture of this scene is called: after the script that made it.
+    fn title(&self, span: Span) -> String {
+        let source = if span.source == NOWHERE.source {
+            self.sources.first()
+        } else {
+            self.sources.get(span.source)
+        };
+        let stem = source.and_then(|s| Path::new(&*s.name).file_stem());
+        let name = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        if name.is_empty() || name.starts_with("line ") || name.starts_with('<') {
+            "what accuracy costs in time".to_owned()
+        } else {
+            format!("{name}: what accuracy costs in time")
+        }
+    }
+
+    fn advise(&mut self, study: &Study, wish: Wish) {
+        let describe = |row: &Row| {
+            format!(
+                "{} {}, {} a frame",
+                study.measure.words(),
+                format_rounded(row.error(study.measure)),
+                format_seconds(row.seconds_per_frame)
+            )
+        };
+        match study.advice(wish) {
+            Advice::Use(k) => {
+                let row = &study.rows[k];
+                let [method, setting] = row.rung.statements();
+                self.host.print(&format!("{method:<28}# {}", describe(row)));
+                self.host.print(&setting);
+            }
+            Advice::Nearest(Some(k)) => {
+                let row = &study.rows[k];
+                let [method, setting] = row.rung.statements();
+                self.host.print(&format!("# no setting does that; nearest: {}", describe(row)));
+                self.host.print(&method);
+                self.host.print(&setting);
+            }
+            Advice::Nearest(None) => self.host.print("# no setting could be run to its end"),
+        }
+    }
+}

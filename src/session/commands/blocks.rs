@@ -1,0 +1,218 @@
+//! Blocks: `for`, `define` and `use`, `include` and `load`.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::diag::{Kind, Span};
+use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
+use crate::session::dispatch::format_count;
+use crate::session::quotas::{DEEPEST_NESTING, MOST_STATEMENTS};
+use crate::session::resolve::scope::{Bound, Meaning, Scope};
+use crate::session::undo::journal::Change;
+use crate::session::{Diagnostic, Flow, Session};
+use crate::world::{Entity, Shape};
+
+impl Session {
+    /// Goes one level deeper for as long as `inside` runs.
+    fn nested<T>(
+        &mut self,
+        span: Span,
+        inside: impl FnOnce(&mut Self) -> Result<T, Diagnostic>,
+    ) -> Result<T, Diagnostic> {
+        if self.depth >= DEEPEST_NESTING {
+            return Err(Diagnostic::error("nested too deeply")
+                .at(span, format!("{DEEPEST_NESTING} levels of `for`, `use` and `include`"))
+                .help("does a definition use itself, or a file include itself?"));
+        }
+        self.depth += 1;
+        let result = inside(self);
+        self.depth -= 1;
+        // Reached through this statement, whatever went wrong in there.
+        result.map_err(|problem| match problem.via.last() {
+            // Recursion shows each of its places once.
+            Some(last) if *last == span => problem,
+            _ => problem.reached_from(span),
+        })
+    }
+
+    fn perform_all(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
+        for statement in body {
+            let flow = self.dispatch(statement)?;
+            if flow != Flow::On {
+                return Ok(flow);
+            }
+        }
+        Ok(Flow::On)
+    }
+
+    pub(crate) fn repeat(
+        &mut self,
+        variable: &Ident,
+        range: &Range,
+        body: &Arc<[Statement]>,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let whole = |session: &mut Self, expr: &Expr| -> Result<f64, Diagnostic> {
+            let value = session.number(expr)?;
+            if value.fract() == 0.0 {
+                return Ok(value);
+            }
+            Err(Diagnostic::error("expected a whole number")
+                .at(expr.span, format!("this is {}", crate::diag::format_number(value))))
+        };
+        let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
+        // Loops within loops multiply; one that is long in every round is found in the first.
+        let n_rounds = (to - from + 1.0).max(1.0);
+        let n_outer = self.n_rounds;
+        if n_rounds * n_outer > 2.0 * MOST_STATEMENTS as f64 || n_rounds > MOST_STATEMENTS as f64 {
+            let mut text = format!("{} rounds", format_count(n_rounds));
+            if n_outer > 1.0 {
+                let _ = write!(text, " in each of {}", format_count(n_outer));
+            }
+            return Err(Diagnostic::error("this loop has too many rounds").at(
+                range.from.span.to(range.to.span),
+                format!("{text}, no more than 20 million statements a command"),
+            ));
+        }
+        self.n_rounds = n_rounds * n_outer;
+        let result = self.nested(span, |session| {
+            let scope = session.scopes.last_mut().expect("the outermost scope is never left");
+            let slot = scope.bindings.len();
+            scope.bindings.push((variable.text.clone(), Bound::Number(from)));
+            let mut flow = Flow::On;
+            let mut value = from;
+            while value <= to && flow == Flow::On {
+                let scope = session.scopes.last_mut().expect("the outermost scope is never left");
+                scope.bindings[slot].1 = Bound::Number(value);
+                flow = session.perform_all(body)?;
+                value += 1.0;
+            }
+            let scope = session.scopes.last_mut().expect("the outermost scope is never left");
+            scope.bindings.truncate(slot);
+            Ok(flow)
+        });
+        self.n_rounds = n_outer;
+        result
+    }
+
+    pub(crate) fn define(&mut self, definition: &Arc<Definition>) {
+        let name = definition.name.text.clone();
+        self.change(Change::Definition(Box::new((name, Some(definition.clone())))));
+    }
+
+    pub(crate) fn use_definition(
+        &mut self,
+        word: &Ident,
+        arguments: &[Expr],
+        instance: Option<&Name>,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let Some(definition) = self.definitions.get(&word.text).cloned() else {
+            let problem = Diagnostic::error(format!("unknown definition `{}`", word.text))
+                .at(word.span, "nothing is defined under this name");
+            return Err(Self::suggest(problem, &word.text, self.definitions.keys().map(|n| &**n)));
+        };
+        let wanted = definition.parameters.len();
+        if wanted != arguments.len() {
+            let names: Vec<&str> = definition.parameters.iter().map(|p| &*p.text).collect();
+            let plural = if wanted == 1 { "argument" } else { "arguments" };
+            let given = arguments.len();
+            let message = format!("`{}` takes {wanted} {plural}, not {given}", word.text);
+            return Err(Diagnostic::error(message)
+                .at(span, format!("expected `{}({})`", word.text, names.join(", ")))
+                .also(definition.name.span, "defined here"));
+        }
+        let mut bindings = Vec::with_capacity(wanted);
+        for (parameter, argument) in definition.parameters.iter().zip(arguments) {
+            bindings.push((parameter.text.clone(), self.argument(argument)?));
+        }
+        let name = match instance {
+            Some(name) => self.declare(name)?.to_string(),
+            None => self.numbered(&word.text),
+        };
+        self.nested(span, |session| {
+            session.scopes.push(Scope { prefix: format!("{name}."), bindings });
+            let flow = session.perform_all(&definition.body)?;
+            session.scopes.pop();
+            Ok(flow)
+        })
+    }
+
+    /// What an argument stands for: a point itself, or a number that stays live.
+    fn argument(&mut self, argument: &Expr) -> Result<Bound, Diagnostic> {
+        if let Some(name) = argument.as_name()
+            && let (Meaning::Entity(Entity::Point(id)) | Meaning::Bound(Bound::Point(id)), None) =
+                self.meaning(name)?
+        {
+            return Ok(Bound::Point(id));
+        }
+        match self.live(argument)? {
+            crate::session::resolve::bind::Term::Constant(crate::world::Value::Number(n)) => {
+                Ok(Bound::Number(n))
+            }
+            crate::session::resolve::bind::Term::Live(formula)
+                if formula.shape() == Shape::Number =>
+            {
+                Ok(Bound::Formula(formula))
+            }
+            _ => Err(Diagnostic::error("expected a point or a number")
+                .at(argument.span, "this is a vector")
+                .help("make it a point first: `point P = ... frozen`")),
+        }
+    }
+
+    pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
+        let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
+        let file = folder.join(Path::new(&*path.value));
+        if self.included.contains(&file) {
+            return Err(Diagnostic::error(format!("`{}` includes itself", path.value))
+                .at(path.span, "this file is being included already"));
+        }
+        let text = self.read(&file, path)?;
+        self.included.push(file.clone());
+        let result = self.perform_text(&file, &text, span);
+        self.included.pop();
+        result
+    }
+
+    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
+        self.host.read(file).map_err(|e| {
+            Diagnostic::error(format!("cannot read `{}`", path.value))
+                .kind(Kind::Unreadable)
+                .at(path.span, crate::session::reason(&e))
+        })
+    }
+
+    /// Carries out the statements of a file as part of the command under way.
+    fn perform_text(&mut self, file: &Path, text: &str, span: Span) -> Result<Flow, Diagnostic> {
+        let folder = file.parent().map(Path::to_path_buf);
+        let source = self.add_source(&file.to_string_lossy(), text, folder);
+        self.nested(span, |session| {
+            for statement in crate::lang::parse(source, text) {
+                let flow = session.dispatch(&statement?)?;
+                if flow != Flow::On {
+                    return Ok(flow);
+                }
+            }
+            Ok(Flow::On)
+        })
+    }
+
+    /// Replaces the world by what a file makes. The file is looked for where `save` puts one,
+    /// then beside the text that loads it.
+    pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
+        self.must_stand_alone("load", span)?;
+        let saved: PathBuf = self.host.written(Path::new(&*path.value));
+        let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
+        let beside = folder.join(Path::new(&*path.value));
+        let (file, text) = if let Ok(text) = self.host.read(&saved) {
+            (saved, text)
+        } else {
+            let text = self.read(&beside, path)?;
+            (beside, text)
+        };
+        self.clear();
+        self.perform_text(&file, &text, span)
+    }
+}

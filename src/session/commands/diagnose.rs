@@ -1,0 +1,382 @@
+//! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
+
+use super::run::{format_digits, format_rounded};
+use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind, Period};
+use crate::lang::ast::{ChangePart, Command, Name};
+use crate::mobility::{
+    Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
+};
+use crate::session::resolve::unbind::text_of;
+use crate::session::settled::{Settled, listed, listed_first};
+use crate::session::{Diagnostic, Session};
+use crate::solve::Status;
+use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId};
+
+/// More redundant constraints than this are counted.
+const MOST_REDUNDANT: usize = 30;
+
+/// What `check` finds, with names.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// In how many independent ways the points can begin to move, motors held.
+    pub degrees_of_freedom: usize,
+    /// Constraints that others imply, each with those that imply it.
+    pub redundant: Vec<(String, Vec<String>)>,
+    /// Sets of constraints that cannot all hold, each with its residual, length units.
+    pub conflicting: Vec<(Vec<String>, f64)>,
+    /// Constraints of frozen points only that do not hold.
+    pub unsatisfiable: Vec<Unsatisfiable>,
+    /// What the pose is.
+    pub pose: Pose,
+    /// How solving this pose ended.
+    pub status: Status,
+    /// The largest residual, relative to the scene's size.
+    pub residual: f64,
+    /// The smallest singular value over the largest, where it says that small errors grow.
+    pub near_singular: Option<f64>,
+}
+
+/// A constraint of frozen points only that does not hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unsatisfiable {
+    /// Its name.
+    pub constraint: String,
+    /// Its points.
+    pub frozen: Vec<String>,
+    /// By how much it is missed, in its own unit.
+    pub miss: String,
+}
+
+impl Check {
+    /// Whether every constraint can hold.
+    pub fn is_sound(&self) -> bool {
+        self.conflicting.is_empty() && self.unsatisfiable.is_empty()
+    }
+
+    /// The word for the pose.
+    pub const fn pose_word(&self) -> &'static str {
+        match self.pose {
+            Pose::Regular => "regular",
+            Pose::MobileSingular => "mobile-singular",
+            Pose::ChangePoint => "change-point",
+            Pose::Locked => "locked",
+        }
+    }
+
+    /// The findings as lines of text.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("degrees of freedom: {}", self.degrees_of_freedom)];
+        for (name, depends_on) in self.redundant.iter().take(MOST_REDUNDANT) {
+            lines.push(match &depends_on[..] {
+                [] => format!("redundant: {name}"),
+                others => format!("redundant: {name}, implied by {}", others.join(", ")),
+            });
+        }
+        if let Some(n) = self.redundant.len().checked_sub(MOST_REDUNDANT).filter(|n| *n > 0) {
+            lines.push(format!("redundant: {n} more, `why` tells of each"));
+        }
+        for (names, residual) in &self.conflicting {
+            let residual = format_rounded(*residual);
+            lines.push(format!("conflicting: {}, off by {residual}", names.join(", ")));
+        }
+        for Unsatisfiable { constraint, frozen, miss } in &self.unsatisfiable {
+            let frozen = listed(frozen, "and");
+            lines.push(format!("unsatisfiable: {constraint}, off by {miss}: {frozen} are frozen"));
+        }
+        lines.push(match (self.pose, self.near_singular) {
+            (Pose::Regular, None) => "pose: regular".to_owned(),
+            (Pose::Regular, Some(ratio)) => {
+                let growth = format_rounded(1.0 / ratio);
+                format!("pose: nearly singular, small errors grow {growth}-fold")
+            }
+            (Pose::MobileSingular, _) => "pose: singular, and truly mobile".to_owned(),
+            (Pose::ChangePoint, _) => "pose: a change point, where motions cross".to_owned(),
+            (Pose::Locked, _) => "pose: locked, mobile at the first instant only".to_owned(),
+        });
+        let status = self.status.phrase();
+        lines.push(format!("status: {status}, residual {}", format_rounded(self.residual)));
+        lines
+    }
+}
+
+impl Session {
+    /// What there is to know about the mechanism at rest at the present time.
+    pub fn examine(&self) -> Check {
+        let subject = self.settled();
+        let found = subject.with(|scene| analyse(scene, subject.slack));
+        let Analysis { degrees_of_freedom, redundant, conflicts, unsatisfiable, .. } = &found;
+        let near_singular = found
+            .singular_values
+            .filter(|_| found.is_nearly_singular())
+            .map(|(least, most)| least / most);
+        Check {
+            degrees_of_freedom: *degrees_of_freedom,
+            redundant: redundant
+                .iter()
+                .map(|r| (subject.name(r.constraint), subject.names(&r.depends_on)))
+                .collect(),
+            conflicting: conflicts
+                .iter()
+                .map(|c| (subject.names(&c.constraints), c.residual))
+                .collect(),
+            unsatisfiable: unsatisfiable
+                .iter()
+                .map(|&k| Unsatisfiable {
+                    constraint: subject.name(k),
+                    frozen: self.points_of(&subject, k),
+                    miss: subject.miss(k),
+                })
+                .collect(),
+            pose: found.pose,
+            status: subject.report.status,
+            residual: subject.report.residual,
+            near_singular,
+        }
+    }
+
+    /// The names of a constraint's points, each once.
+    fn points_of(&self, subject: &Settled, place: usize) -> Vec<String> {
+        let mut points = subject.parts.constraints[place].points().to_vec();
+        points.sort_unstable();
+        points.dedup();
+        points.iter().map(|&p| self.world.points().name(PointId(p)).to_owned()).collect()
+    }
+
+    pub(crate) fn check(&mut self) {
+        for line in self.examine().lines() {
+            self.host.print(&line);
+        }
+    }
+
+    pub(crate) fn why(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        let lines = match self.entity(name)? {
+            Entity::Constraint(id) => self.why_constraint(id),
+            Entity::Point(id) => self.why_point(id),
+            Entity::Parameter(id) => {
+                let text = self.parameter_text(id);
+                return Err(Diagnostic::error("`why` asks about a constraint or a point")
+                    .at(name.span, format!("this is a parameter: `{text}`")));
+            }
+        };
+        lines.iter().for_each(|line| self.host.print(line));
+        Ok(())
+    }
+
+    fn why_constraint(&self, id: ConstraintId) -> Vec<String> {
+        let name = self.world.name_of(Entity::Constraint(id));
+        if self.world.constraint(id).is_some_and(|record| !record.is_on) {
+            return vec![format!("{name} is switched off")];
+        }
+        let subject = self.settled();
+        let slack = subject.slack;
+        let place = subject.parts.place(id).expect("it is on");
+        let violation = subject.violation(place);
+        let off = format!("{name} is off by {}", subject.miss(place));
+        let found = subject.with(|scene| analyse(scene, slack));
+        if found.unsatisfiable.contains(&place) {
+            let points = self.points_of(&subject, place);
+            let mut ways = self.repairs_of_frozen(&subject, place);
+            ways.push(format!("thaw {}", listed(&points, "or")));
+            ways.push(format!("drop {name}"));
+            return vec![
+                format!("{off}: all its points are frozen"),
+                format!("{}, or {}", ways[..ways.len() - 1].join(", "), ways[ways.len() - 1]),
+            ];
+        }
+        if violation <= slack {
+            let mut lines = vec![format!("{name} is satisfied")];
+            for r in found.redundant.iter().filter(|r| r.constraint == place) {
+                let others = listed(&subject.names(&r.depends_on), "and");
+                let verb = if r.depends_on.len() == 1 { "implies" } else { "imply" };
+                lines.push(format!("it is redundant: {others} {verb} it"));
+            }
+            return lines;
+        }
+        match subject.with(|scene| conflict_with(scene, place, slack)) {
+            Some(conflict) => {
+                let others = subject.names(&conflict.constraints);
+                let others: Vec<_> = others.into_iter().filter(|other| other != name).collect();
+                let why = match &others[..] {
+                    [] => "it cannot hold at all".to_owned(),
+                    others => format!("it cannot hold together with {}", listed(others, "and")),
+                };
+                let mut lines = vec![format!("{off}: {why}")];
+                lines.extend(self.ways_out(&subject, &conflict));
+                lines
+            }
+            None if subject.report.status == Status::Stalled => {
+                vec![off, "the pose is not at rest: `solve` goes on".to_owned()]
+            }
+            None => vec![off, "nothing contradicts it: another start may reach it".to_owned()],
+        }
+    }
+
+    /// What would settle a conflict, in one line, and the same as commands.
+    fn ways_out(&self, subject: &Settled, conflict: &Conflict) -> Vec<String> {
+        let mut repairs: Vec<Mend> = conflict
+            .repairs
+            .iter()
+            .filter_map(|repair| self.mend(subject, conflict, repair.constraint))
+            .collect();
+        repairs.sort_by(|a, b| a.effort.total_cmp(&b.effort));
+        repairs.truncate(MOST_REPAIRS);
+        let mut ways: Vec<String> = repairs.iter().map(|mend| mend.text.clone()).collect();
+        let names = subject.names(&conflict.constraints);
+        ways.push(format!("drop {}", listed(&names, "or")));
+        let mut lines = vec![listed_ways(&ways)];
+        lines.extend(repairs.into_iter().map(|mend| format!("    {}", mend.command)));
+        lines
+    }
+
+    /// The change of one constraint that settles a conflict, if there is one that was seen to.
+    fn mend(&self, subject: &Settled, conflict: &Conflict, place: usize) -> Option<Mend> {
+        let field = changeable(&subject.parts.constraints[place])?;
+        let island = subject.with(|scene| scene.neighbours(place));
+        // All that hangs together with it is to hold; if other conflicts are in there, at
+        // least those of this one are.
+        [&island[..], &conflict.constraints[..]].into_iter().find_map(|among| {
+            let change = subject.with(|scene| repair(scene, place, among, 1e-3 * subject.slack))?;
+            let mend = self.mend_by(subject, place, field(change), change)?;
+            // A change that was not seen to work is none.
+            let mut world = subject.world.clone();
+            world.apply(Edit::Constraint(
+                subject.parts.ids[place],
+                Some(Box::new(mend.record.clone())),
+            ));
+            let after = self.settled_of(world);
+            let holds = |&k: &usize| after.violation(k) <= after.slack;
+            conflict.constraints.iter().all(holds).then_some(mend)
+        })
+    }
+
+    /// A constraint with some bounds moved by `change`.
+    fn mend_by(
+        &self,
+        subject: &Settled,
+        place: usize,
+        fields: &[Field],
+        change: f64,
+    ) -> Option<Mend> {
+        let name = subject.name(place);
+        let mut record = subject.world.constraint(subject.parts.ids[place])?.clone();
+        record.replace_drivers(fields, Drivers::new());
+        for &field in fields {
+            let value = record.constraint.get(field)?;
+            record.constraint.set(field, value + change);
+        }
+        let amount = |value: f64| format_digits(value.abs(), 5);
+        let is_more = change > 0.0;
+        let kind = record.constraint.kind();
+        let text = match kind {
+            Kind::Length => {
+                let verb = if is_more { "lengthen" } else { "shorten" };
+                format!("{verb} {name} by {}", amount(change))
+            }
+            Kind::Orientation => {
+                let side = if is_more { "counter-clockwise" } else { "clockwise" };
+                format!("turn {name} {side} by {} deg", amount(change.to_degrees()))
+            }
+            _ => {
+                let verb = if is_more { "increase" } else { "decrease" };
+                format!("{verb} {name} by {}", amount(change))
+            }
+        };
+        let is_angle = kind == Kind::Orientation;
+        let bounds =
+            Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
+        let parts = vec![ChangePart::Relation(self.relation(&record, bounds, is_angle))];
+        let command = text_of(&Command::Change {
+            name: crate::session::resolve::unbind::named(&name),
+            parts,
+        });
+        // A radian counts as the length of what hangs together.
+        let effort = if is_angle { change.abs() * subject.size() } else { change.abs() };
+        Some(Mend { text, command, record, effort })
+    }
+
+    /// The change that makes a constraint between frozen points hold.
+    fn repairs_of_frozen(&self, subject: &Settled, place: usize) -> Vec<String> {
+        let constraint = &subject.parts.constraints[place];
+        let change = constraint.residual(subject.world.points().column());
+        let fields = changeable(constraint).map(|field| field(change));
+        let mend = fields.and_then(|fields| self.mend_by(subject, place, fields, change));
+        mend.into_iter().map(|mend| mend.text).collect()
+    }
+
+    fn why_point(&self, id: PointId) -> Vec<String> {
+        let name = self.world.points().name(id);
+        if self.world.points().is_frozen(id) {
+            return vec![format!("{name} is frozen")];
+        }
+        let subject = self.settled();
+        let found = subject.with(|scene| freedom(scene, id.0));
+        let held = subject.names(&found.held_by);
+        let verb =
+            |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
+        let held_by = listed_first(&held);
+        vec![match found.directions {
+            Directions::All => format!("{name} can move in every direction"),
+            Directions::None if held.is_empty() => format!("{name} cannot move"),
+            Directions::None => {
+                format!("{name} cannot move: {held_by} {} it", verb("holds", "hold"))
+            }
+            Directions::Along(v) => {
+                // Both senses are meant: the angle of the one that points to the right.
+                let angle = v.angle().to_degrees();
+                let angle = if angle <= -90.0 {
+                    angle + 180.0
+                } else if angle > 90.0 {
+                    angle - 180.0
+                } else {
+                    angle
+                };
+                let angle = format_digits(if angle.abs() < 1e-9 { 0.0 } else { angle }, 5);
+                let stops = verb("stops", "stop");
+                format!(
+                    "{name} can move along {angle} deg and back only: {held_by} {stops} it across"
+                )
+            }
+        }]
+    }
+}
+
+/// More ways out of a conflict than this are not listed.
+const MOST_REPAIRS: usize = 3;
+
+/// A change of one constraint.
+struct Mend {
+    text: String,
+    command: String,
+    record: crate::world::Record,
+    /// How much of a change it is, length units.
+    effort: f64,
+}
+
+/// Which values of a constraint a user can change to make up for a residual; none for what has
+/// no value.
+fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field]> {
+    let bounds = match constraint {
+        Constraint::Length(c) => c.bounds,
+        Constraint::Distance(c) => c.bounds,
+        Constraint::Equal(c) => c.bounds,
+        Constraint::Orientation(c) if c.period == Period::Whole => c.bounds,
+        _ => return None,
+    };
+    Some(move |change: f64| -> &'static [Field] {
+        if bounds.is_equality() {
+            &[Field::Lo, Field::Hi]
+        } else if change > 0.0 {
+            &[Field::Hi]
+        } else {
+            &[Field::Lo]
+        }
+    })
+}
+
+/// Ways as one line: commas between them, `or` before the last.
+fn listed_ways(ways: &[String]) -> String {
+    match ways {
+        [first @ .., last] if !first.is_empty() => format!("{}, or {last}", first.join(", ")),
+        _ => ways.join(""),
+    }
+}

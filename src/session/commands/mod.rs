@@ -1,0 +1,19 @@
+//! What each command does, a file for each family.
+
+pub mod accuracy;
+pub mod blocks;
+pub mod change;
+pub mod constrain;
+pub mod dead_point;
+pub mod delete;
+pub mod diagnose;
+pub mod effects;
+pub mod motor_range;
+pub mod plot;
+pub mod points;
+pub mod restore;
+pub mod run;
+pub mod save;
+pub mod settings;
+pub mod show;
+pub mod trace_record;

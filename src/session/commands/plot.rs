@@ -1,0 +1,78 @@
+//! Series of values: `sample` and `plot`.
+
+use std::sync::Arc;
+
+use crate::lang::ast::{Expr, PlotPart, Text};
+use crate::render::chart::{Axis, Chart, Mark, Series, Unit};
+use crate::session::undo::journal::Change;
+use crate::session::{Diagnostic, Session};
+
+/// The series by name, in order of their first values.
+pub type SeriesList = Vec<(Arc<str>, Vec<f64>)>;
+
+impl Session {
+    pub(crate) fn sample(&mut self, series: &Text, values: &[Expr]) -> Result<(), Diagnostic> {
+        for value in values {
+            let value = self.number(value)?;
+            self.change(Change::Sample(Box::new((series.value.clone(), Some(value)))));
+        }
+        Ok(())
+    }
+
+    /// Appends a value to a series, or takes its last one away; gives what takes that back.
+    pub(crate) fn swap_sample(&mut self, name: Arc<str>, value: Option<f64>) -> Change {
+        let at = self.series.iter().position(|(known, _)| *known == name);
+        let Some(value) = value else {
+            let at = at.expect("a value was appended to it before");
+            let old = self.series[at].1.pop();
+            if self.series[at].1.is_empty() {
+                self.series.remove(at);
+            }
+            return Change::Sample(Box::new((name, old)));
+        };
+        match at {
+            Some(at) => self.series[at].1.push(value),
+            None => self.series.push((name.clone(), vec![value])),
+        }
+        Change::Sample(Box::new((name, None)))
+    }
+
+    pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
+        let file = self.output_path(path)?;
+        if !path.value.to_ascii_lowercase().ends_with(".svg") {
+            return Err(Diagnostic::error("`plot` writes an SVG picture")
+                .at(path.span, "expected a name that ends in `.svg`"));
+        }
+        if self.series.is_empty() {
+            return Err(Diagnostic::error("there is nothing to plot")
+                .at(path.span, "no series has a value")
+                .help(r#"`sample "error" = distance(A, B)` appends one"#));
+        }
+        let mut chart = Chart {
+            x: axis("sample", false),
+            y: axis("", parts.contains(&PlotPart::Log)),
+            ..Chart::default()
+        };
+        for part in parts {
+            match part {
+                PlotPart::Log => {}
+                PlotPart::Title(text) => chart.title = text.value.to_string(),
+                PlotPart::X(text) => chart.x.label = text.value.to_string(),
+                PlotPart::Y(text) => chart.y.label = text.value.to_string(),
+            }
+        }
+        let mark = |(k, &y): (usize, &f64)| Mark { x: k as f64, y, label: None, is_notable: false };
+        let line = |(look, (name, values)): (usize, &(Arc<str>, Vec<f64>))| Series {
+            name: name.to_string(),
+            look,
+            marks: values.iter().enumerate().map(mark).collect(),
+        };
+        chart.series = self.series.iter().enumerate().map(line).collect();
+        self.outbox.push((file, chart.svg().into_bytes(), path.span));
+        Ok(())
+    }
+}
+
+fn axis(label: &str, is_log: bool) -> Axis {
+    Axis { label: label.to_owned(), is_log, unit: Unit::None }
+}

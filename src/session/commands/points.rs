@@ -1,0 +1,166 @@
+//! Points and parameters: making, moving, freezing.
+
+use crate::constraint::ConstraintKind as _;
+use crate::diag::nearest;
+use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
+use crate::session::{Diagnostic, Session};
+use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
+
+/// Names that have a meaning of their own in every expression.
+pub(crate) const RESERVED: [&str; 3] = ["pi", "tau", "time"];
+
+/// The word for every point.
+pub(crate) const ALL: &str = "all";
+
+impl Session {
+    pub(crate) fn make_points(&mut self, declarations: &[PointDecl]) -> Result<(), Diagnostic> {
+        for PointDecl { name, at, frozen } in declarations {
+            debug_assert!(!RESERVED.contains(&&*name.head.text), "the parser refuses these");
+            let at = self.place(at)?;
+            let name = self.declare(name)?;
+            let record = PointRecord { name, at, start: at, is_frozen: *frozen, weight: 1.0 };
+            let id = self.world.next_point();
+            self.edit(Edit::Point(id, Some(Box::new(record))));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn let_parameters(&mut self, bindings: &[Binding]) -> Result<(), Diagnostic> {
+        bindings.iter().try_for_each(|binding| self.let_parameter(&binding.name, &binding.value))
+    }
+
+    fn let_parameter(&mut self, name: &Name, value: &Expr) -> Result<(), Diagnostic> {
+        let text = self.declared(name)?;
+        let mut formula = self.live(value)?.into_formula(value.span);
+        if let Some(given) = self.overrides.get_mut(&text) {
+            given.is_used = true;
+            formula = Formula::constant(given.value);
+        }
+        if let Some(Entity::Parameter(id)) = self.world.names().get(&text) {
+            return self.redefine(id, formula, value);
+        }
+        let text = self.declare(name)?;
+        let id = self.world.next_parameter();
+        self.set_parameter(id, text, formula)
+    }
+
+    /// Gives a parameter that exists another expression.
+    pub(crate) fn redefine(
+        &mut self,
+        id: ParameterId,
+        formula: Formula,
+        value: &Expr,
+    ) -> Result<(), Diagnostic> {
+        let old = self.world.parameter(id).expect("a named parameter lives");
+        let text = old.name.clone();
+        if let Some(path) = self.world.cycle(id, &formula) {
+            let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
+                .at(value.span, format!("this leads back to `{text}`"));
+            let path = path.into_iter().map(|id| self.world.name_of(Entity::Parameter(id)));
+            let path: Vec<String> = path.map(|name| format!("`{name}`")).collect();
+            return Err(if path.len() == 1 {
+                problem.help("an expression stays live; to count on, give the number itself")
+            } else {
+                problem.note(format!("`{text}` from {}", path.join(", that from ")))
+            });
+        }
+        let (was, is) = (old.formula.shape(), formula.shape());
+        if was != is && !self.world.users(&[Entity::Parameter(id)]).is_empty() {
+            return Err(Diagnostic::error(format!("`{text}` is a {} and used as one", was.noun()))
+                .at(value.span, format!("this is a {}", is.noun())));
+        }
+        self.set_parameter(id, text, formula)
+    }
+
+    fn set_parameter(
+        &mut self,
+        id: ParameterId,
+        name: Word,
+        formula: Formula,
+    ) -> Result<(), Diagnostic> {
+        let mut undo = Vec::new();
+        let result = self.world.set_parameter(id, name, formula, &mut undo);
+        undo.into_iter().for_each(|inverse| self.keep(inverse));
+        result
+    }
+
+    /// The points of a selection.
+    pub(crate) fn selected(&mut self, selection: &Selection) -> Result<Vec<PointId>, Diagnostic> {
+        match selection {
+            Selection::All => Ok(self.world.points().ids().collect()),
+            Selection::Names(names) => {
+                let mut points = Vec::new();
+                for name in names {
+                    let point = self.point(name);
+                    points.push(point.map_err(|problem| self.or_word(problem, name, ALL))?);
+                }
+                Ok(points)
+            }
+        }
+    }
+
+    pub(crate) fn freeze(&mut self, selection: &Selection, freeze: bool) -> Result<(), Diagnostic> {
+        for id in self.selected(selection)? {
+            if self.world.points().is_frozen(id) != freeze {
+                self.edit(Edit::Freeze(id, freeze));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn move_point(&mut self, point: &Name, to: &Expr) -> Result<(), Diagnostic> {
+        let id = self.point(point)?;
+        let at = self.place(to)?;
+        self.edit(Edit::Move(id, at));
+        Ok(())
+    }
+
+    /// Switches constraints, or all those of an instance.
+    pub(crate) fn switch(&mut self, names: &[Name], on: bool) -> Result<(), Diagnostic> {
+        for name in names {
+            let ids = match self.instance(name)? {
+                Some(instance) => {
+                    let members = self.world.names().members(&instance);
+                    let constraints = members.filter_map(|member| match member {
+                        Entity::Constraint(id) => Some(id),
+                        _ => None,
+                    });
+                    constraints.collect()
+                }
+                None => vec![self.constraint(name)?],
+            };
+            for id in ids {
+                self.switch_one(id, on);
+            }
+        }
+        Ok(())
+    }
+
+    fn switch_one(&mut self, id: crate::world::ConstraintId, on: bool) {
+        let record = self.world.constraint(id).expect("a named constraint lives");
+        if record.is_on == on {
+            return;
+        }
+        if on {
+            // A motor goes on from where its point is now.
+            let mut record = record.clone();
+            record.constraint.pick_up(self.world.points().column());
+            record.is_on = true;
+            self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        } else {
+            self.edit(Edit::Switch(id, false));
+        }
+    }
+
+    /// The word nearest to one that was not understood, as help.
+    pub(crate) fn suggest<'a>(
+        problem: Diagnostic,
+        word: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Diagnostic {
+        match nearest(word, known) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None => problem,
+        }
+    }
+}

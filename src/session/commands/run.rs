@@ -1,0 +1,342 @@
+//! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
+
+use super::dead_point::{Next, WayBack};
+use crate::diag::{Kind, Span, format_number};
+use crate::lang::ast::{DragTarget, Expr, Promise};
+use crate::session::dispatch::format_count;
+use crate::session::report::Summary;
+use crate::session::{Diagnostic, Flow, Session};
+use crate::solve::{Budget, Report, Status};
+use crate::study::Hand;
+use crate::world::{Edit, PointId};
+
+/// A promise, evaluated.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Limits {
+    /// The tolerance that each frame is to reach.
+    pub tolerance: Option<f64>,
+    /// The wall time that no frame is to exceed.
+    pub seconds: Option<f64>,
+}
+
+/// What a user who wants to stop does to a frame on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stop {
+    /// Ends one that may take long.
+    Allowed,
+    /// Nothing.
+    Ignored,
+}
+
+/// Iterations of `relax` between two looks at whether the user wants to stop.
+const RELAX_CHUNK: u64 = 256;
+/// With more iterations than that a frame may take so long that its user wants to stop it.
+const LONG: u32 = 10_000;
+
+impl Session {
+    pub(crate) fn promised(&mut self, promise: &Promise) -> Result<Limits, Diagnostic> {
+        let mut positive = |expr: &Option<Expr>| -> Result<Option<f64>, Diagnostic> {
+            let Some(expr) = expr else { return Ok(None) };
+            let value = self.number(expr)?;
+            if value > 0.0 {
+                return Ok(Some(value));
+            }
+            Err(Diagnostic::error("expected a number above 0")
+                .at(expr.span, format!("this is {}", format_number(value))))
+        };
+        Ok(Limits { tolerance: positive(&promise.within)?, seconds: positive(&promise.in_time)? })
+    }
+
+    pub(crate) fn step(
+        &mut self,
+        frames: Option<&Expr>,
+        promise: &Promise,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let n = match frames {
+            None => 1,
+            Some(n) => self.count(n, 0.0, crate::session::quotas::MOST_FRAMES, "frames")?,
+        };
+        let limits = self.promised(promise)?;
+        self.begin_leg(n);
+        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
+        self.end_leg(n, n_done, Vec::new());
+        Ok(flow)
+    }
+
+    pub(crate) fn run(
+        &mut self,
+        time: &Expr,
+        promise: &Promise,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let value = self.number(time)?;
+        let n = (value / self.world.clock().dt).round();
+        if !(0.0..=crate::session::quotas::MOST_FRAMES).contains(&n) {
+            let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
+            return Err(
+                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
+            );
+        }
+        let (n, limits) = (n as u64, self.promised(promise)?);
+        self.begin_leg(n);
+        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
+        self.end_leg(n, n_done, Vec::new());
+        Ok(flow)
+    }
+
+    pub(crate) fn drag(
+        &mut self,
+        targets: &[DragTarget],
+        over: Option<&Expr>,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let n = match over {
+            None => 1,
+            Some(n) => self.count(n, 1.0, crate::session::quotas::MOST_FRAMES, "frames")?,
+        };
+        let mut hands: Vec<Hand> = Vec::new();
+        for target in targets {
+            let id = self.point(&target.point)?;
+            if hands.iter().any(|hand| hand.point == id) {
+                return Err(Diagnostic::error("one point cannot be dragged to two places")
+                    .at(target.point.span, "dragged twice"));
+            }
+            let (from, to) = (self.world.points().at(id), self.place(&target.to)?);
+            hands.push(Hand { point: id, from, way: to - from });
+        }
+        // A free point is held by the hand that drags it, and let go after.
+        let free: Vec<PointId> = hands
+            .iter()
+            .map(|h| h.point)
+            .filter(|&id| !self.world.points().is_frozen(id))
+            .collect();
+        self.begin_leg(n);
+        self.begin_motion();
+        for &id in &free {
+            self.edit(Edit::Freeze(id, true));
+        }
+        let is_at_start = self.world.clock().frame == 0;
+        let (flow, n_done) = self.frames(n, Limits::default(), span, |session, k| {
+            for hand in &hands {
+                let at = hand.at(k as f64 / n as f64);
+                session.world.apply(Edit::Move(hand.point, at));
+            }
+        })?;
+        for &id in &free {
+            self.edit(Edit::Freeze(id, false));
+        }
+        // The hand moved before the clock left 0: `reset` puts the point back under it.
+        if is_at_start && self.world.clock().frame > 0 {
+            for hand in &hands {
+                self.edit(Edit::Start(hand.point, hand.from));
+            }
+        }
+        self.end_leg(n, n_done, hands);
+        Ok(flow)
+    }
+
+    /// Lets `n` frames pass; gives how many did. Before each, `hand` may move points; it is
+    /// given the frame's number, from 1.
+    fn frames(
+        &mut self,
+        n: u64,
+        limits: Limits,
+        span: Span,
+        hand: impl Fn(&mut Self, u64),
+    ) -> Result<(Flow, u64), Diagnostic> {
+        let clock = self.world.clock();
+        if !(clock.time() + n as f64 * clock.dt).is_finite() {
+            return Err(Diagnostic::error("the clock does not go that far")
+                .at(span, format!("time would be beyond {}", format_number(f64::MAX))));
+        }
+        self.begin_motion();
+        let settings = self.preferences.solve;
+        let mut summary = self.run.take().unwrap_or(Summary::new());
+        summary.begin(&settings, limits.tolerance.unwrap_or(settings.tolerance));
+        let (n_before, n_missed_before) = (summary.n_frames, summary.n_missed);
+        let mut flow = Flow::On;
+        let begun = self.host.seconds();
+        let leaves_nothing = self.world.traces().is_empty()
+            && self.recorders.is_empty()
+            && self.preferences.expose_every.is_none();
+        let mut way_back = None;
+        for k in 1..=n {
+            if self.host.is_interrupted() {
+                flow = Flow::Stopped;
+                self.note(format!("stopped after {} of {n} frames", k - 1));
+                break;
+            }
+            // Frames that the time decides about are not the same when done again.
+            self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
+            let mut report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+            if report.status != Status::Converged {
+                let next = self.met(way_back.is_some(), k, n);
+                if next != Next::On
+                    && let Some(way) = way_back.take()
+                {
+                    self.go_back_to(k, way, &limits, &hand)?;
+                }
+                match next {
+                    Next::On => {}
+                    Next::Again(motors) => {
+                        motors.into_iter().for_each(|id| self.reverse(id));
+                        report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+                    }
+                    Next::Stop => break,
+                }
+            }
+            summary.add(&report, self.world.clock().frame, span);
+            if !leaves_nothing {
+                self.keep_frame(is_missed(&report));
+            }
+        }
+        summary.seconds += self.host.seconds() - begun;
+        let broken = summary.broken(n_missed_before).filter(|_| limits.tolerance.is_some());
+        let n_done = summary.n_frames - n_before;
+        self.run = Some(summary);
+        match broken {
+            None => Ok((flow, n_done)),
+            Some((message, label)) => {
+                Err(Diagnostic::error(message).kind(Kind::Promise).at(span, label))
+            }
+        }
+    }
+
+    /// Lets frame `k` pass.
+    fn one_frame(
+        &mut self,
+        k: u64,
+        limits: &Limits,
+        stop: Stop,
+        hand: impl Fn(&mut Self, u64),
+    ) -> Result<Report, Diagnostic> {
+        self.sync();
+        hand(self, k);
+        self.pass(limits, stop).map_err(|why| self.in_frame(why))
+    }
+
+    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
+    /// already, so none is cut short: what comes out is what was.
+    fn go_back_to(
+        &mut self,
+        k: u64,
+        way: WayBack,
+        limits: &Limits,
+        hand: impl Fn(&mut Self, u64),
+    ) -> Result<(), Diagnostic> {
+        let limits = Limits { tolerance: limits.tolerance, seconds: None };
+        let again = way.frame..k;
+        self.go_back(way);
+        for k in again {
+            let report = self.one_frame(k, &limits, Stop::Ignored, &hand)?;
+            self.keep_frame(is_missed(&report));
+        }
+        Ok(())
+    }
+
+    /// Adds to an error in which frame it came up.
+    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+        let clock = self.world.clock();
+        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
+    }
+
+    fn pass(&mut self, limits: &Limits, stop: Stop) -> Result<Report, Diagnostic> {
+        let Self { solver, world, preferences, host, .. } = self;
+        let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
+        let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
+        let is_over = || {
+            may_be_long && host.is_interrupted()
+                || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+        };
+        let has_end = may_be_long || deadline.is_some();
+        let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
+        solver.pass(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
+    }
+
+    pub(crate) fn relax(&mut self, n: Option<&Expr>) -> Result<Flow, Diagnostic> {
+        let n = n.map_or(Ok(1), |n| self.count(n, 0.0, 1e12, "iterations"))?;
+        self.begin_motion();
+        let mut left = n;
+        let mut lowered: Option<f64> = None;
+        let mut flow = Flow::On;
+        while left > 0 {
+            if self.host.is_interrupted() {
+                self.note(format!("stopped after {} of {n} iterations", n - left));
+                flow = Flow::Stopped;
+                break;
+            }
+            if self.world.is_measured() {
+                self.world.refresh_measured()?;
+            }
+            let chunk = left.min(RELAX_CHUNK);
+            let report = self.solver.relax(&mut self.world, &self.preferences.solve, chunk);
+            if let Some(rho) = report.lowered_rho {
+                lowered = Some(lowered.map_or(rho, |least| least.min(rho)));
+            }
+            left -= chunk;
+        }
+        // From here on the method that is set counts again; that is part of this command.
+        self.sync();
+        if let Some(rho) = lowered {
+            let given = format_number(self.preferences.solve.rho);
+            self.note(format!(
+                "rho {given} would diverge on this scene; {} was used",
+                format_rounded(rho)
+            ));
+        }
+        Ok(flow)
+    }
+
+    pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
+        let limits = self.promised(promise)?;
+        self.begin_motion();
+        let is_measured = self.world.is_measured();
+        if is_measured {
+            self.world.refresh_measured()?;
+        }
+        let mut report = {
+            let Self { solver, world, preferences, host, .. } = self;
+            let deadline = limits.seconds.map(|s| host.seconds() + s);
+            let is_over = || {
+                host.is_interrupted() || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+            };
+            let budget = Budget { tolerance: limits.tolerance, stop: Some(&is_over) };
+            solver.settle(world, &preferences.solve, &budget)
+        };
+        if is_measured {
+            let Self { solver, world, preferences, .. } = self;
+            let budget = Budget { tolerance: limits.tolerance, stop: None };
+            solver.agree(world, &preferences.solve, &budget, &mut report)?;
+        }
+        let text = format!(
+            "{}: residual {} after {} iterations",
+            report.status.phrase(),
+            format_rounded(report.residual),
+            report.iterations
+        );
+        if limits.tolerance.is_some_and(|tolerance| report.residual > tolerance) {
+            return Err(Diagnostic::error("the tolerance was not reached")
+                .kind(Kind::Promise)
+                .at(span, text));
+        }
+        self.note(text);
+        Ok(())
+    }
+}
+
+/// Whether a frame counts as missed.
+fn is_missed(report: &Report) -> bool {
+    report.status != Status::Converged || report.is_interrupted
+}
+
+/// A number for talk: three digits say enough.
+pub(crate) fn format_rounded(value: f64) -> String {
+    format_digits(value, 3)
+}
+
+/// A number rounded to so many digits.
+pub(crate) fn format_digits(value: f64, n_digits: usize) -> String {
+    let text = format!("{value:.*e}", n_digits - 1);
+    format_number(text.parse().unwrap_or(value))
+}

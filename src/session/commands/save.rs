@@ -1,0 +1,233 @@
+//! `save`: a script that brings the same world back to the last bit.
+
+use std::fmt::Write;
+
+use super::settings::SETTINGS;
+use crate::constraint::{Constraint, ConstraintKind as _};
+use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
+use crate::session::resolve::unbind::{ident, literal, named, text_of, vector};
+use crate::session::{Diagnostic, Session};
+use crate::solve::CogForm;
+use crate::world::{PointId, World};
+
+/// How a file that `save` wrote begins.
+const FIRST_WORDS: &str = "# A linkwork session.";
+
+/// What `restore` brings back.
+pub(crate) mod what {
+    /// Frame, time of a frame, and the frame and time at which that took its value.
+    pub const CLOCK: &str = "clock";
+    /// Where `reset` puts a point.
+    pub const START: &str = "start";
+    /// What running changes of a constraint.
+    pub const STATE: &str = "state";
+    /// The state that `reset` brings back.
+    pub const FIRST_STATE: &str = "firststate";
+    /// What a constraint took from the pose at its creation.
+    pub const CAPTURED: &str = "captured";
+    /// The values of a driven constraint.
+    pub const VALUES: &str = "values";
+    /// The places of a trace.
+    pub const TRACE: &str = "trace";
+    /// The places of a trace that missed the tolerance, by index.
+    pub const MISSED: &str = "missed";
+    /// A ghost: number of a point, its place, and so on.
+    pub const GHOST: &str = "ghost";
+    /// What the solver remembers.
+    pub const MEMORY: &str = "memory";
+}
+
+impl Session {
+    pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.output_file(path)?;
+        let there = self.host.read(&self.host.written(&file));
+        // What a hand wrote cannot be written anew by a machine.
+        if there.is_ok_and(|text| !text.trim().is_empty() && !text.starts_with(FIRST_WORDS)) {
+            let name = &path.value;
+            return Err(Diagnostic::error(format!(
+                "`{name}` is there, and `save` did not write it"
+            ))
+            .at(path.span, "it would be lost")
+            .help("choose another name, or remove the file first"));
+        }
+        let text = self.to_script();
+        self.queue_file(file, text.into_bytes(), path.span);
+        Ok(())
+    }
+
+    /// The script that makes this world, its settings and its state.
+    pub fn to_script(&self) -> String {
+        let mut script = format!("{FIRST_WORDS} `load` it, or run it as a script.\n");
+        self.save_settings(&mut script);
+        for definition in self.definitions.values() {
+            line(&mut script, Command::Define(definition.clone()));
+        }
+        self.save_points(&mut script);
+        for id in self.parameters_in_order() {
+            let text = self.parameter_text(id);
+            script.push_str(&text);
+            script.push('\n');
+        }
+        self.save_constraints(&mut script);
+        self.save_looks(&mut script);
+        for (owner, values) in
+            self.solver.memory().for_settings(&self.preferences.solve).to_numbers()
+        {
+            // What was remembered of things that are deleted since is lost on all others.
+            let points = self.world.points();
+            let Some(name) = owner.filter(|id| points.is_alive(*id)).map(|id| points.name(id))
+            else {
+                continue;
+            };
+            restore(&mut script, what::MEMORY, Some(name), numbers(&values));
+        }
+        script
+    }
+
+    fn save_settings(&self, script: &mut String) {
+        for (name, _) in SETTINGS {
+            // Writing to a string cannot fail.
+            let _ = writeln!(script, "set {name} {}", self.setting_text(name));
+        }
+        let clock = self.world.clock();
+        if clock.frame > 0 || clock.base_time != 0.0 {
+            let values = [clock.frame as f64, clock.dt, clock.base_frame as f64, clock.base_time];
+            restore(script, what::CLOCK, None, numbers(&values));
+        }
+    }
+
+    fn save_points(&self, script: &mut String) {
+        let points = self.world.points();
+        for id in points.ids() {
+            let at = points.at(id);
+            let declaration = PointDecl {
+                name: named(points.name(id)),
+                at: vector(at.x, at.y),
+                frozen: points.is_frozen(id),
+            };
+            line(script, Command::Point(vec![declaration]));
+        }
+        for id in points.ids() {
+            if points.weight(id) != 1.0 {
+                line(
+                    script,
+                    Command::Set {
+                        setting: ident("weight"),
+                        value: literal(points.weight(id)),
+                        targets: vec![named(points.name(id))],
+                    },
+                );
+            }
+            let (at, start) = (points.at(id), points.start(id));
+            if self.world.clock().frame > 0 && at != start {
+                let place = vec![vector(start.x, start.y)];
+                restore(script, what::START, Some(points.name(id)), place);
+            }
+        }
+    }
+
+    fn save_constraints(&self, script: &mut String) {
+        let now = self.preferences.solve.cog;
+        let mut form = now;
+        for (_, record) in self.world.constraints() {
+            let wanted = match &record.constraint {
+                Constraint::Cog(_) => CogForm::Holonomic,
+                Constraint::CogVelocity(_) => CogForm::Velocity,
+                _ => form,
+            };
+            if std::mem::replace(&mut form, wanted) != wanted {
+                set_cog(script, wanted);
+            }
+            line(script, self.constraint_statement(record));
+            let name = Some(&*record.name);
+            if let Some(rho) = record.rho() {
+                let targets = vec![named(&record.name)];
+                let value = literal(rho);
+                line(script, Command::Set { setting: ident("rho"), value, targets });
+            }
+            // The values come first: a new ratio makes wheels mesh anew.
+            if !record.drivers().is_empty() {
+                let value = |field| record.constraint.get(field).unwrap_or_default();
+                let values: Vec<f64> = record.drivers().iter().map(|d| value(d.0)).collect();
+                restore(script, what::VALUES, name, numbers(&values));
+            }
+            let captured = record.constraint.captured();
+            if !captured.is_empty() {
+                restore(script, what::CAPTURED, name, numbers(&captured));
+            }
+            if let Some(state) = record.constraint.state() {
+                restore(script, what::STATE, name, numbers(&state));
+            }
+            if !record.is_on {
+                line(script, Command::Off(vec![named(&record.name)]));
+            }
+        }
+        if form != now {
+            set_cog(script, now);
+        }
+        for (id, state) in self.world.start_states() {
+            if let Some(record) = self.world.constraint(*id) {
+                restore(script, what::FIRST_STATE, Some(&record.name), numbers(state));
+            }
+        }
+    }
+
+    fn save_looks(&self, script: &mut String) {
+        let points = self.world.points();
+        for trace in self.world.traces() {
+            let name = points.name(trace.point);
+            let every = (trace.every > 1).then(|| literal(trace.every as f64));
+            line(script, Command::Trace { names: vec![named(name)], every });
+            if !trace.samples.is_empty() {
+                let places = trace.samples.iter().map(|s| vector(s.at.x, s.at.y)).collect();
+                restore(script, what::TRACE, Some(name), places);
+            }
+            let missed: Vec<f64> = (0..trace.samples.len())
+                .filter(|&k| trace.samples[k].missed)
+                .map(|k| k as f64)
+                .collect();
+            if !missed.is_empty() {
+                restore(script, what::MISSED, Some(name), numbers(&missed));
+            }
+        }
+        let numbered = ordinals(&self.world);
+        for ghost in self.world.ghosts() {
+            let places = ghost.at.iter().filter_map(|(id, at)| {
+                let k = numbered.binary_search(id).ok()?;
+                Some([literal(k as f64), vector(at.x, at.y)])
+            });
+            restore(script, what::GHOST, None, places.flatten().collect());
+        }
+        for (series, values) in &self.series {
+            let series = crate::session::resolve::unbind::quoted(series);
+            line(script, Command::Sample { series, values: numbers(values) });
+        }
+        if let Some(every) = self.preferences.expose_every {
+            line(script, Command::Expose(Expose::Every(literal(every as f64))));
+        }
+    }
+}
+
+/// The living points in order: a saved world numbers them so.
+pub(crate) fn ordinals(world: &World) -> Vec<PointId> {
+    world.points().ids().collect()
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
+fn line(script: &mut String, command: Command) {
+    script.push_str(&text_of(&command));
+    script.push('\n');
+}
+
+fn set_cog(script: &mut String, form: CogForm) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(script, "set cog {}", form.word());
+}
+
+fn numbers(values: &[f64]) -> Vec<Expr> {
+    values.iter().map(|&value| literal(value)).collect()
+}
+
+fn restore(script: &mut String, what: &str, name: Option<&str>, values: Vec<Expr>) {
+    line(script, Command::Restore { what: ident(what), name: name.map(named), values });
+}

@@ -1,0 +1,310 @@
+//! Looking: `list`, `show`, `print`, `assert`, `help`.
+
+use std::fmt::Write;
+
+use super::run::format_rounded;
+use crate::constraint::ConstraintKind as _;
+use crate::diag::{Kind, Span, format_number};
+use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
+use crate::lang::catalogue::{self, Entry};
+use crate::session::{Diagnostic, Session};
+use crate::world::{ConstraintId, Entity, Function, PointId, Value};
+
+/// A value as `print` writes it.
+pub(crate) fn format_value(value: Value) -> String {
+    match value {
+        Value::Number(n) => format_number(n),
+        Value::Vector(v) => format!("({}, {})", format_number(v.x), format_number(v.y)),
+    }
+}
+
+impl Session {
+    pub(crate) fn print(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
+        let mut line = String::new();
+        for (k, item) in items.iter().enumerate() {
+            if k > 0 {
+                line.push(' ');
+            }
+            match item {
+                PrintItem::Text(text) => line.push_str(&text.value),
+                PrintItem::Value(expr) => line.push_str(&format_value(self.value(expr)?)),
+            }
+        }
+        self.host.print(&line);
+        Ok(())
+    }
+
+    pub(crate) fn assert(
+        &mut self,
+        left: &Expr,
+        relation: &Relation,
+        within: Option<&Expr>,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let slack = within.map_or(Ok(0.0), |e| self.number(e))?;
+        if let Some(e) = within.filter(|_| slack < 0.0) {
+            return Err(Diagnostic::error("a tolerance is not negative")
+                .at(e.span, format!("this is {}", format_number(slack))));
+        }
+        let a = self.value(left)?;
+        let (holds, wanted, difference) = match relation {
+            Relation::In(range) => {
+                let (lo, hi) = (self.number(&range.from)?, self.number(&range.to)?);
+                let a = self.one_number(a, left)?;
+                let outside = (lo - a).max(a - hi).max(0.0);
+                (outside <= slack, format!("{}..{}", format_number(lo), format_number(hi)), outside)
+            }
+            Relation::Equal(right) => {
+                let b = self.value(right)?;
+                let difference = match (a, b) {
+                    (Value::Number(a), Value::Number(b)) => (a - b).abs(),
+                    (Value::Vector(a), Value::Vector(b)) => (a - b).norm(),
+                    _ => {
+                        return Err(Diagnostic::error("a number and a vector cannot be compared")
+                            .at(left.span, format!("a {}", a.shape().noun()))
+                            .also(right.span, format!("a {}", b.shape().noun())));
+                    }
+                };
+                (difference <= slack, format_value(b), difference)
+            }
+            Relation::Less(right)
+            | Relation::LessEqual(right)
+            | Relation::Greater(right)
+            | Relation::GreaterEqual(right) => {
+                let a = self.one_number(a, left)?;
+                let b = self.number(right)?;
+                let holds = match relation {
+                    Relation::Less(_) => a < b + slack,
+                    Relation::LessEqual(_) => a <= b + slack,
+                    Relation::Greater(_) => a > b - slack,
+                    _ => a >= b - slack,
+                };
+                (holds, format_number(b), (a - b).abs())
+            }
+        };
+        if holds {
+            return Ok(());
+        }
+        let mut text = format!(
+            "left is {}, right is {wanted}, they differ by {}",
+            format_value(a),
+            format_number(difference)
+        );
+        if within.is_some() {
+            let _ = write!(text, ", more than {}", format_number(slack));
+        }
+        Err(Diagnostic::error("assertion failed").kind(Kind::Promise).at(span, text))
+    }
+
+    fn one_number(&self, value: Value, expr: &Expr) -> Result<f64, Diagnostic> {
+        match value {
+            Value::Number(n) => Ok(n),
+            Value::Vector(_) => Err(Diagnostic::error("vectors have no order")
+                .at(expr.span, "this is a vector")
+                .help("compare `norm(v)`, or `v.x`")),
+        }
+    }
+
+    pub(crate) fn list(&mut self, what: Option<ListWhat>) {
+        let is_asked = |part| what.is_none_or(|what| what == part);
+        let mut lines: Vec<String> = Vec::new();
+        if is_asked(ListWhat::Parameters) {
+            lines.extend(self.parameters_in_order().into_iter().map(|id| self.parameter_line(id)));
+        }
+        if is_asked(ListWhat::Points) {
+            lines.extend(self.world.points().ids().map(|id| self.point_line(id)));
+        }
+        if is_asked(ListWhat::Constraints) {
+            let constraints = self.world.constraints().map(|(id, _)| id);
+            lines.extend(constraints.map(|id| self.constraint_line(id)));
+        }
+        if is_asked(ListWhat::Traces) {
+            lines.extend(self.world.traces().iter().map(|trace| {
+                let name = self.world.points().name(trace.point);
+                let n = trace.samples.len();
+                match trace.every {
+                    1 => format!("trace {name}  # {n} places"),
+                    every => format!("trace {name} every {every}  # {n} places"),
+                }
+            }));
+        }
+        if is_asked(ListWhat::Definitions) {
+            lines.extend(self.definitions.values().map(|definition| {
+                let names: Vec<&str> = definition.parameters.iter().map(|p| &*p.text).collect();
+                format!("define {}({})", definition.name.text, names.join(", "))
+            }));
+        }
+        for line in &lines {
+            self.host.print(line);
+        }
+        if lines.is_empty() {
+            let nothing = match what {
+                None => "nothing here yet",
+                Some(ListWhat::Points) => "no points",
+                Some(ListWhat::Constraints) => "no constraints",
+                Some(ListWhat::Traces) => "no traces",
+                Some(ListWhat::Parameters) => "no parameters",
+                Some(ListWhat::Definitions) => "no definitions",
+            };
+            self.note(nothing);
+        }
+    }
+
+    fn parameter_line(&self, id: crate::world::ParameterId) -> String {
+        let text = self.parameter_text(id);
+        let parameter = self.world.parameter(id).expect("a listed parameter lives");
+        match (parameter.depends.is_constant(), parameter.value) {
+            (false, Some(value)) if !parameter.depends.is_live() => {
+                format!("{text}  # {}", format_value(value))
+            }
+            _ => text,
+        }
+    }
+
+    fn point_line(&self, id: PointId) -> String {
+        let points = self.world.points();
+        let at = points.at(id);
+        let mut line = format!(
+            "point {} = ({}, {})",
+            points.name(id),
+            format_number(at.x),
+            format_number(at.y)
+        );
+        if points.is_frozen(id) {
+            line.push_str(" frozen");
+        }
+        if points.weight(id) != 1.0 {
+            let _ = write!(line, "  # weight {}", format_number(points.weight(id)));
+        }
+        line
+    }
+
+    fn constraint_line(&self, id: ConstraintId) -> String {
+        let record = self.world.constraint(id).expect("a listed constraint lives");
+        let mut line = self.constraint_text(record);
+        if record.is_on {
+            let residual = record.constraint.residual(self.world.points().column());
+            let _ = write!(line, "  # residual {}", format_rounded(residual));
+        } else {
+            line.push_str("  # off");
+        }
+        if let Some(rho) = record.rho() {
+            let _ = write!(line, ", rho {}", format_number(rho));
+        }
+        line
+    }
+
+    pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        if let Some(instance) = self.instance(name)? {
+            let prefix = format!("{instance}.");
+            let mut lines = Vec::new();
+            for id in self.world.points().ids() {
+                if self.world.points().name(id).starts_with(&prefix) {
+                    lines.push(self.point_line(id));
+                }
+            }
+            for (id, record) in self.world.constraints() {
+                if record.name.starts_with(&prefix) {
+                    lines.push(self.constraint_line(id));
+                }
+            }
+            lines.iter().for_each(|line| self.host.print(line));
+            return Ok(());
+        }
+        match self.entity(name)? {
+            Entity::Point(id) => {
+                let mut lines = vec![self.point_line(id)];
+                for (c, record) in self.world.constraints() {
+                    if record.constraint.points().contains(&id.0) {
+                        lines.push(format!("  {}", self.constraint_line(c)));
+                    }
+                }
+                lines.iter().for_each(|line| self.host.print(line));
+            }
+            Entity::Constraint(id) => {
+                let mut lines = vec![self.constraint_line(id)];
+                lines.extend(self.constraint_details(id).into_iter().map(|l| format!("  {l}")));
+                lines.iter().for_each(|line| self.host.print(line));
+            }
+            Entity::Parameter(id) => {
+                let text = self.parameter_text(id);
+                let formula = self.world.parameter(id).expect("it is named").formula.clone();
+                let value = self.evaluate(&formula)?;
+                self.host.print(&format!("{text}  # {}", format_value(value)));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
+        let text = match topic {
+            None => overview(),
+            Some(topic) => self.help_on(topic)?,
+        };
+        text.lines().for_each(|line| self.host.print(line));
+        Ok(())
+    }
+
+    fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
+        let word = &*topic.text;
+        let mut text = catalogue::entry(word).map(explained).unwrap_or_default();
+        // Writing to a string cannot fail.
+        for function in Function::named(word) {
+            let _ = writeln!(text, "{word}: {}", function.help());
+        }
+        let setting = super::settings::SETTINGS.iter().find(|(name, _)| *name == word);
+        if let Some((name, what)) = setting {
+            let _ = writeln!(text, "set {name}: {what}; now {}", self.setting_text(name));
+        }
+        if text.is_empty()
+            && let Some(entry) = catalogue::about(word)
+        {
+            text = explained(entry);
+        }
+        if text.is_empty() {
+            let problem =
+                Diagnostic::error(format!("no help on `{word}`")).at(topic.span, "unknown topic");
+            let known = catalogue::commands()
+                .chain(catalogue::topics())
+                .map(|entry| entry.keyword)
+                .chain(Function::ALL.iter().map(|f| f.name()))
+                .chain(super::settings::SETTINGS.iter().map(|(name, _)| *name));
+            return Err(Self::suggest(problem, word, known).help("`help` alone lists the commands"));
+        }
+        Ok(text)
+    }
+}
+
+/// A command or subject in full.
+fn explained(entry: &Entry) -> String {
+    // Writing to a string cannot fail.
+    let mut text = String::new();
+    let _ = writeln!(text, "{}\n  {}.", entry.usage, entry.summary);
+    for part in [entry.help, entry.example] {
+        if !part.is_empty() {
+            let _ = writeln!(text, "\n{part}");
+        }
+    }
+    text
+}
+
+/// The commands under their headings, a line each.
+fn overview() -> String {
+    let mut text = String::new();
+    for section in catalogue::Section::ALL {
+        let entries: Vec<_> = catalogue::commands()
+            .chain(catalogue::topics())
+            .filter(|entry| entry.section == section)
+            .collect();
+        if entries.is_empty() {
+            continue;
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", section.title());
+        for entry in entries {
+            let _ = writeln!(text, "  {:<14}{}", entry.keyword, entry.summary);
+        }
+    }
+    text.push_str("`help WORD` says more: `help motor`\n");
+    text
+}

@@ -1,0 +1,254 @@
+//! Traces, ghosts, pictures and recordings.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::points::ALL;
+use crate::diag::{Kind, Span};
+use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
+use crate::render::{Animation, Scene, View, svg, svg_with_view};
+use crate::session::undo::journal::Change;
+use crate::session::undo::recorder::{Format, Recorder};
+use crate::session::{Diagnostic, Session};
+use crate::world::{Edit, Trace};
+
+impl Session {
+    fn every(&mut self, every: Option<&Expr>) -> Result<u64, Diagnostic> {
+        every.map_or(Ok(1), |n| self.count(n, 1.0, 1e9, "frames"))
+    }
+
+    pub(crate) fn trace(&mut self, names: &[Name], every: Option<&Expr>) -> Result<(), Diagnostic> {
+        let every = self.every(every)?;
+        for name in names {
+            let point = self.point(name)?;
+            let traces = self.world.traces();
+            match traces.iter().position(|t| t.point == point) {
+                Some(k) if traces[k].every == every => {}
+                Some(k) => {
+                    // The path so far stays; only its pace changes.
+                    let mut trace = traces[k].clone();
+                    trace.every = every;
+                    self.edit(Edit::Trace(k, None));
+                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
+                }
+                None => {
+                    let trace = Trace { point, every, samples: Vec::new() };
+                    let k = traces.len();
+                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn untrace(&mut self, selection: &Selection) -> Result<(), Diagnostic> {
+        if *selection == Selection::All {
+            for k in (0..self.world.traces().len()).rev() {
+                self.edit(Edit::Trace(k, None));
+            }
+            return Ok(());
+        }
+        let Selection::Names(names) = selection else { return Ok(()) };
+        for name in names {
+            let point = self.point(name);
+            let point = point.map_err(|problem| self.or_word(problem, name, ALL))?;
+            let Some(k) = self.world.traces().iter().position(|t| t.point == point) else {
+                let text = self.world.points().name(point);
+                return Err(Diagnostic::error(format!("`{text}` is not traced"))
+                    .at(name.span, "no trace to end"));
+            };
+            self.edit(Edit::Trace(k, None));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn expose(&mut self, expose: &Expose) -> Result<(), Diagnostic> {
+        let every = match expose {
+            Expose::Now => {
+                let ghost = self.world.expose();
+                self.edit(ghost);
+                return Ok(());
+            }
+            Expose::Every(n) => Some(self.count(n, 1.0, 1e9, "frames")?),
+            Expose::Off => None,
+        };
+        let new = crate::session::Preferences { expose_every: every, ..self.preferences.clone() };
+        self.change(Change::Preferences(Box::new(new)));
+        Ok(())
+    }
+
+    /// Keeps what this frame leaves behind: traces, ghosts, recordings.
+    pub(crate) fn keep_frame(&mut self, missed: bool) {
+        if !self.world.traces().is_empty() {
+            self.world.sample_traces(missed);
+        }
+        if let Some(every) = self.preferences.expose_every
+            && self.world.clock().frame.is_multiple_of(every)
+        {
+            let ghost = self.world.expose();
+            // Running is taken back as a whole, ghosts included.
+            self.world.apply(ghost);
+        }
+        for recorder in &mut self.recorders {
+            recorder.take(&self.world);
+        }
+    }
+
+    /// Where an output path that is to be one file leads.
+    pub(crate) fn output_file(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let file = self.output_path(path)?;
+        if path.value.ends_with('/') || file.file_name().is_none() {
+            return Err(Diagnostic::error("this is no file")
+                .at(path.span, "expected a file name, this names a folder"));
+        }
+        Ok(file)
+    }
+
+    /// Where an output path leads; refused outside the output folder.
+    pub(crate) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let given = Path::new(&*path.value);
+        if path.value.is_empty() || path.value.contains('\0') {
+            return Err(
+                Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
+            );
+        }
+        if self.host.allows_any_path() {
+            return Ok(given.to_path_buf());
+        }
+        let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        if given.components().all(is_inside) {
+            let is_named = |part: &Component| matches!(part, Component::Normal(_));
+            return Ok(given.components().filter(is_named).collect());
+        }
+        Err(Diagnostic::error("files are written below the output folder only")
+            .at(path.span, "this path leads elsewhere")
+            .help("name the file alone: the output folder is `--out`, or where you are")
+            .help("`--allow-any-path` on the command line permits it"))
+    }
+
+    pub(crate) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.output_file(path).map_err(|problem| {
+            if !path.value.ends_with('/') {
+                return problem;
+            }
+            problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
+        })?;
+        let scene = Scene::new(&self.world);
+        let picture = svg(&scene, &self.picture_options());
+        self.queue_file(file, picture.into_bytes(), path.span);
+        Ok(())
+    }
+
+    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
+    pub(crate) fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
+        self.outbox.retain(|(other, ..)| *other != file);
+        self.outbox.push((file, bytes, span));
+    }
+
+    pub(crate) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
+        let every = self.every(every)?;
+        let file = self.output_path(path)?;
+        let is_named = |ending: &str| path.value.to_ascii_lowercase().ends_with(ending);
+        let format = if path.value.ends_with('/') {
+            Format::Frames
+        } else if is_named(".svg") {
+            Format::Movie
+        } else if is_named(".csv") {
+            Format::Table
+        } else {
+            return Err(Diagnostic::error("what is this recording to become?")
+                .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
+                .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
+        };
+        if self.recorders.iter().any(|r| r.path == file) {
+            return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
+                .at(path.span, "")
+                .help("`record stop` ends and writes all recordings"));
+        }
+        let recorder = Box::new(Recorder::new(file, path.span, every, format));
+        self.change(Change::Recorder(self.recorders.len(), Some(recorder)));
+        Ok(())
+    }
+
+    pub(crate) fn record_stop(&mut self, span: Span) -> Result<(), Diagnostic> {
+        if self.recorders.is_empty() {
+            return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
+        }
+        if self.stop_recording() {
+            return Ok(());
+        }
+        Err(Diagnostic::error("stopped before the recording was written")
+            .kind(Kind::Interrupted)
+            .at(span, "it goes on")
+            .help("`undo` takes back a run that was too long, and what was recorded of it"))
+    }
+
+    /// Ends all recordings and hands over their files, unless the user stops that: false then,
+    /// and they are as they were.
+    pub(crate) fn stop_recording(&mut self) -> bool {
+        if self.recorders.is_empty() {
+            return true;
+        }
+        let options = self.picture_options();
+        // Who stopped a run still wants what it recorded.
+        let was_stopped = self.host.is_interrupted();
+        let host = &self.host;
+        let is_stopped = || host.is_interrupted() && !was_stopped;
+        let n_before = self.outbox.len();
+        let mut bare = Vec::new();
+        for recorder in &self.recorders {
+            match recorder.format {
+                Format::Table => {
+                    if recorder.has_times_only() {
+                        bare.push(recorder.span);
+                    }
+                    let file =
+                        (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
+                    self.outbox.push(file);
+                }
+                Format::Frames => {
+                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
+                    for (k, (scene, _)) in recorder.scenes().enumerate() {
+                        if is_stopped() {
+                            break;
+                        }
+                        let picture = svg_with_view(scene, &view, &options);
+                        let path = recorder.path.join(format!("frame-{k:04}.svg"));
+                        self.outbox.push((path, picture.into_bytes(), recorder.span));
+                    }
+                }
+                Format::Movie => {
+                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
+                    let mut movie = Animation::new(view, &options);
+                    for (scene, time) in recorder.scenes() {
+                        if is_stopped() {
+                            break;
+                        }
+                        movie.push(scene, time);
+                    }
+                    let file = (recorder.path.clone(), movie.finish().into_bytes(), recorder.span);
+                    self.outbox.push(file);
+                }
+            }
+        }
+        if is_stopped() {
+            self.outbox.truncate(n_before);
+            return false;
+        }
+        for table in bare {
+            self.warn(
+                &Diagnostic::warning("no point was traced, so the table holds times only")
+                    .at(table, "")
+                    .help("`trace C` adds the columns of a point"),
+            );
+        }
+        self.drop_recordings();
+        true
+    }
+
+    /// Ends all recordings as they are.
+    pub(crate) fn drop_recordings(&mut self) {
+        for idx in (0..self.recorders.len()).rev() {
+            self.change(Change::Recorder(idx, None));
+        }
+    }
+}

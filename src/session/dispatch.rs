@@ -1,0 +1,155 @@
+//! Which command does what.
+
+use super::{Flow, Session};
+use crate::diag::{Diagnostic, Span};
+use crate::lang::ast::{Command, Expr, Statement};
+
+impl Session {
+    /// Carries out a statement as part of the command under way.
+    pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
+        self.n_statements += 1;
+        if self.n_statements > super::quotas::MOST_STATEMENTS {
+            return Err(Diagnostic::error("this command never seems to end")
+                .at(statement.span, "20 million statements were carried out")
+                .help("split it into several commands"));
+        }
+        let flow = self.carry_out(statement).map_err(|problem| {
+            // What fails elsewhere, in a live expression, was reached from here.
+            let is_elsewhere = problem.place().is_some_and(|place| !statement.span.holds(place));
+            if is_elsewhere && problem.via.is_empty() {
+                problem.reached_from(statement.span)
+            } else {
+                problem
+            }
+        })?;
+        if flow == Flow::On && self.host.is_interrupted() {
+            self.note("stopped");
+            return Ok(Flow::Stopped);
+        }
+        Ok(flow)
+    }
+
+    fn carry_out(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
+        let span = statement.span;
+        match &statement.command {
+            Command::Let(bindings) => self.let_parameters(bindings)?,
+            Command::Point(declarations) => self.make_points(declarations)?,
+            Command::Freeze(selection) => self.freeze(selection, true)?,
+            Command::Thaw(selection) => self.freeze(selection, false)?,
+            Command::Move { point, to } => self.move_point(point, to)?,
+            Command::Drag { targets, over } => return self.drag(targets, over.as_ref(), span),
+            Command::Constrain(declaration) => self.constrain(declaration, span)?,
+            Command::Delete { names, cascade } => self.delete(names, *cascade)?,
+            Command::Off(names) => self.switch(names, false)?,
+            Command::On(names) => self.switch(names, true)?,
+            Command::Change { name, parts } => self.change_thing(name, parts)?,
+            Command::Settings(which) => self.show_settings(which.as_ref())?,
+            Command::Set { setting, value, targets } => self.set(setting, value, targets)?,
+            Command::Undo(n) => self.undo_or_redo(n.as_ref(), span, true)?,
+            Command::Redo(n) => self.undo_or_redo(n.as_ref(), span, false)?,
+            Command::Reset => self.reset()?,
+            Command::Clear => self.clear(),
+            Command::Step { frames, promise } => return self.step(frames.as_ref(), promise, span),
+            Command::Run { time, promise } => return self.run(time, promise, span),
+            Command::Relax(n) => return self.relax(n.as_ref()),
+            Command::Solve(promise) => self.solve(promise, span)?,
+            Command::List(what) => self.list(*what),
+            Command::Show(name) => self.show(name)?,
+            Command::Print(items) => self.print(items)?,
+            Command::Check => self.check(),
+            Command::Why(name) => self.why(name)?,
+            Command::Limits(name) => self.limits(name)?,
+            Command::Effects => self.effects(),
+            Command::Accuracy(promise) => return self.accuracy(promise, span),
+            Command::Assert { left, relation, within } => {
+                self.assert(left, relation, within.as_ref(), span)?;
+            }
+            Command::Help(topic) => self.help(topic.as_ref())?,
+            Command::Trace { names, every } => self.trace(names, every.as_ref())?,
+            Command::Untrace(selection) => self.untrace(selection)?,
+            Command::Expose(expose) => self.expose(expose)?,
+            Command::Svg(path) => self.svg(path)?,
+            Command::Record { path, every } => self.record(path, every.as_ref())?,
+            Command::Sample { series, values } => self.sample(series, values)?,
+            Command::Plot { path, parts } => self.plot(path, parts)?,
+            Command::RecordStop => self.record_stop(span)?,
+            Command::For { variable, range, body } => {
+                return self.repeat(variable, range, body, span);
+            }
+            Command::Define(definition) => self.define(definition),
+            Command::Use { definition, arguments, instance } => {
+                return self.use_definition(definition, arguments, instance.as_ref(), span);
+            }
+            Command::Include(path) => return self.include(path, span),
+            Command::Save(path) => self.save(path)?,
+            Command::Load(path) => return self.load(path, span),
+            Command::Restore { what, name, values } => {
+                self.restore(what, name.as_ref(), values, span)?;
+            }
+            Command::Quit => return Ok(Flow::Quit),
+        }
+        Ok(Flow::On)
+    }
+
+    /// A whole number of at least `least`.
+    pub(super) fn count(
+        &mut self,
+        expr: &Expr,
+        least: f64,
+        most: f64,
+        of: &str,
+    ) -> Result<u64, Diagnostic> {
+        let value = self.number(expr)?;
+        let n = value.round();
+        if (n - value).abs() > 1e-9 * value.abs().max(1.0) {
+            return Err(Diagnostic::error(format!("expected a whole number of {of}"))
+                .at(expr.span, format!("this is {}", crate::diag::format_number(value))));
+        }
+        if n < least || n > most {
+            let number = crate::diag::format_number;
+            return Err(Diagnostic::error(format!(
+                "expected {} to {} {of}",
+                number(least),
+                format_count(most)
+            ))
+            .at(expr.span, format!("this is {}", format_count(value))));
+        }
+        Ok(n as u64)
+    }
+
+    fn undo_or_redo(
+        &mut self,
+        n: Option<&Expr>,
+        span: Span,
+        is_undo: bool,
+    ) -> Result<(), Diagnostic> {
+        let word = if is_undo { "undo" } else { "redo" };
+        self.must_stand_alone(word, span)?;
+        let n = n.map_or(Ok(1), |n| self.count(n, 1.0, 1e6, "commands"))? as usize;
+        let done = if is_undo { self.undo(n) } else { self.redo(n) };
+        if done == 0 {
+            return Err(Diagnostic::error(format!("nothing to {word}")).at(span, ""));
+        }
+        if done < n {
+            self.note(format!(
+                "only {done} commands could be {}",
+                if is_undo { "taken back" } else { "done again" }
+            ));
+        }
+        Ok(())
+    }
+
+    /// Some commands are transactions on the history itself and cannot be part of another.
+    pub(super) fn must_stand_alone(&self, word: &str, span: Span) -> Result<(), Diagnostic> {
+        if self.depth == 0 {
+            return Ok(());
+        }
+        Err(Diagnostic::error(format!("`{word}` cannot be part of another command"))
+            .at(span, "inside of a `for`, a definition or an included file"))
+    }
+}
+
+/// A count for a message: nobody counts the zeros of a large round one.
+pub(super) fn format_count(value: f64) -> String {
+    if value.abs() >= 1e6 { format!("{value:e}") } else { crate::diag::format_number(value) }
+}

@@ -1,0 +1,411 @@
+//! Expressions of the language become values, or formulas that stay live.
+
+use super::scope::{Bound, Meaning};
+use crate::constraint::{Point, Vec2};
+use crate::diag::{Diagnostic, Span};
+use crate::lang::ast::{Axis, BinaryOp, Expr, Node as Syntax};
+use crate::session::Session;
+use crate::world::{
+    Depends, Entity, Formula, Function, Node, Operator, Rates, Shape, Value, call, operate,
+};
+
+/// What an expression was bound to; constants are folded, so that only what can change
+/// makes a tree.
+#[derive(Debug, Clone)]
+pub enum Term {
+    /// A value that cannot change.
+    Constant(Value),
+    /// A formula over points, parameters or time.
+    Live(Formula),
+}
+
+/// What names in an expression become.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    /// Their values now.
+    Now,
+    /// Themselves: the expression stays live.
+    Live,
+}
+
+/// A number that may be driven by an expression.
+#[derive(Debug, Clone)]
+pub struct Driven {
+    /// Its value now.
+    pub value: f64,
+    /// The expression, if it can change.
+    pub formula: Option<Formula>,
+}
+
+impl Term {
+    fn shape(&self) -> Shape {
+        match self {
+            Self::Constant(value) => value.shape(),
+            Self::Live(formula) => formula.shape(),
+        }
+    }
+
+    /// The formula, of a constant too.
+    pub fn into_formula(self, span: Span) -> Formula {
+        match self {
+            Self::Live(formula) => formula,
+            Self::Constant(Value::Number(n)) => {
+                Formula::new(Node::Number(n), Shape::Number, Depends::default(), span)
+            }
+            Self::Constant(Value::Vector(v)) => {
+                let part = |n| Self::Constant(Value::Number(n)).into_formula(span);
+                let node = Node::Vector(part(v.x), part(v.y));
+                Formula::new(node, Shape::Vector, Depends::default(), span)
+            }
+        }
+    }
+
+    fn depends(&self) -> Depends {
+        match self {
+            Self::Constant(_) => Depends::default(),
+            Self::Live(formula) => formula.depends(),
+        }
+    }
+}
+
+impl Session {
+    /// The value of an expression now.
+    pub(crate) fn value(&mut self, expr: &Expr) -> Result<Value, Diagnostic> {
+        match self.bind(expr, Mode::Now)? {
+            Term::Constant(value) => Ok(value),
+            Term::Live(formula) => unreachable!("{formula:?} was to be evaluated"),
+        }
+    }
+
+    /// The value of an expression that has to be a number.
+    pub(crate) fn number(&mut self, expr: &Expr) -> Result<f64, Diagnostic> {
+        match self.value(expr)? {
+            Value::Number(n) => Ok(n),
+            Value::Vector(_) => Err(wanted(expr, Shape::Number)),
+        }
+    }
+
+    /// The value of an expression that has to be a place.
+    pub(crate) fn place(&mut self, expr: &Expr) -> Result<Point, Diagnostic> {
+        match self.value(expr)? {
+            Value::Vector(v) => Ok(Point::new(v.x, v.y)),
+            Value::Number(_) => Err(wanted(expr, Shape::Vector)
+                .help("a place is written `(x, y)`, or named by a point")),
+        }
+    }
+
+    /// A live expression, its constant parts folded.
+    pub(crate) fn live(&mut self, expr: &Expr) -> Result<Term, Diagnostic> {
+        self.bind(expr, Mode::Live)
+    }
+
+    /// A live number with its value now.
+    pub(crate) fn driven(&mut self, expr: &Expr) -> Result<Driven, Diagnostic> {
+        match self.driver(expr, Shape::Number)? {
+            (Value::Number(value), formula) => Ok(Driven { value, formula }),
+            (Value::Vector(_), _) => unreachable!("the shape was asked for"),
+        }
+    }
+
+    /// A value for a constraint, with the expression that drives it.
+    pub(crate) fn driver(
+        &mut self,
+        expr: &Expr,
+        shape: Shape,
+    ) -> Result<(Value, Option<Formula>), Diagnostic> {
+        let term = self.bind(expr, Mode::Live)?;
+        if term.shape() != shape {
+            return Err(wanted(expr, shape));
+        }
+        match term {
+            Term::Constant(value) => Ok((value, None)),
+            Term::Live(formula) => {
+                if self.world.depends(&formula).on_rates {
+                    return Err(Diagnostic::error("a velocity cannot drive a constraint")
+                        .at(expr.span, "velocities follow from the constraints"));
+                }
+                Ok((self.world.evaluate(&formula, None)?, Some(formula)))
+            }
+        }
+    }
+
+    fn bind(&mut self, expr: &Expr, mode: Mode) -> Result<Term, Diagnostic> {
+        let number = |n| Ok(Term::Constant(Value::Number(n)));
+        match &expr.node {
+            Syntax::Number(n) => number(n.value()),
+            Syntax::Pi => number(std::f64::consts::PI),
+            Syntax::Tau => number(std::f64::consts::TAU),
+            Syntax::Time => match mode {
+                Mode::Now => number(self.world.clock().time()),
+                Mode::Live => {
+                    let depends = Depends { on_time: true, ..Depends::default() };
+                    Ok(Term::Live(Formula::new(Node::Time, Shape::Number, depends, expr.span)))
+                }
+            },
+            Syntax::Name(name) => {
+                let (meaning, axis) = self.meaning(name)?;
+                let term = self.bind_name(meaning, name.span, mode)?;
+                match axis {
+                    Some(axis) => component(term, axis, expr.span),
+                    None => Ok(term),
+                }
+            }
+            Syntax::Negate(inner) => Ok(match self.bind(inner, mode)? {
+                Term::Constant(Value::Number(n)) => Term::Constant(Value::Number(-n)),
+                Term::Constant(Value::Vector(v)) => {
+                    Term::Constant(Value::Vector(Vec2 { x: -v.x, y: -v.y }))
+                }
+                Term::Live(f) => {
+                    let (shape, depends) = (f.shape(), f.depends());
+                    Term::Live(Formula::new(Node::Negate(f), shape, depends, expr.span))
+                }
+            }),
+            Syntax::Binary(op, sides) => {
+                let left = self.bind(&sides[0], mode)?;
+                let right = self.bind(&sides[1], mode)?;
+                binary(operator(*op), left, right, expr, sides)
+            }
+            Syntax::Vector(parts) => {
+                let x = self.bind(&parts[0], mode)?;
+                let y = self.bind(&parts[1], mode)?;
+                for (term, part) in [(&x, &parts[0]), (&y, &parts[1])] {
+                    if term.shape() != Shape::Number {
+                        return Err(wanted(part, Shape::Number));
+                    }
+                }
+                if let (Term::Constant(x), Term::Constant(y)) = (&x, &y) {
+                    let v = Vec2 { x: x.number(), y: y.number() };
+                    return Ok(Term::Constant(Value::Vector(v)));
+                }
+                let depends = x.depends().or(y.depends());
+                let node =
+                    Node::Vector(x.into_formula(parts[0].span), y.into_formula(parts[1].span));
+                Ok(Term::Live(Formula::new(node, Shape::Vector, depends, expr.span)))
+            }
+            Syntax::Component(inner, axis) => {
+                let term = self.bind(inner, mode)?;
+                component(term, *axis, expr.span)
+            }
+            Syntax::Call(function, arguments) => {
+                let function = Function::named(function.name())
+                    .find(|f| f.takes(arguments.len()))
+                    .expect("the parser checks the number of arguments");
+                self.bind_call(function, arguments, expr, mode)
+            }
+        }
+    }
+
+    fn bind_name(&mut self, meaning: Meaning, span: Span, mode: Mode) -> Result<Term, Diagnostic> {
+        let entity = match meaning {
+            Meaning::Bound(Bound::Number(n)) => return Ok(Term::Constant(Value::Number(n))),
+            Meaning::Bound(Bound::Formula(formula)) => {
+                return match mode {
+                    Mode::Live => Ok(Term::Live(formula)),
+                    Mode::Now => self.evaluate(&formula).map(Term::Constant),
+                };
+            }
+            Meaning::Bound(Bound::Point(id)) => Entity::Point(id),
+            Meaning::Entity(entity) => entity,
+        };
+        let (node, shape, depends) = match entity {
+            Entity::Point(id) => {
+                if mode == Mode::Now {
+                    let p = self.world.points().at(id);
+                    return Ok(Term::Constant(Value::Vector(Vec2 { x: p.x, y: p.y })));
+                }
+                let depends = Depends { on_points: true, ..Depends::default() };
+                (Node::Point(id), Shape::Vector, depends)
+            }
+            Entity::Parameter(id) => {
+                let parameter = self.world.parameter(id).expect("a named parameter lives");
+                let shape = parameter.formula.shape();
+                if mode == Mode::Now
+                    && !parameter.depends.is_live()
+                    && let Some(value) = parameter.value
+                {
+                    return Ok(Term::Constant(value));
+                }
+                let depends = Depends { on_parameters: true, ..Depends::default() };
+                (Node::Parameter(id), shape, depends)
+            }
+            Entity::Constraint(_) => {
+                let name = self.world.name_of(entity);
+                return Err(Diagnostic::error(format!("`{name}` is a constraint"))
+                    .at(span, "expected a point, a parameter or a number"));
+            }
+        };
+        let formula = Formula::new(node, shape, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+
+    /// The value of a formula now, velocities included if it needs them.
+    pub(crate) fn evaluate(&mut self, formula: &Formula) -> Result<Value, Diagnostic> {
+        if self.world.depends(formula).on_rates {
+            let rates = self.rates()?;
+            self.world.evaluate(formula, Some(&rates))
+        } else {
+            self.world.evaluate(formula, None)
+        }
+    }
+
+    fn rates(&mut self) -> Result<Rates, Diagnostic> {
+        self.look(crate::solve::Solver::rates)
+    }
+
+    fn bind_call(
+        &mut self,
+        function: Function,
+        arguments: &[Expr],
+        expr: &Expr,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let is_rate = matches!(function, Function::Velocity | Function::Acceleration);
+        let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
+        let mut many = Vec::new();
+        let is_few = arguments.len() <= few.len();
+        let letters =
+            function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
+        for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
+            // Only a formula keeps the name that a rate needs.
+            let term = self.bind(argument, if is_rate { Mode::Live } else { mode })?;
+            let shape = if letter == b'n' { Shape::Number } else { Shape::Vector };
+            if term.shape() != shape {
+                return Err(wanted(argument, shape));
+            }
+            if is_few {
+                few[k] = term;
+            } else {
+                many.push(term);
+            }
+        }
+        let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
+        if is_rate {
+            return self.bind_rate(function, &terms[0], arguments, expr, mode);
+        }
+        if terms.iter().all(|term| matches!(term, Term::Constant(_))) {
+            let constant = |term: &Term| match term {
+                Term::Constant(value) => *value,
+                Term::Live(_) => unreachable!("all are constant"),
+            };
+            let mut values = [Value::Number(0.0); 4];
+            let value = if is_few {
+                values.iter_mut().zip(terms).for_each(|(value, term)| *value = constant(term));
+                call(function, &values[..terms.len()], expr.span)?
+            } else {
+                call(function, &terms.iter().map(constant).collect::<Vec<_>>(), expr.span)?
+            };
+            return Ok(Term::Constant(value));
+        }
+        let depends = terms.iter().fold(Depends::default(), |all, term| all.or(term.depends()));
+        let formulas = terms.iter().zip(arguments).map(|(t, a)| t.clone().into_formula(a.span));
+        let node = Node::Call(function, formulas.collect());
+        Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
+    }
+
+    fn bind_rate(
+        &mut self,
+        function: Function,
+        argument: &Term,
+        arguments: &[Expr],
+        expr: &Expr,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let formula = match argument {
+            Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => formula.clone(),
+            _ => {
+                return Err(Diagnostic::error(format!(
+                    "`{}` takes the name of a point",
+                    function.name()
+                ))
+                .at(arguments[0].span, "this is not a point"));
+            }
+        };
+        let depends = Depends { on_rates: true, ..Depends::default() };
+        let node = Node::Call(function, Box::new([formula]));
+        let formula = Formula::new(node, Shape::Vector, depends, expr.span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+}
+
+fn operator(op: BinaryOp) -> Operator {
+    match op {
+        BinaryOp::Add => Operator::Add,
+        BinaryOp::Subtract => Operator::Subtract,
+        BinaryOp::Multiply => Operator::Multiply,
+        BinaryOp::Divide => Operator::Divide,
+        BinaryOp::Power => Operator::Power,
+    }
+}
+
+fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {
+    let letter = if axis == Axis::X { "x" } else { "y" };
+    match term {
+        Term::Constant(Value::Vector(v)) => {
+            Ok(Term::Constant(Value::Number(if axis == Axis::X { v.x } else { v.y })))
+        }
+        Term::Live(f) if f.shape() == Shape::Vector => {
+            let depends = f.depends();
+            let node = if axis == Axis::X { Node::X(f) } else { Node::Y(f) };
+            Ok(Term::Live(Formula::new(node, Shape::Number, depends, span)))
+        }
+        _ => Err(Diagnostic::error(format!("a number has no `.{letter}`"))
+            .at(span, "only a vector has components")),
+    }
+}
+
+fn binary(
+    operator: Operator,
+    left: Term,
+    right: Term,
+    expr: &Expr,
+    sides: &[Expr; 2],
+) -> Result<Term, Diagnostic> {
+    use Shape::{Number, Vector};
+    let shape = match (operator, left.shape(), right.shape()) {
+        (_, Number, Number) => Number,
+        (Operator::Add | Operator::Subtract, Vector, Vector)
+        | (Operator::Multiply, Number, Vector)
+        | (Operator::Multiply | Operator::Divide, Vector, Number) => Vector,
+        (_, a, b) => {
+            let sorts = if a == b {
+                format!("two {}s", a.noun())
+            } else {
+                format!("a {} and a {}", a.noun(), b.noun())
+            };
+            let sign = operator.sign();
+            let problem = Diagnostic::error(format!("`{sign}` does not go between {sorts}"))
+                .at(expr.span, "")
+                .also(sides[0].span, format!("a {}", a.noun()))
+                .also(sides[1].span, format!("a {}", b.noun()));
+            return Err(match (operator, a, b) {
+                (Operator::Multiply, Vector, Vector) => {
+                    problem.help("`dot(v, w)` and `cross(v, w)` multiply vectors")
+                }
+                (Operator::Power, Vector, Number) => {
+                    problem.help("`dot(v, v)` is the square of a vector's length")
+                }
+                _ => problem,
+            });
+        }
+    };
+    if let (Term::Constant(a), Term::Constant(b)) = (&left, &right) {
+        return operate(operator, *a, *b, expr.span, sides[1].span).map(Term::Constant);
+    }
+    let depends = left.depends().or(right.depends());
+    let node =
+        Node::Binary(operator, left.into_formula(sides[0].span), right.into_formula(sides[1].span));
+    Ok(Term::Live(Formula::new(node, shape, depends, expr.span)))
+}
+
+/// The error for an expression of the other shape.
+fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
+    let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
+    Diagnostic::error(format!("expected a {}", shape.noun()))
+        .at(expr.span, format!("this is a {}", is.noun()))
+}

@@ -1,0 +1,5 @@
+//! Names become handles, expressions become formulas, and back.
+
+pub mod bind;
+pub mod scope;
+pub mod unbind;

@@ -1,0 +1,84 @@
+//! What a picture says of where it comes from: tolerance, residual, a hash of the scene.
+
+use std::fmt::Write;
+
+use super::Session;
+use super::commands::run::format_rounded;
+use super::commands::settings::SETTINGS;
+use crate::diag::format_number;
+use crate::render::Options;
+
+/// The hash FNV-1a of 64 bits (G. Fowler, L. C. Noll, P. Vo).
+fn fnv_1a(bytes: &[u8]) -> u64 {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+}
+
+impl Session {
+    /// A hash of the scene: the same for the same settings, points at the start, parameters
+    /// and constraints, however far it has run.
+    pub fn scene_hash(&self) -> u64 {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        for (name, _) in SETTINGS {
+            let _ = writeln!(text, "set {name} {}", self.setting_text(name));
+        }
+        let points = self.world.points();
+        for id in points.ids() {
+            let has_begun = self.world.clock().frame > 0;
+            let at = if has_begun { points.start(id) } else { points.at(id) };
+            let _ = writeln!(
+                text,
+                "point {} = ({}, {}) frozen {} weight {}",
+                points.name(id),
+                format_number(at.x),
+                format_number(at.y),
+                points.is_frozen(id),
+                format_number(points.weight(id))
+            );
+        }
+        for id in self.parameters_in_order() {
+            let _ = writeln!(text, "{}", self.parameter_text(id));
+        }
+        for (_, record) in self.world.constraints() {
+            let rho = record.rho().map(format_number).unwrap_or_default();
+            let _ =
+                writeln!(text, "{} on {} rho {rho}", self.constraint_text(record), record.is_on);
+        }
+        fnv_1a(text.as_bytes())
+    }
+
+    /// The largest distance to satisfaction of a constraint, relative to the scene's size.
+    fn residual_now(&self) -> f64 {
+        let ids = self.world.constraints().filter(|(_, r)| r.is_on).map(|(id, _)| id);
+        let violations = ids.map(|id| self.solver.violation(&self.world, id));
+        violations.fold(0.0, f64::max) / self.solver.size()
+    }
+
+    /// What pictures of the present scene carry along.
+    pub(super) fn picture_options(&self) -> Options {
+        let run = self.run.as_ref().or(self.last_run.as_ref());
+        let tolerance = run.map_or(self.preferences.solve.tolerance, |run| run.tolerance);
+        let residual = run.map_or_else(|| self.residual_now(), |run| run.worst_residual);
+        let receipt = [
+            ("tolerance", format_number(tolerance)),
+            ("largest residual", format_rounded(residual)),
+            ("scene", format!("{:016x}", self.scene_hash())),
+        ];
+        let receipt = receipt.map(|(key, value)| (key.to_owned(), value)).to_vec();
+        Options { title: None, receipt }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fnv_1a;
+
+    #[test]
+    fn hashes_as_published() {
+        assert_eq!(fnv_1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv_1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv_1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}

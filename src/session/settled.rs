@@ -1,0 +1,123 @@
+//! A copy of the world at rest, for questions that must not touch the world itself.
+
+use super::Session;
+use super::commands::run::format_rounded;
+use crate::constraint::{Constraint, ConstraintKind as _, Kind};
+use crate::mobility::Scene;
+use crate::solve::{Budget, Report, Solver};
+use crate::world::{ConstraintId, Entity, PointId, World};
+
+/// A settled copy of the world, as the analysis takes it.
+pub(super) struct Settled {
+    pub world: World,
+    pub report: Report,
+    pub parts: Parts,
+    /// The distance up to which a constraint counts as satisfied here. Wider than the
+    /// tolerance: what is told apart is sound from contradictory, not exact from nearly so.
+    pub slack: f64,
+    size: f64,
+}
+
+/// The constraints of a world that are switched on, and the inverse masses of its points.
+pub(super) struct Parts {
+    pub ids: Vec<ConstraintId>,
+    pub constraints: Vec<Constraint>,
+    pub w: Vec<f64>,
+}
+
+impl Parts {
+    pub fn of(world: &World) -> Self {
+        let on = world.constraints().filter(|(_, record)| record.is_on);
+        let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
+        let points = world.points();
+        let all = (0..points.column().len()).map(PointId::new);
+        let w = all.map(|id| if points.is_alive(id) { points.inverse_mass(id) } else { 0.0 });
+        Self { ids, constraints, w: w.collect() }
+    }
+
+    /// The place of a constraint, if it is switched on.
+    pub fn place(&self, id: ConstraintId) -> Option<usize> {
+        self.ids.binary_search(&id).ok()
+    }
+
+    pub fn with<T>(&self, x: &[crate::constraint::Point], ask: impl FnOnce(&Scene) -> T) -> T {
+        let constraints: Vec<&Constraint> = self.constraints.iter().collect();
+        ask(&Scene { constraints: &constraints, x, w: &self.w })
+    }
+}
+
+impl Settled {
+    pub fn with<T>(&self, ask: impl FnOnce(&Scene) -> T) -> T {
+        self.parts.with(self.world.points().column(), ask)
+    }
+
+    pub fn name(&self, place: usize) -> String {
+        self.world.name_of(Entity::Constraint(self.parts.ids[place])).to_owned()
+    }
+
+    pub fn names(&self, places: &[usize]) -> Vec<String> {
+        places.iter().map(|&k| self.name(k)).collect()
+    }
+
+    /// The size of what hangs together most widely, length units.
+    pub const fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// By how much a constraint is missed, in its own unit: length units, or degrees.
+    pub fn miss(&self, place: usize) -> String {
+        let constraint = &self.parts.constraints[place];
+        let missed = constraint.residual(self.world.points().column()).abs();
+        match constraint.kind() {
+            Kind::Orientation | Kind::Cog => {
+                format!("{} deg", format_rounded(missed.to_degrees()))
+            }
+            _ => format_rounded(missed),
+        }
+    }
+
+    /// How far a constraint is from being satisfied, length units.
+    pub fn violation(&self, place: usize) -> f64 {
+        self.parts.constraints[place].violation(self.world.points().column(), &self.parts.w)
+    }
+}
+
+impl Session {
+    /// The world at rest at the present time.
+    pub(super) fn settled(&self) -> Settled {
+        self.settled_of(self.world.clone())
+    }
+
+    /// A world brought to rest.
+    pub(super) fn settled_of(&self, mut world: World) -> Settled {
+        let mut solver = Solver::new();
+        let report = solver.settle(&mut world, &self.preferences.solve, &Budget::default());
+        let size = solver.size();
+        let slack = self.preferences.solve.tolerance.max(1e-9) * size;
+        Settled { parts: Parts::of(&world), world, report, slack, size }
+    }
+}
+
+/// More names than this in one sentence are counted.
+const MOST_NAMES: usize = 8;
+
+/// The first of many names as a list in words: `a, b, c and 20 more`.
+pub(super) fn listed_first(names: &[String]) -> String {
+    if names.len() <= MOST_NAMES + 1 {
+        return listed(names, "and");
+    }
+    let (first, others) = names.split_at(MOST_NAMES);
+    format!("{} and {} more", first.join(", "), others.len())
+}
+
+/// Names as a list in words: `a`, `a and b`, `a, b and c`.
+pub(super) fn listed<S: AsRef<str>>(names: &[S], last: &str) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.as_ref().to_owned(),
+        [first @ .., end] => {
+            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
+            format!("{} {last} {}", first.join(", "), end.as_ref())
+        }
+    }
+}

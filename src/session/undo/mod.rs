@@ -1,0 +1,6 @@
+//! What takes a command back, and does it again.
+
+pub mod journal;
+pub mod last_motion;
+pub mod recorder;
+pub mod transaction;

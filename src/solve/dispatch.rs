@@ -1,0 +1,269 @@
+//! What a call of the solver does with one island.
+
+use super::frame::{predict, settle};
+use super::island::{Island, wanted_length};
+use super::method::relaxation::Coefficient;
+use super::method::{Limits, Outcome, Pose};
+use super::method::{
+    anderson, conjugate_gradient, gauss_seidel, gradient_descent, nesterov, newton, relaxation,
+};
+use super::report::{Budget, Counters, Status};
+use super::settings::{Method, Settings};
+use crate::constraint::{Constraint, ConstraintKind, Point};
+use crate::world::{PointId, World};
+
+/// Rounds of a method before it counts as getting nowhere.
+const MOST_ROUNDS: u32 = 2_000;
+
+/// What a call does with each island.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Task {
+    /// The clock went one frame on.
+    Frame,
+    /// Bare iterations at the present time.
+    Relax,
+    /// Until solved or at rest, at the present time.
+    Settle,
+}
+
+/// A factorisation takes about as long as so many evaluations of each constraint.
+const FACTORISATION: u64 = 4;
+
+/// What a visit came to.
+pub(super) struct Visit {
+    /// How solving ended; none if there was nothing to solve.
+    pub outcome: Option<Outcome>,
+    /// The size of the island, length units.
+    pub size: f64,
+    /// The coefficient of relaxation, if it had to be lowered.
+    pub lowered: Option<f64>,
+}
+
+/// Solves an island. Touches nothing else: visits may be made in any order, or side by side.
+pub(super) fn visit(
+    island: &mut Island,
+    settings: &Settings,
+    budget: &Budget,
+    task: Task,
+    work: &mut Counters,
+) -> Visit {
+    let mut visit = Visit { outcome: None, size: 1.0, lowered: None };
+    work.islands_visited += 1;
+    island.remembered.take();
+    island.before = None;
+    let is_driven = !island.inputs.is_empty();
+    let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
+    if task == Task::Frame && !is_driven && is_at_rest {
+        // Nothing moved it for a whole frame: what comes next does not go on from before.
+        island.history.forget();
+        island.is_awake = false;
+        return visit;
+    }
+    island.prepare();
+    let limits = island.limits(settings, budget);
+    let is_first = island.is_new;
+    let before = *work;
+    if (island.is_new || island.is_edited) && task == Task::Frame && settings.method == Method::Auto
+    {
+        begin(island, &limits, work);
+    }
+    let could_follow = task == Task::Frame
+        && is_driven
+        && (island.status == Status::Converged || is_first && settings.method != Method::Auto);
+    if could_follow && settings.method != Method::Auto {
+        island.history.begin_anew(&island.x[..island.n_free]);
+    }
+    let (mut outcome, lowered) = solve(island, settings, &limits, task, work);
+    confirm(island, &mut outcome, settings, &limits, work);
+    if could_follow && !outcome.is_converged() {
+        island.note_halt(is_first);
+    }
+    let n_evaluations = work.evaluations - before.evaluations;
+    let n_factored =
+        (work.factorisations - before.factorisations) * island.constraints.len() as u64;
+    island.n_evaluations =
+        u32::try_from(n_evaluations + FACTORISATION * n_factored).unwrap_or(u32::MAX);
+    island.is_new = false;
+    island.is_edited = false;
+    island.status = outcome.status;
+    // What is not solved may have become much smaller.
+    let size = if outcome.is_converged() { limits.size } else { island.size() };
+    island.residual = outcome.worst / size;
+    island.settle_inputs();
+    visit.size = size;
+    visit.lowered = lowered;
+    island.is_awake = is_driven || outcome.status == Status::Stalled;
+    visit.outcome = Some(outcome);
+    visit
+}
+
+/// Works out what drove an island at the beginning of a frame that it was made in.
+pub(super) fn turn_back(island: &mut Island, dt: f64) {
+    island.settle_inputs();
+    for (c, constraint) in island.constraints.iter().enumerate() {
+        let mut before = constraint.clone();
+        if before.advance(-dt) {
+            island.inputs.note_values(c as u32, before);
+        }
+    }
+}
+
+/// Solves an island that is new as it was when its first frame began, so that the motion of
+/// that frame has a beginning.
+pub(super) fn begin(island: &mut Island, limits: &Limits, work: &mut Counters) {
+    if !island.inputs.is_empty() {
+        island.swap_inputs();
+        island.status = settle::settle(island, limits, work).status;
+        island.swap_inputs();
+    }
+}
+
+/// How often a pose is solved anew because its island became smaller.
+const MOST_CONFIRMATIONS: u32 = 4;
+
+/// Sees to it that what counts as solved does so by the size of the island as it is now: it may
+/// have been much larger before.
+pub(super) fn confirm(
+    island: &mut Island,
+    outcome: &mut Outcome,
+    settings: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) {
+    for n in 0..=MOST_CONFIRMATIONS {
+        let tolerance = limits.budget.tolerance.unwrap_or(settings.tolerance);
+        // The size is never below what the constraints ask for; and what is far below the
+        // tolerance is so whatever the size.
+        let enough = (tolerance * island.wanted()).max(1e-4 * limits.tolerance);
+        if !outcome.is_converged() || outcome.worst <= enough {
+            return;
+        }
+        let now = island.limits(settings, limits.budget);
+        if outcome.worst <= now.tolerance {
+            return;
+        }
+        if n == MOST_CONFIRMATIONS || limits.budget.is_spent() {
+            outcome.status = Status::Stalled;
+            return;
+        }
+        let n_iterations = outcome.n_iterations;
+        *outcome = solve(island, settings, &now, Task::Settle, work).0;
+        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
+    }
+}
+
+/// Solves an island by the chosen method; gives the coefficient of relaxation too, if it had
+/// to be lowered.
+pub(super) fn solve(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    task: Task,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    if settings.method == Method::Auto {
+        let outcome = match task {
+            Task::Frame => predict::frame(island, limits, work),
+            Task::Relax => settle::settle(island, limits, work),
+            Task::Settle => settle::settle_at_last(island, limits, work),
+        };
+        if task == Task::Frame && !outcome.is_converged() {
+            island.begin_velocities();
+        }
+        return (outcome, None);
+    }
+    island.history.forget();
+    island.feasible = None;
+    let mut lowered = None;
+    let mut outcome = iterate(island, settings, limits, &mut lowered, work);
+    if task == Task::Settle {
+        let mut n = outcome.n_iterations;
+        for _ in 0..MOST_ROUNDS {
+            if outcome.status != Status::Stalled || limits.budget.is_spent() {
+                break;
+            }
+            outcome = iterate(island, settings, limits, &mut lowered, work);
+            n = n.saturating_add(outcome.n_iterations);
+        }
+        outcome.n_iterations = n;
+    }
+    if outcome.is_converged() {
+        island.accept_pose();
+        island.update_sides();
+    } else if task == Task::Frame {
+        island.begin_velocities();
+    }
+    (outcome, lowered)
+}
+
+/// One round of a method.
+fn iterate(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    lowered: &mut Option<f64>,
+    work: &mut Counters,
+) -> Outcome {
+    let rho = settings.rho;
+    match settings.method {
+        Method::Relaxation | Method::Anderson => {
+            let mut coefficient = Coefficient::new(island, rho, work);
+            let outcome = if settings.method == Method::Relaxation {
+                relaxation::solve(island, &mut coefficient, limits, work)
+            } else {
+                anderson::solve(island, coefficient, limits, work)
+            };
+            *lowered = coefficient.lowered();
+            outcome
+        }
+        Method::Successive => gauss_seidel::solve(island, rho, limits, work),
+        Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
+            let mut workspace = island.take_workspace();
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            let points = &island.points[..island.n_free];
+            let outcome = match settings.method {
+                Method::Descent => gradient_descent::solve(&mut workspace, &mut pose, limits, work),
+                Method::Conjugate => {
+                    conjugate_gradient::solve(&mut workspace, &mut pose, limits, work)
+                }
+                Method::Nesterov => {
+                    nesterov::solve(&mut workspace, points, &mut pose, limits, work)
+                }
+                _ => newton::solve(&mut workspace, &mut pose, limits, work),
+            };
+            island.put_workspace(workspace);
+            outcome
+        }
+    }
+}
+
+/// Puts what was found back into the world.
+pub(super) fn write_back(island: &Island, world: &mut World) {
+    for (id, at) in island.points[..island.n_free].iter().zip(&island.x) {
+        world.set_position(*id, *at);
+    }
+    for &c in &island.stateful {
+        let c = c as usize;
+        if let Some(state) = island.constraints[c].state() {
+            world.constraint_state_mut(island.ids[c]).set_state(&state);
+        }
+    }
+}
+
+/// How far a constraint is from satisfaction, and how large what it holds is, length units.
+pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
+    let points = constraint.points().to_vec();
+    let x: Vec<_> = points.iter().map(|&p| world.points().at(PointId(p))).collect();
+    let w: Vec<f64> = points.iter().map(|&p| world.points().inverse_mass(PointId(p))).collect();
+    let mut local = constraint.clone();
+    local.map_points(|p| points.iter().position(|&q| q == p).expect("it holds it") as u32);
+    let extent = |of: fn(&Point) -> f64| {
+        let values = x.iter().map(of);
+        let (lo, hi) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        hi - lo
+    };
+    let size = extent(|p| p.x).max(extent(|p| p.y));
+    let size = size.max(wanted_length(constraint));
+    (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
+}

@@ -1,0 +1,69 @@
+//! What drives an island in a frame, between its beginning and its end.
+
+use crate::constraint::{Constraint, ConstraintKind, Field, Point, Turns};
+use crate::solve::island::Island;
+
+/// The values that change in a frame, at both of its ends.
+pub(crate) struct Ends {
+    constraints: Vec<(u32, Constraint, Constraint)>,
+    points: Vec<(u32, Point, Point)>,
+    /// The unwrapped angles and the like at the beginning.
+    states: Vec<(u32, Vec<f64>)>,
+}
+
+/// The values that a motion in between is made of. A speed is none: what it did to the angle is.
+const FIELDS: [Field; 7] =
+    [Field::Lo, Field::Hi, Field::X, Field::Y, Field::Radius, Field::Phase, Field::Ratio];
+
+impl Ends {
+    /// The ends of the frame an island is in: its present values, and those before.
+    pub fn of_frame(island: &mut Island) -> Self {
+        let constraints = island.inputs.constraints_before(&island.constraints).into_iter();
+        let constraints =
+            constraints.map(|(c, before)| (c, before, island.constraints[c as usize].clone()));
+        let points = island.inputs.points.iter();
+        let points = points.map(|&(p, before)| (p, before, island.x[p as usize]));
+        let (constraints, points) = (constraints.collect(), points.collect());
+        let states = island.stateful.iter();
+        let states = states.filter_map(|&c| Some((c, island.constraints[c as usize].state()?)));
+        Self { constraints, points, states: states.collect() }
+    }
+
+    /// Puts the island's values where they are at instant `t` of the frame, 0 to 1.
+    pub fn interpolate(&self, island: &mut Island, t: f64) {
+        for (c, before, after) in &self.constraints {
+            between(&mut island.constraints[*c as usize], before, after, t);
+        }
+        for (p, before, after) in &self.points {
+            island.x[*p as usize] = if t < 1.0 { *before + (*after - *before) * t } else { *after };
+        }
+    }
+
+    /// Takes back what was unwrapped in between.
+    pub fn restore_states(&self, island: &mut Island) {
+        for (c, state) in &self.states {
+            island.constraints[*c as usize].set_state(state);
+        }
+    }
+}
+
+/// Sets the values of a constraint to those at instant `t`.
+fn between(now: &mut Constraint, before: &Constraint, after: &Constraint, t: f64) {
+    for field in FIELDS {
+        if let (Some(a), Some(b)) = (before.get(field), after.get(field)) {
+            let is_between = t < 1.0 && a.is_finite() && b.is_finite();
+            let value = if is_between { a + (b - a) * t } else { b };
+            // Setting the ratio of wheels makes them go on from where they stand: not idle.
+            if now.get(field) != Some(value) {
+                now.set(field, value);
+            }
+        }
+    }
+    if let (Constraint::Motor(now), Constraint::Motor(before), Constraint::Motor(after)) =
+        (now, before, after)
+    {
+        let (from, to) = (before.turned(), after.turned());
+        let way = (to.total() - from.total()) * t;
+        now.set_turned(if t < 1.0 { from.plus(Turns::from_radians(way)) } else { to });
+    }
+}

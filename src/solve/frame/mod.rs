@@ -1,0 +1,11 @@
+//! A frame by the method `auto`: an island falls apart into steps that are solved one after the
+//! other, its pose is expected from those before, and a motion that is not understood so is
+//! followed in smaller steps.
+
+pub mod branch;
+pub mod decomposition;
+pub mod dyad;
+pub mod interpolate;
+pub mod predict;
+pub mod settle;
+pub mod substep;

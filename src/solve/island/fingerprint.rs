@@ -1,0 +1,72 @@
+//! Whether an island is what it was: its structure, its inputs and its pose, hashed.
+
+use super::Island;
+use crate::constraint::{ConstraintKind, Field};
+use crate::solve::frame::decomposition::n_firm_rows;
+
+/// What an island is made of, what drives it and how it lies, each as one number: equal
+/// numbers mean that nothing was edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Fingerprint {
+    pub structure: u64,
+    pub inputs: u64,
+    pub pose: u64,
+}
+
+/// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
+struct Hasher(u64);
+
+impl Default for Hasher {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01b3);
+        // Words differ most in their upper bits, which the product alone never moves down.
+        self.0 ^= self.0 >> 29;
+    }
+}
+
+/// Every value a constraint may have.
+const FIELDS: [Field; 8] = [
+    Field::Lo,
+    Field::Hi,
+    Field::X,
+    Field::Y,
+    Field::Radius,
+    Field::Speed,
+    Field::Phase,
+    Field::Ratio,
+];
+
+impl Island {
+    /// What later results depend on besides what is remembered.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut structure = Hasher::default();
+        structure.add(self.n_free as u64);
+        for (c, constraint) in self.constraints.iter().enumerate() {
+            structure.add(constraint.kind() as u64);
+            structure.add(n_firm_rows(constraint) as u64);
+            constraint.points().iter().for_each(|&p| structure.add(u64::from(p)));
+            let rho = self.own_rho.get(c).copied().flatten();
+            structure.add(rho.map_or(0, f64::to_bits));
+        }
+        let mut inputs = Hasher::default();
+        self.w.iter().for_each(|w| inputs.add(w.to_bits()));
+        for constraint in &self.constraints {
+            let values = FIELDS.iter().filter_map(|&field| constraint.get(field));
+            let values = values.chain(constraint.state().unwrap_or_default());
+            values.for_each(|value| inputs.add(value.to_bits()));
+        }
+        let mut pose = Hasher::default();
+        for (p, at) in self.x.iter().enumerate() {
+            let hasher = if p < self.n_free { &mut pose } else { &mut inputs };
+            hasher.add(at.x.to_bits());
+            hasher.add(at.y.to_bits());
+        }
+        Fingerprint { structure: structure.0, inputs: inputs.0, pose: pose.0 }
+    }
+}

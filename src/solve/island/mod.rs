@@ -1,0 +1,439 @@
+//! Points that constraints tie together, with everything the solver keeps about them.
+
+pub mod before;
+pub mod fingerprint;
+pub mod history;
+pub mod inputs;
+pub mod partition;
+pub mod snapshot;
+
+use std::sync::{Arc, OnceLock};
+
+use super::frame::branch::Watch;
+use super::frame::decomposition::{Plan, n_firm_rows};
+use super::method::rows::Equations;
+use super::method::spectrum::Spectrum;
+use super::method::{Limits, Workspace};
+use super::report::{Budget, Status};
+use super::settings::Settings;
+use crate::constraint::{Constraint, ConstraintKind, Field, Point};
+use crate::world::{ConstraintId, PointId, Record};
+use before::Before;
+use history::History;
+use inputs::Inputs;
+
+/// A set of points that are not frozen, connected by constraints, and the frozen points that
+/// these constraints hold too. Points have local indices here: free ones first, each group by
+/// handle; constraints lie by kind, then points, then handle. So an island does not know in
+/// what order its constraints were made.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+pub(crate) struct Island {
+    /// The handles of the points, by local index.
+    pub points: Vec<PointId>,
+    /// How many of them are free.
+    pub n_free: usize,
+    /// Where they are.
+    pub x: Vec<Point>,
+    /// Their inverse masses; 0 for frozen ones.
+    pub w: Vec<f64>,
+    /// The constraints, over local indices.
+    pub constraints: Vec<Constraint>,
+    /// Their handles.
+    pub ids: Vec<ConstraintId>,
+    /// The coefficients of those that have one of their own; empty if none has.
+    pub own_rho: Vec<Option<f64>>,
+    /// Those that carry something on from pose to pose: unwrapped angles and the like.
+    pub stateful: Vec<u32>,
+    /// What can be found point by point.
+    pub plan: Plan,
+    /// Up to which degree the motion of each free point is smooth enough to extrapolate.
+    pub degree: Vec<u8>,
+    /// Whether `degree` was worked out at a pose.
+    pub has_degree: bool,
+    /// Where the free points were.
+    pub history: History,
+    /// How the last solve ended.
+    pub status: Status,
+    /// The largest distance to satisfaction it left, relative to the size.
+    pub residual: f64,
+    /// The last pose that met everything, kept while none does.
+    pub feasible: Option<Box<[Point]>>,
+    /// The work of its last visit: evaluations of constraints, and what takes as long.
+    pub n_evaluations: u32,
+    /// Whether it was never solved.
+    pub is_new: bool,
+    /// Whether the user edited it since it was solved: it is solved as it is before time
+    /// goes on.
+    pub is_edited: bool,
+    /// Whether it is to be visited in the next frame: what is brought back sleeps on otherwise.
+    pub is_awake: bool,
+    /// The energy at which a way off a saddle was last looked for; 0 if not since the last
+    /// converged pose.
+    pub probed_at: f64,
+    /// What tells when a part that is solved as a whole turned over.
+    pub watch: Watch,
+    /// A point that may be on another branch since this frame.
+    pub turned_over: Option<u32>,
+    /// What drives the island in this frame, as it was before.
+    pub inputs: Inputs,
+    /// How it was before the last frame, if that could not be solved and the one before could.
+    pub before: Option<Box<Before>>,
+    /// The longest length that a constraint asks for; none once it may have changed.
+    wanted: Option<f64>,
+    /// The room for the island as a whole, while it is needed.
+    pub workspace: Option<Box<Workspace>>,
+    /// The room for each part the plan leaves to be solved as a whole; once needed.
+    pub part_workspaces: Vec<Workspace>,
+    /// What is remembered of it, once asked for since the last visit.
+    pub remembered: OnceLock<Arc<[f64]>>,
+    /// What limits the relaxation coefficient; once relaxation ran.
+    pub spectrum: Option<Box<Spectrum>>,
+}
+
+/// A constraint on its way into an island.
+pub(crate) struct Member<'a> {
+    /// Its handle.
+    pub id: ConstraintId,
+    /// The constraint, over handles of points.
+    pub constraint: &'a Constraint,
+    /// Its own coefficient.
+    pub rho: Option<f64>,
+}
+
+/// The evaluations of a constraint that a first visit is expected to make.
+const FIRST_VISIT: u32 = 20;
+
+impl Island {
+    /// The island of these constraints; `at` and `w` are the columns of all points.
+    pub fn new(
+        members: &mut [Member],
+        at: impl Fn(PointId) -> Point,
+        w: impl Fn(PointId) -> f64,
+    ) -> Self {
+        members.sort_by(|a, b| {
+            let (one, other) = (a.constraint, b.constraint);
+            let kinds = one.kind().cmp(&other.kind());
+            kinds.then_with(|| one.points().cmp(other.points())).then_with(|| a.id.cmp(&b.id))
+        });
+        let mut handles: Vec<u32> =
+            members.iter().flat_map(|m| m.constraint.points().iter().copied()).collect();
+        handles.sort_unstable();
+        handles.dedup();
+        let (free, frozen): (Vec<u32>, Vec<u32>) =
+            handles.into_iter().partition(|&p| w(PointId(p)) > 0.0);
+        let local = |p: u32| match free.binary_search(&p) {
+            Ok(k) => k as u32,
+            Err(_) => (free.len() + frozen.binary_search(&p).expect("each point is listed")) as u32,
+        };
+        let mut constraints = Vec::with_capacity(members.len());
+        for member in members.iter() {
+            let mut constraint = member.constraint.clone();
+            constraint.map_points(local);
+            constraints.push(constraint);
+        }
+        let own_rho = if members.iter().any(|m| m.rho.is_some()) {
+            members.iter().map(|m| m.rho).collect()
+        } else {
+            Vec::new()
+        };
+        let n_free = free.len();
+        let points: Vec<PointId> = free.iter().chain(&frozen).map(|&p| PointId(p)).collect();
+        let plan = Plan::new(&constraints, n_free, points.len());
+        let stateful = constraints.iter().enumerate();
+        let stateful = stateful.filter(|(_, c)| !matches!(c, Constraint::Motor(_)));
+        let stateful = stateful.filter(|(_, c)| c.state().is_some()).map(|(c, _)| c as u32);
+        let mut island = Self {
+            n_free,
+            stateful: stateful.collect(),
+            x: points.iter().map(|&p| at(p)).collect(),
+            w: points.iter().map(|&p| w(p)).collect(),
+            ids: members.iter().map(|m| m.id).collect(),
+            own_rho,
+            degree: vec![1; n_free],
+            has_degree: plan.is_complete(),
+            watch: Watch::new(&plan, &constraints),
+            turned_over: None,
+            constraints,
+            plan,
+            points,
+            history: History::default(),
+            status: Status::Stalled,
+            residual: f64::INFINITY,
+            feasible: None,
+            n_evaluations: FIRST_VISIT * members.len() as u32,
+            is_new: true,
+            is_edited: false,
+            is_awake: true,
+            probed_at: 0.0,
+            inputs: Inputs::default(),
+            before: None,
+            wanted: None,
+            workspace: None,
+            part_workspaces: Vec::new(),
+            remembered: OnceLock::new(),
+            spectrum: None,
+        };
+        for block in &island.plan.blocks {
+            // A single point with freedom left is as easily found from where it is.
+            island.degree[block.point as usize] = if block.is_determined { 3 } else { 0 };
+        }
+        island.update_sides();
+        island
+    }
+
+    /// The local index of a point of this island.
+    pub fn local_point(&self, id: PointId) -> Option<usize> {
+        let (free, frozen) = self.points.split_at(self.n_free);
+        free.binary_search(&id).ok().or_else(|| Some(self.n_free + frozen.binary_search(&id).ok()?))
+    }
+
+    /// Whether a record differs from the constraint `c` that stands here for it at most in its
+    /// values: same points, equality or not as before, same coefficient.
+    pub fn has_same(&self, c: usize, record: &Record) -> bool {
+        let (here, there) = (&self.constraints[c], &record.constraint);
+        let points = here.points().iter().map(|&p| self.points[p as usize].0);
+        here.kind() == there.kind()
+            && points.eq(there.points().iter().copied())
+            && n_firm_rows(here) == n_firm_rows(there)
+            && self.own_rho.get(c).copied().flatten() == record.rho()
+    }
+
+    /// Puts a constraint's values in place of those it has; it has the same points as before.
+    pub fn set_values(&mut self, c: usize, constraint: &Constraint) {
+        if let (Constraint::Motor(here), Constraint::Motor(there)) =
+            (&mut self.constraints[c], constraint)
+            && here.is_copy(there)
+        {
+            let before = here.heading();
+            if before != there.heading() {
+                here.set_heading(there.heading());
+                self.remembered.take();
+                self.inputs.note_turn(c as u32, before);
+            }
+            return;
+        }
+        let mut new = constraint.clone();
+        for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
+            *to = *from;
+        }
+        if new == self.constraints[c] {
+            // Deleted and brought back, or set to what it was.
+            return;
+        }
+        self.remembered.take();
+        if wanted_length(&new) != wanted_length(&self.constraints[c]) {
+            self.wanted = None;
+        }
+        let old = std::mem::replace(&mut self.constraints[c], new);
+        self.inputs.note_values(c as u32, old);
+    }
+
+    /// Puts a point elsewhere, from outside.
+    pub fn set_point(&mut self, p: usize, at: Point) {
+        self.remembered.take();
+        let old = std::mem::replace(&mut self.x[p], at);
+        if p >= self.n_free {
+            self.inputs.points.push((p as u32, old));
+        } else {
+            self.inputs.is_disturbed = true;
+        }
+    }
+
+    /// Notes whether the parts that are solved as a whole have no freedom left, so that their
+    /// motion is as smooth as what drives them.
+    pub fn set_smooth(&mut self, is_smooth: bool) {
+        self.has_degree = true;
+        let free_to_choose = self.plan.rest.iter().flat_map(|part| &part.points);
+        for &p in free_to_choose {
+            self.degree[p as usize] = if is_smooth { 3 } else { 1 };
+        }
+    }
+
+    /// Up to which degree the motion of any point is smooth enough to extrapolate.
+    pub fn highest_degree(&self) -> u8 {
+        self.degree.iter().copied().max().unwrap_or(0)
+    }
+
+    /// Whether the motion of what is solved as a whole counts as smooth.
+    pub fn is_smooth(&self) -> bool {
+        let first = self.plan.rest.first().and_then(|part| part.points.first());
+        first.is_some_and(|&p| self.degree[p as usize] > 1)
+    }
+
+    /// The user changed something since the last visit: a value, or the place of a free point.
+    /// Before time goes on the island has to be solved as it is now.
+    pub fn note_edit(&mut self, is_disturbed: bool) {
+        if is_disturbed {
+            // A point put elsewhere is a wish for another pose.
+            self.feasible = None;
+        } else if self.status == Status::Converged {
+            self.feasible = Some(self.x[..self.n_free].into());
+        }
+        self.status = Status::Stalled;
+        // A saddle of what was is not one of what is.
+        self.probed_at = 0.0;
+        self.is_edited = true;
+        self.is_awake = true;
+        self.history.forget();
+        self.inputs.clear();
+        self.remembered.take();
+    }
+
+    /// Keeps how it was before a frame that was just tried in vain.
+    pub fn note_halt(&mut self, is_first: bool) {
+        if self.history.origin().len() != self.n_free {
+            return;
+        }
+        let constraints = self.inputs.constraints_before(&self.constraints);
+        let mut x = self.x.clone();
+        x[..self.n_free].copy_from_slice(self.history.origin());
+        for &(p, before) in &self.inputs.points {
+            x[p as usize] = before;
+        }
+        self.before = Some(Box::new(Before { x, constraints, is_first }));
+    }
+
+    /// Exchanges the values that drive the island with those before.
+    pub fn swap_inputs(&mut self) {
+        self.inputs.swap(&mut self.constraints, &mut self.x);
+    }
+
+    /// The frame is over: its inputs are those of the present pose.
+    pub fn settle_inputs(&mut self) {
+        self.inputs.clear();
+    }
+
+    /// How large the island is: its extent, or the lengths it is to have. Never 0.
+    pub fn size(&self) -> f64 {
+        self.size_between(self.corners())
+    }
+
+    fn size_between(&self, (lo, hi): (Point, Point)) -> f64 {
+        let extent = (hi.x - lo.x).max(hi.y - lo.y);
+        let size = extent.max(self.wanted());
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+    }
+
+    /// The longest length that a constraint asks for, 0 if none does. The size is no less.
+    pub fn wanted(&self) -> f64 {
+        self.wanted
+            .unwrap_or_else(|| self.constraints.iter().map(wanted_length).fold(0.0, f64::max))
+    }
+
+    /// Keeps what is asked of it often and does not change until its values do.
+    pub fn prepare(&mut self) {
+        self.wanted = Some(self.wanted());
+    }
+
+    /// The least and the greatest coordinates of its points.
+    fn corners(&self) -> (Point, Point) {
+        let (mut lo, mut hi) = (self.x[0], self.x[0]);
+        for p in &self.x[1..] {
+            lo.x = if p.x < lo.x { p.x } else { lo.x };
+            lo.y = if p.y < lo.y { p.y } else { lo.y };
+            hi.x = if p.x > hi.x { p.x } else { hi.x };
+            hi.y = if p.y > hi.y { p.y } else { hi.y };
+        }
+        (lo, hi)
+    }
+
+    /// How far a method is to go on this island.
+    pub fn limits<'a>(&self, settings: &Settings, budget: &'a Budget<'a>) -> Limits<'a> {
+        let (lo, hi) = self.corners();
+        let size = self.size_between((lo, hi));
+        let farthest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
+        // A distance between numbers of this magnitude is not known any better.
+        let rounding = 8.0 * f64::EPSILON * farthest;
+        let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;
+        let tolerance = tolerance.max(rounding);
+        Limits { size, tolerance, n_iterations: settings.iterations, budget }
+    }
+
+    /// All constraints, to be met by moving all free points.
+    pub fn equations(&self) -> Equations {
+        let constraints = (0..self.constraints.len() as u32).collect();
+        let points = (0..self.n_free as u32).collect();
+        Equations::new(&self.constraints, constraints, points, &self.x, &self.w)
+    }
+
+    /// The room for methods that solve the island as a whole.
+    pub fn take_workspace(&mut self) -> Box<Workspace> {
+        if self.plan.is_one_part()
+            && let Some(workspace) = self.part_workspaces.pop()
+        {
+            return Box::new(workspace);
+        }
+        self.workspace.take().unwrap_or_else(|| Box::new(Workspace::new(self.equations())))
+    }
+
+    /// Keeps the room for what comes next.
+    pub fn put_workspace(&mut self, workspace: Box<Workspace>) {
+        if self.plan.is_one_part() {
+            // What is solved as one part is the island itself.
+            self.part_workspaces = vec![*workspace];
+        } else {
+            self.workspace = Some(workspace);
+        }
+    }
+
+    /// Gives up the room for the island as a whole, which is not needed while it can be
+    /// followed part by part.
+    pub fn drop_workspace(&mut self) {
+        self.workspace = None;
+    }
+
+    /// The blocks are on the sides they were found on.
+    pub fn keep_sides(&mut self) {
+        for block in &mut self.plan.blocks {
+            block.side = block.next_side;
+        }
+        self.watch.update(&self.x);
+    }
+
+    /// Tells the constraints that this pose counts: angles are unwrapped from here on.
+    pub fn accept_pose(&mut self) {
+        for &c in &self.stateful {
+            self.constraints[c as usize].accept(&self.x);
+        }
+        self.begin_velocities();
+    }
+
+    /// Whether displacements in a frame stand for velocities here: its length matters then, and
+    /// a frame in smaller steps would be another motion.
+    pub fn has_velocities(&self) -> bool {
+        let mut stateful = self.stateful.iter().map(|&c| &self.constraints[c as usize]);
+        stateful.any(|constraint| matches!(constraint, Constraint::CogVelocity(_)))
+    }
+
+    /// The next displacements, which stand for velocities, begin at this pose.
+    pub fn begin_velocities(&mut self) {
+        for &c in &self.stateful {
+            if let Constraint::CogVelocity(wheels) = &mut self.constraints[c as usize] {
+                wheels.begin_frame(&self.x, 0.0);
+            }
+        }
+    }
+
+    /// Works out on which side of its singular pose each block is.
+    pub fn update_sides(&mut self) {
+        for k in 0..self.plan.blocks.len() {
+            let block = &self.plan.blocks[k];
+            let which = &self.plan.constraints[block.first as usize..block.end as usize];
+            let side = super::frame::dyad::side(block, which, &self.constraints, &self.x);
+            self.plan.blocks[k].side = side;
+        }
+        self.watch.update(&self.x);
+    }
+}
+
+/// The length a constraint asks for, where it asks for one.
+pub(crate) fn wanted_length(constraint: &Constraint) -> f64 {
+    match constraint {
+        Constraint::Length(c) => {
+            let longest = if c.bounds.hi.is_finite() { c.bounds.hi } else { c.bounds.lo };
+            longest.abs()
+        }
+        Constraint::Motor(c) => c.get(Field::Radius).unwrap_or(0.0).abs(),
+        _ => 0.0,
+    }
+}

@@ -1,0 +1,340 @@
+//! Which constraints and points make which island, kept up to date edit by edit.
+
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::snapshot::Memory;
+use super::{Island, Member};
+use crate::constraint::ConstraintKind;
+use crate::solve::parallel::Effort;
+use crate::world::{ConstraintId, PointId, Touched, World};
+
+/// Not in any island.
+const NONE: u32 = u32::MAX;
+/// All points are frozen: in no island, but to be checked.
+const CHECKED: u32 = u32::MAX - 1;
+
+/// Where a constraint is looked after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Home {
+    /// Nowhere: it is switched off, or new.
+    None,
+    /// With those that only frozen points hold.
+    Checked,
+    /// In this island.
+    Island(u32),
+}
+
+/// All islands.
+#[derive(Default)]
+pub(crate) struct Topology {
+    islands: Vec<Option<Box<Island>>>,
+    vacant: Vec<u32>,
+    /// By handle of a point: its island, if it is free.
+    of_point: Vec<u32>,
+    /// By handle of a constraint: its island, and its local index there.
+    of_constraint: Vec<u32>,
+    local_constraint: Vec<u32>,
+    /// Constraints that hold only frozen points.
+    checked: BTreeSet<ConstraintId>,
+    /// What holds each frozen point. Made when it is first asked for, which a scene in which no
+    /// frozen point is moved never does, and kept up from then on.
+    holders: OnceCell<BTreeSet<(PointId, ConstraintId)>>,
+}
+
+impl Topology {
+    /// The islands that exist, with their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &Island)> {
+        let islands = self.islands.iter().enumerate();
+        islands.filter_map(|(k, island)| Some((k as u32, &**island.as_ref()?)))
+    }
+
+    /// One island, if it still exists.
+    pub fn get(&self, k: u32) -> Option<&Island> {
+        self.islands.get(k as usize)?.as_deref()
+    }
+
+    /// The same, for a change.
+    pub fn get_mut(&mut self, k: u32) -> Option<&mut Island> {
+        self.islands.get_mut(k as usize)?.as_deref_mut()
+    }
+
+    /// What visiting these islands was last time.
+    pub fn effort_of(&self, islands: &[u32]) -> Effort {
+        let mut effort = Effort::default();
+        for island in islands.iter().filter_map(|&k| self.get(k)) {
+            effort.n_constraints += island.constraints.len() as u64;
+            effort.n_evaluations += u64::from(island.n_evaluations);
+        }
+        effort
+    }
+
+    /// Takes an island out, to be given back before anything else is asked.
+    pub fn lend(&mut self, k: u32) -> Option<Box<Island>> {
+        self.islands.get_mut(k as usize)?.take()
+    }
+
+    /// Puts a lent island back.
+    pub fn give_back(&mut self, k: u32, island: Box<Island>) {
+        self.islands[k as usize] = Some(island);
+    }
+
+    /// The island a free point is in.
+    pub fn island_of_point(&self, id: PointId) -> Option<u32> {
+        self.of_point.get(id.idx()).copied().filter(|&k| k != NONE)
+    }
+
+    /// Where a constraint is looked after.
+    pub fn home(&self, id: ConstraintId) -> Home {
+        match self.of_constraint.get(id.idx()).copied().unwrap_or(NONE) {
+            NONE => Home::None,
+            CHECKED => Home::Checked,
+            k => Home::Island(k),
+        }
+    }
+
+    /// The local index of a constraint in its island.
+    pub fn local_constraint(&self, id: ConstraintId) -> usize {
+        self.local_constraint[id.idx()] as usize
+    }
+
+    /// The constraints that hold a frozen point, as far as they are looked after.
+    pub fn holders<'a>(
+        &'a self,
+        p: PointId,
+        world: &'a World,
+    ) -> impl Iterator<Item = ConstraintId> {
+        let all = self.holders.get_or_init(|| {
+            let islands = self.iter().flat_map(|(_, island)| frozen_points(island));
+            let checked = self.checked.iter().flat_map(|&id| points_of(id, world));
+            islands.chain(checked).collect()
+        });
+        let here = all.range((p, ConstraintId(0))..=(p, ConstraintId(u32::MAX)));
+        // One that changed since may hold it no longer.
+        here.map(|&(_, id)| id).filter(move |&id| points_of(id, world).any(|(q, _)| q == p))
+    }
+
+    /// The constraints that hold only frozen points.
+    pub fn checked(&self) -> impl Iterator<Item = ConstraintId> {
+        self.checked.iter().copied()
+    }
+
+    /// Takes apart what an edit touched and puts it together anew; gives the new islands.
+    /// What is remembered of those taken apart is added to `memory`.
+    pub fn update(&mut self, touched: &Touched, world: &World, memory: &mut Memory) -> Vec<u32> {
+        let n_points = world.points().column().len();
+        self.of_point.resize(n_points, NONE);
+        self.of_constraint.resize(world.next_constraint().idx(), NONE);
+        self.local_constraint.resize(world.next_constraint().idx(), NONE);
+        let mut loose = Loose { memory: std::mem::take(memory), ..Loose::default() };
+        if touched.all {
+            for island in self.islands.iter().flatten() {
+                loose.memory.insert(island);
+            }
+            self.clear();
+            for (id, _) in world.constraints().filter(|(_, record)| record.is_on) {
+                loose.constraints.insert(id);
+            }
+        } else {
+            self.loosen(touched, world, &mut loose);
+        }
+        let made = self.assemble(&loose, world);
+        *memory = loose.memory;
+        made
+    }
+
+    fn clear(&mut self) {
+        self.islands.clear();
+        self.vacant.clear();
+        self.of_point.fill(NONE);
+        self.of_constraint.fill(NONE);
+        self.checked.clear();
+        self.holders = OnceCell::new();
+    }
+
+    /// Collects all constraints whose island may change.
+    fn loosen(&mut self, touched: &Touched, world: &World, loose: &mut Loose) {
+        let changed: BTreeSet<ConstraintId> = touched.constraints.iter().copied().collect();
+        for &id in &changed {
+            self.dissolve_home(id, loose);
+            loose.constraints.remove(&id);
+        }
+        for &id in &changed {
+            if world.constraint(id).is_some_and(|record| record.is_on) {
+                loose.constraints.insert(id);
+            }
+        }
+        for &p in &touched.points {
+            if let Some(k) = self.island_of_point(p) {
+                self.dissolve(k, loose);
+            }
+            let holders: Vec<ConstraintId> = self.holders(p, world).collect();
+            for id in holders {
+                if self.home(id) != Home::None {
+                    self.dissolve_home(id, loose);
+                    loose.constraints.insert(id);
+                }
+            }
+        }
+        // What a loose constraint ties to an island becomes part of the same.
+        let mut pending: Vec<ConstraintId> = loose.constraints.iter().copied().collect();
+        while let Some(id) = pending.pop() {
+            let Some(record) = world.constraint(id) else { continue };
+            for &p in record.constraint.points() {
+                if let Some(k) = self.island_of_point(PointId(p)) {
+                    pending.extend(self.dissolve(k, loose));
+                }
+            }
+        }
+        // A constraint deleted in between may have been in one of these islands.
+        loose.constraints.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
+    }
+
+    fn dissolve_home(&mut self, id: ConstraintId, loose: &mut Loose) {
+        match self.home(id) {
+            Home::None => {}
+            Home::Island(k) => drop(self.dissolve(k, loose)),
+            Home::Checked => {
+                self.of_constraint[id.idx()] = NONE;
+                self.checked.remove(&id);
+                loose.constraints.insert(id);
+            }
+        }
+    }
+
+    /// Takes an island apart; gives its constraints.
+    fn dissolve(&mut self, k: u32, loose: &mut Loose) -> Vec<ConstraintId> {
+        let Some(island) = self.islands[k as usize].take() else { return Vec::new() };
+        self.vacant.push(k);
+        loose.memory.insert(&island);
+        for p in &island.points[..island.n_free] {
+            self.of_point[p.idx()] = NONE;
+        }
+        for id in &island.ids {
+            self.of_constraint[id.idx()] = NONE;
+            loose.constraints.insert(*id);
+        }
+        if let Some(holders) = self.holders.get_mut() {
+            for holder in frozen_points(&island) {
+                holders.remove(&holder);
+            }
+        }
+        island.ids
+    }
+
+    /// Puts loose constraints together to islands, by the free points they share.
+    fn assemble(&mut self, loose: &Loose, world: &World) -> Vec<u32> {
+        let points = world.points();
+        let is_free = |p: u32| !points.is_frozen(PointId(p));
+        let mut sets = Sets::default();
+        let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.constraints.len());
+        for &id in &loose.constraints {
+            let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
+            let mut free = constraint.points().iter().copied().filter(|&p| is_free(p));
+            let Some(first) = free.next() else {
+                self.of_constraint[id.idx()] = CHECKED;
+                self.checked.insert(id);
+                if let Some(holders) = self.holders.get_mut() {
+                    holders.extend(points_of(id, world));
+                }
+                continue;
+            };
+            let set = sets.enter(first);
+            for p in free {
+                let other = sets.enter(p);
+                sets.join(set, other);
+            }
+            members.push((set, id));
+        }
+        for (set, _) in &mut members {
+            *set = sets.root(*set);
+        }
+        members.sort_unstable();
+        let mut made = Vec::new();
+        for group in members.chunk_by(|a, b| a.0 == b.0) {
+            let mut group: Vec<Member> = group
+                .iter()
+                .map(|&(_, id)| {
+                    let record = world.constraint(id).expect("a loose constraint lives");
+                    Member { id, constraint: &record.constraint, rho: record.rho() }
+                })
+                .collect();
+            let island = Island::new(&mut group, |p| points.at(p), |p| points.inverse_mass(p));
+            let k = self.vacant.pop().unwrap_or_else(|| {
+                self.islands.push(None);
+                self.islands.len() as u32 - 1
+            });
+            for p in &island.points[..island.n_free] {
+                self.of_point[p.idx()] = k;
+            }
+            if let Some(holders) = self.holders.get_mut() {
+                holders.extend(frozen_points(&island));
+            }
+            for (c, id) in island.ids.iter().enumerate() {
+                self.of_constraint[id.idx()] = k;
+                self.local_constraint[id.idx()] = c as u32;
+            }
+            self.islands[k as usize] = Some(Box::new(island));
+            made.push(k);
+        }
+        made
+    }
+}
+
+/// The points of a constraint, each with the constraint.
+fn points_of(id: ConstraintId, world: &World) -> impl Iterator<Item = (PointId, ConstraintId)> {
+    let points = world.constraint(id).map(|record| record.constraint.points());
+    points.into_iter().flatten().map(move |&p| (PointId(p), id))
+}
+
+/// The frozen points of an island, each with a constraint that holds it.
+fn frozen_points(island: &Island) -> impl Iterator<Item = (PointId, ConstraintId)> {
+    let constraints = island.constraints.iter().zip(&island.ids);
+    constraints.flat_map(move |(constraint, &id)| {
+        let frozen = constraint.points().iter().filter(|&&p| p as usize >= island.n_free);
+        frozen.map(move |&p| (island.points[p as usize], id))
+    })
+}
+
+/// Constraints that belong to no island for the moment.
+#[derive(Default)]
+struct Loose {
+    constraints: BTreeSet<ConstraintId>,
+    /// What is remembered of the islands they were in.
+    memory: Memory,
+}
+
+/// Disjoint sets of points.
+#[derive(Default)]
+struct Sets {
+    of_point: BTreeMap<u32, u32>,
+    parent: Vec<u32>,
+}
+
+impl Sets {
+    /// The set of a point, made if there is none.
+    fn enter(&mut self, p: u32) -> u32 {
+        let next = self.parent.len() as u32;
+        let set = *self.of_point.entry(p).or_insert(next);
+        if set == next {
+            self.parent.push(next);
+        }
+        set
+    }
+
+    fn root(&mut self, set: u32) -> u32 {
+        let mut k = set;
+        while self.parent[k as usize] != k {
+            let above = self.parent[self.parent[k as usize] as usize];
+            self.parent[k as usize] = above;
+            k = above;
+        }
+        k
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        // The older set stays: roots do not depend on the order of joins.
+        self.parent[a.max(b) as usize] = a.min(b);
+    }
+}

@@ -1,0 +1,90 @@
+//! Velocities and accelerations at a solution: the equations, differentiated in time.
+//!
+//! f(x, t) = 0 holds at all times, so J v = -df/dt with the points held, and J a = minus
+//! what is left of the second derivative when the points move on with constant v. Where
+//! there is freedom left the shortest v and a are taken.
+
+use super::island::Island;
+use super::method::Workspace;
+use super::method::rows::{add_row, dot_row};
+use super::report::Counters;
+use crate::constraint::{ConstraintKind, Field, Jet, PointIdx, Real, Vec2, Vector};
+use crate::world::{ConstraintId, Rates};
+
+/// Far below the smallest square of a singular value that matters; the repetitions remove
+/// what it does to the result.
+const FLOOR: f64 = 1e-10;
+/// Repetitions of the solve on what is left; each gains the digits that the floor costs.
+const REPETITIONS: u32 = 4;
+
+/// The values of constraints that change in time, in order of constraint.
+pub(super) type FieldRates = [(ConstraintId, Field, Jet)];
+
+/// Works out the rates of the free points of an island.
+pub(super) fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
+    let mut workspace = island.take_workspace();
+    let mut work = Counters::default();
+    workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, &mut work);
+    workspace.assemble().factor(FLOOR);
+    let mut motion = vec![[Vector::ZERO; 2]; island.x.len()];
+    for order in 0..2 {
+        let rhs = right_side(island, &workspace, fields, &motion, order);
+        let y = shortest(&mut workspace, &rhs);
+        let (y, _) = y.as_chunks::<2>();
+        for (p, y) in y.iter().enumerate() {
+            motion[p][order] = Vector::new(y[0], y[1]) * island.w[p].sqrt();
+        }
+    }
+    for (id, [velocity, acceleration]) in island.points[..island.n_free].iter().zip(motion) {
+        rates.velocity[id.idx()] = velocity;
+        rates.acceleration[id.idx()] = acceleration;
+    }
+    island.put_workspace(workspace);
+}
+
+/// What the rows of J times the unknown rates have to be.
+fn right_side(
+    island: &Island,
+    workspace: &Workspace,
+    fields: &FieldRates,
+    motion: &[[Vector; 2]],
+    order: usize,
+) -> Vec<f64> {
+    let place = |p: PointIdx| {
+        let (x, [v, _]) = (island.x[p as usize], motion[p as usize]);
+        Vec2 { x: Jet::new(x.x, v.x, 0.0), y: Jet::new(x.y, v.y, 0.0) }
+    };
+    let mut rhs = Vec::with_capacity(workspace.equations.n_rows());
+    for (id, constraint) in island.ids.iter().zip(&island.constraints) {
+        let first = fields.partition_point(|(other, ..)| other < id);
+        let own = fields[first..].iter().take_while(|(other, ..)| other == id);
+        let field = |field: Field, value: f64| {
+            let driven = own.clone().find(|(_, f, _)| *f == field);
+            driven.map_or(Jet::constant(value), |(_, _, jet)| Jet::new(value, jet.d, jet.dd))
+        };
+        constraint.equations(&place, &field, &mut |f: Jet| {
+            rhs.push(-if order == 0 { f.d } else { f.dd });
+        });
+    }
+    for (value, scale) in rhs.iter_mut().zip(workspace.rows.scales()) {
+        *value = if value.is_finite() { *value * scale } else { 0.0 };
+    }
+    rhs
+}
+
+/// The shortest y for which J y comes nearest to the right side.
+fn shortest(workspace: &mut Workspace, rhs: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; 2 * workspace.equations.points().len()];
+    let mut d = y.clone();
+    for _ in 0..REPETITIONS {
+        d.fill(0.0);
+        for ((_, unknowns, gradient, _), rhs) in workspace.rows.iter(&workspace.equations).zip(rhs)
+        {
+            let left = rhs - dot_row(&y, unknowns, gradient);
+            add_row(&mut d, unknowns, gradient, left);
+        }
+        workspace.matrix().solve(&mut d);
+        y.iter_mut().zip(&d).for_each(|(y, d)| *y += d);
+    }
+    y
+}

@@ -1,0 +1,79 @@
+//! Edits that would change nothing.
+
+use super::motion::States;
+use super::{Edit, Parameter, Record, Value, World};
+use crate::constraint::{Constraint, ConstraintKind, Field, Point};
+
+impl World {
+    /// Whether an edit would leave everything as it is. Says no where that is not seen at once.
+    pub fn is_already(&self, edit: &Edit) -> bool {
+        match edit {
+            Edit::Move(id, at) => same_place(&self.points.at(*id), at),
+            Edit::Start(id, at) => same_place(&self.points.start(*id), at),
+            Edit::Freeze(id, is_frozen) => self.points.is_frozen(*id) == *is_frozen,
+            Edit::Weight(id, weight) => self.points.weight(*id) == *weight,
+            Edit::Switch(id, is_on) => self.constraint(*id).is_some_and(|r| r.is_on == *is_on),
+            Edit::Constraint(id, Some(then)) => {
+                self.constraint(*id).is_some_and(|now| is_same_record(now, then))
+            }
+            Edit::Parameter(id, Some(then)) => {
+                self.parameter(*id).is_some_and(|now| is_same_number(now, then))
+            }
+            Edit::Clock(clock) => **clock == self.clock,
+            Edit::StartState(id, state) => {
+                self.start_states.get(id).map(|state| bits(state)) == state.as_deref().map(bits)
+            }
+            Edit::StartStates(states) => are_same_states(states, &self.start_states),
+            Edit::Motion(motion) => self.is_at(motion),
+            _ => false,
+        }
+    }
+}
+
+// The same means to the bit: 0 and -0 differ.
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
+}
+
+/// Whether two points are in the same place.
+pub(super) fn same_place(a: &Point, b: &Point) -> bool {
+    [a.x.to_bits(), a.y.to_bits()] == [b.x.to_bits(), b.y.to_bits()]
+}
+
+/// Whether two lists are of the same places.
+#[allow(clippy::ptr_arg, reason = "a measure for `share`")]
+pub(super) fn are_same_places(a: &Vec<Point>, b: &Vec<Point>) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_place(a, b))
+}
+
+/// Whether the same constraints are in the same states.
+pub(super) fn are_same_states(a: &States, b: &States) -> bool {
+    let is_same = |((i, a), (j, b)): ((_, &Vec<f64>), (_, &Vec<f64>))| i == j && bits(a) == bits(b);
+    a.len() == b.len() && a.iter().zip(b).all(is_same)
+}
+
+/// A record that stays in being keeps its name; one with live values counts as changed.
+fn is_same_record(a: &Record, b: &Record) -> bool {
+    let is_plain = a.drivers().is_empty() && b.drivers().is_empty();
+    is_plain
+        && (a.is_on, a.rho()) == (b.is_on, b.rho())
+        && a.constraint == b.constraint
+        && numbers(&a.constraint) == numbers(&b.constraint)
+}
+
+/// The bits of all numbers of a constraint.
+fn numbers(constraint: &Constraint) -> Vec<u64> {
+    let values = Field::ALL.iter().filter_map(|&field| constraint.get(field));
+    let state = constraint.state().into_iter().flatten();
+    values.chain(state).chain(constraint.captured()).map(f64::to_bits).collect()
+}
+
+fn is_same_number(a: &Parameter, b: &Parameter) -> bool {
+    let is_fixed = |p: &Parameter| p.formula.depends().is_constant() && p.depends.is_constant();
+    let number = |p: &Parameter| match p.value {
+        Some(Value::Number(number)) => Some(number.to_bits()),
+        _ => None,
+    };
+    is_fixed(a) && is_fixed(b) && number(a).is_some() && number(a) == number(b)
+}
