@@ -29,7 +29,7 @@ fn world(script: &str) -> World {
 
 fn pass(world: &mut World, solver: &mut Solver) -> Counters {
     let settings = Settings::default();
-    solver.pass(world, &settings, &Budget::default()).expect("values at every time").counters
+    solver.step(world, &settings, &Budget::default()).expect("values at every time").counters
 }
 
 /// The work of some frames of a scene, once it has come to rest.

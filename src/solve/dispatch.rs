@@ -2,11 +2,7 @@
 
 use super::frame::{predict, settle};
 use super::island::{Island, wanted_length};
-use super::method::relaxation::Coefficient;
-use super::method::{Limits, Outcome, Pose};
-use super::method::{
-    anderson, conjugate_gradient, gauss_seidel, gradient_descent, nesterov, newton, relaxation,
-};
+use super::method::{self, Limits, Outcome};
 use super::report::{Budget, Counters, Status};
 use super::settings::{Method, Settings};
 use crate::constraint::{Constraint, ConstraintKind, Point};
@@ -24,6 +20,15 @@ pub(super) enum Task {
     Relax,
     /// Until solved or at rest, at the present time.
     Settle,
+}
+
+/// What changed the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cause {
+    /// Time went on, and what it drives.
+    Clock,
+    /// The user.
+    Hand,
 }
 
 /// A factorisation takes about as long as so many evaluations of each constraint.
@@ -161,7 +166,7 @@ pub(super) fn solve(
     task: Task,
     work: &mut Counters,
 ) -> (Outcome, Option<f64>) {
-    if settings.method == Method::Auto {
+    let Some(round) = method::round_of(settings.method) else {
         let outcome = match task {
             Task::Frame => predict::frame(island, limits, work),
             Task::Relax => settle::settle(island, limits, work),
@@ -171,18 +176,17 @@ pub(super) fn solve(
             island.begin_velocities();
         }
         return (outcome, None);
-    }
+    };
     island.history.forget();
     island.feasible = None;
-    let mut lowered = None;
-    let mut outcome = iterate(island, settings, limits, &mut lowered, work);
+    let (mut outcome, mut lowered) = round(island, settings, limits, work);
     if task == Task::Settle {
         let mut n = outcome.n_iterations;
         for _ in 0..MOST_ROUNDS {
             if outcome.status != Status::Stalled || limits.budget.is_spent() {
                 break;
             }
-            outcome = iterate(island, settings, limits, &mut lowered, work);
+            (outcome, lowered) = round(island, settings, limits, work);
             n = n.saturating_add(outcome.n_iterations);
         }
         outcome.n_iterations = n;
@@ -194,47 +198,6 @@ pub(super) fn solve(
         island.begin_velocities();
     }
     (outcome, lowered)
-}
-
-/// One round of a method.
-fn iterate(
-    island: &mut Island,
-    settings: &Settings,
-    limits: &Limits,
-    lowered: &mut Option<f64>,
-    work: &mut Counters,
-) -> Outcome {
-    let rho = settings.rho;
-    match settings.method {
-        Method::Relaxation | Method::Anderson => {
-            let mut coefficient = Coefficient::new(island, rho, work);
-            let outcome = if settings.method == Method::Relaxation {
-                relaxation::solve(island, &mut coefficient, limits, work)
-            } else {
-                anderson::solve(island, coefficient, limits, work)
-            };
-            *lowered = coefficient.lowered();
-            outcome
-        }
-        Method::Successive => gauss_seidel::solve(island, rho, limits, work),
-        Method::Auto | Method::Newton | Method::Descent | Method::Conjugate | Method::Nesterov => {
-            let mut workspace = island.take_workspace();
-            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-            let points = &island.points[..island.n_free];
-            let outcome = match settings.method {
-                Method::Descent => gradient_descent::solve(&mut workspace, &mut pose, limits, work),
-                Method::Conjugate => {
-                    conjugate_gradient::solve(&mut workspace, &mut pose, limits, work)
-                }
-                Method::Nesterov => {
-                    nesterov::solve(&mut workspace, points, &mut pose, limits, work)
-                }
-                _ => newton::solve(&mut workspace, &mut pose, limits, work),
-            };
-            island.put_workspace(workspace);
-            outcome
-        }
-    }
 }
 
 /// Puts what was found back into the world.

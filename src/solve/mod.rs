@@ -7,7 +7,6 @@
 
 // The face: what is asked, what comes back.
 mod dead_point;
-mod pass;
 mod report;
 mod settings;
 mod solver;

@@ -6,11 +6,6 @@
 
 use rayon::prelude::*;
 
-use super::dispatch::{Task, Visit, visit};
-use super::island::Island;
-use super::report::{Budget, Counters};
-use super::settings::Settings;
-
 /// Less work than so many evaluations of constraints is done sooner than others are called; see
 /// docs/performance.md.
 const ENOUGH: u64 = 30_000;
@@ -23,14 +18,7 @@ pub(super) const ENOUGH_FOR_A_SWEEP: usize = 20_000;
 /// How many constraints or points one core takes at a time in a sweep.
 pub(super) const SHARE: usize = 2_048;
 /// How many islands.
-const ISLANDS: usize = 16;
-
-/// Whether visiting islands is worth sharing, by the work they were last time.
-pub(super) fn pays(last: &Effort) -> bool {
-    last.n_evaluations >= ENOUGH
-        && last.n_evaluations >= ENOUGH_EACH * last.n_constraints
-        && rayon::current_num_threads() > 1
-}
+pub(super) const ISLANDS: usize = 16;
 
 /// The work that islands were when they were last visited.
 #[derive(Debug, Default)]
@@ -41,29 +29,31 @@ pub(super) struct Effort {
     pub n_evaluations: u64,
 }
 
-/// An island on its way through a visit.
-pub(super) struct Guest {
-    /// Its number.
-    pub k: u32,
-    /// The island.
-    pub island: Box<Island>,
-    /// What the visit came to.
-    pub visit: Option<Visit>,
+/// Whether visiting islands is worth sharing, by the work they were last time.
+pub(super) fn pays(last: &Effort) -> bool {
+    last.n_evaluations >= ENOUGH
+        && last.n_evaluations >= ENOUGH_EACH * last.n_constraints
+        && rayon::current_num_threads() > 1
 }
 
-/// Visits islands side by side.
-pub(super) fn visit_all(
-    guests: &mut [Guest],
-    settings: &Settings,
-    tolerance: Option<f64>,
-    task: Task,
-) -> Counters {
-    let each = |guest: &mut Guest| {
-        let mut work = Counters::default();
-        let budget = Budget { tolerance, stop: None };
-        guest.visit = Some(visit(&mut guest.island, settings, &budget, task, &mut work));
-        work
-    };
-    let guests = guests.par_iter_mut().with_min_len(ISLANDS);
-    guests.map(each).reduce(Counters::default, |a, b| a.plus(&b))
+/// Does something with each item, at least `n_least` of them on one core, and puts together what
+/// came out. The order in which that is put together depends on the cores: `reduce` must not
+/// care.
+pub(super) fn map_reduce<I: Send, T: Send + Sync + Copy>(
+    items: &mut [I],
+    n_least: usize,
+    map: impl Fn(&mut I) -> T + Send + Sync,
+    identity: T,
+    reduce: impl Fn(T, T) -> T + Send + Sync,
+) -> T {
+    items.par_iter_mut().with_min_len(n_least).map(map).reduce(|| identity, reduce)
+}
+
+/// Does something with each piece of so many items, by its number.
+pub(super) fn for_each_chunk<T: Send>(
+    items: &mut [T],
+    n_each: usize,
+    work: impl Fn(usize, &mut [T]) + Send + Sync,
+) {
+    items.par_chunks_mut(n_each).enumerate().for_each(|(k, chunk)| work(k, chunk));
 }

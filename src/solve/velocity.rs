@@ -5,11 +5,13 @@
 //! there is freedom left the shortest v and a are taken.
 
 use super::island::Island;
+use super::island::partition::Partition;
 use super::method::Workspace;
 use super::method::rows::{add_row, dot_row};
 use super::report::Counters;
 use crate::constraint::{ConstraintKind, Field, Jet, PointIdx, Real, Vec2, Vector};
-use crate::world::{ConstraintId, Rates};
+use crate::diag::Diagnostic;
+use crate::world::{ConstraintId, Rates, World};
 
 /// Far below the smallest square of a singular value that matters; the repetitions remove
 /// what it does to the result.
@@ -17,11 +19,38 @@ const FLOOR: f64 = 1e-10;
 /// Repetitions of the solve on what is left; each gains the digits that the floor costs.
 const REPETITIONS: u32 = 4;
 
+/// Rounds until rates and what is measured on them agree. Each gains the digits by which the
+/// measured value is the weaker cause.
+const MEASURED_ROUNDS: u32 = 8;
+
 /// The values of constraints that change in time, in order of constraint.
-pub(super) type FieldRates = [(ConstraintId, Field, Jet)];
+type FieldRates = [(ConstraintId, Field, Jet)];
+
+/// Velocities and accelerations of all points, where the solver has taken in the world.
+///
+/// # Errors
+/// A live value that has none now.
+pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rates, Diagnostic> {
+    let n = world.points().column().len();
+    let still = || vec![Vector::ZERO; n];
+    let mut rates = Rates { velocity: still(), acceleration: still() };
+    // What is measured on moving points changes as they move, which moves them.
+    let n_rounds = if world.is_mutual() { MEASURED_ROUNDS } else { 1 };
+    for _ in 0..n_rounds {
+        let mut fields = world.field_rates(&rates)?;
+        fields.sort_by_key(|(id, ..)| *id);
+        let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
+        for k in all {
+            if let Some(island) = partition.get_mut(k) {
+                solve(island, &fields, &mut rates);
+            }
+        }
+    }
+    Ok(rates)
+}
 
 /// Works out the rates of the free points of an island.
-pub(super) fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
+fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
     let mut workspace = island.take_workspace();
     let mut work = Counters::default();
     workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, &mut work);

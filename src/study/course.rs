@@ -182,7 +182,7 @@ impl<'a> Replay<'a> {
                     self.world.apply(Edit::Move(hand.point, to));
                 }
             }
-            let report = self.solver.pass(&mut self.world, settings, budget)?;
+            let report = self.solver.step(&mut self.world, settings, budget)?;
             let worst = all.get_or_insert(report);
             worst.status = worst.status.max(report.status);
             worst.residual = worst.residual.max(report.residual);

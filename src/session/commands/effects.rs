@@ -147,12 +147,12 @@ impl Session {
         let settings = &self.preferences.solve;
         // The first frames bring the copy to its pace.
         for _ in 0..2 {
-            let Ok(report) = solver.pass(&mut world, settings, &Budget::default()) else { return };
+            let Ok(report) = solver.step(&mut world, settings, &Budget::default()) else { return };
             effects.islands = (solver.n_islands().0, report.counters.islands_visited as usize);
         }
         let begun = self.host.seconds();
         while effects.n_frames < TIMED_FRAMES && self.host.seconds() - begun < TIMED_SECONDS {
-            if solver.pass(&mut world, settings, &Budget::default()).is_err() {
+            if solver.step(&mut world, settings, &Budget::default()).is_err() {
                 break;
             }
             world.sample_traces(false);

@@ -251,7 +251,7 @@ impl Session {
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
-        solver.pass(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
+        solver.step(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
     }
 
     pub(crate) fn relax(&mut self, n: Option<&Expr>) -> Result<Flow, Diagnostic> {

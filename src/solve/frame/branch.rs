@@ -1,21 +1,20 @@
 //! Whether something turned over from one pose to another: on which side of its neighbours
 //! each point is.
 
-use super::decomposition::{Block, Part, Plan};
+use super::decomposition::{Part, Plan};
 use crate::constraint::{Constraint, ConstraintKind, Point, PointIdx};
-use crate::solve::island::Island;
 
 /// A triangle flatter than this, as the sine of an angle, has no side.
-const FLAT: f64 = 1e-6;
+pub(crate) const FLAT: f64 = 1e-6;
 
 /// Triangles of points that bars tie together, in the parts of an island that are solved as a
 /// whole. Points found one by one have a side already, see [`super::decomposition::Block`].
 #[derive(Debug, Default)]
 pub(crate) struct Watch {
     /// A point and the other ends of two of its bars.
-    triangles: Vec<[PointIdx; 3]>,
+    pub triangles: Vec<[PointIdx; 3]>,
     /// On which side each point was when last looked at: 1, -1, or 0 if next to none.
-    sides: Vec<f64>,
+    pub sides: Vec<f64>,
 }
 
 impl Watch {
@@ -55,7 +54,7 @@ impl Watch {
     }
 
     /// A point that is on the other side than when last looked at.
-    fn turned_over(&self, x: &[Point]) -> Option<PointIdx> {
+    pub fn turned_over(&self, x: &[Point]) -> Option<PointIdx> {
         let both = self.sides.iter().zip(&self.triangles);
         both.filter(|(before, t)| *before * side(**t, x) < 0.0).map(|(_, t)| t[0]).next()
     }
@@ -75,50 +74,4 @@ fn side([p, a, b]: [PointIdx; 3], x: &[Point]) -> f64 {
     let (area, size) = (a.cross(b), a.norm_squared() * b.norm_squared());
     // Squares, so that no root is taken where nothing is needed but a sign.
     if area * area > FLAT * FLAT * size { area.signum() } else { 0.0 }
-}
-
-/// On which side everything is.
-pub(crate) struct Sides(Vec<f64>);
-
-impl Island {
-    /// On which side each block and each watched point is.
-    pub fn sides(&self) -> Sides {
-        let blocks = self.plan.blocks.iter().map(|block| block.side);
-        Sides(blocks.chain(self.watch.sides.iter().copied()).collect())
-    }
-
-    /// Puts sides back.
-    pub fn set_sides(&mut self, sides: Sides) {
-        let mut sides = sides.0.into_iter();
-        self.plan.blocks.iter_mut().zip(&mut sides).for_each(|(block, side)| block.side = side);
-        self.watch.sides.iter_mut().zip(&mut sides).for_each(|(to, side)| *to = side);
-    }
-
-    /// A watched point that is on the other side than at the last pose that counted. Points
-    /// with freedom left may be on any side.
-    pub fn watched_point_over(&self) -> Option<PointIdx> {
-        self.is_smooth().then(|| self.watch.turned_over(&self.x))?
-    }
-
-    /// A point that is on the other side than it was.
-    pub fn changed_since(&self, before: &Sides) -> Option<PointIdx> {
-        let now = self.sides();
-        let blocks = self.plan.blocks.iter();
-        let blocks = blocks.map(|block| block.is_determined.then_some(block.point));
-        let watched = self.watch.triangles.iter().map(|t| self.is_smooth().then_some(t[0]));
-        let mut both = before.0.iter().zip(&now.0).zip(blocks.chain(watched));
-        let over = |((a, b), point): ((&f64, &f64), Option<PointIdx>)| {
-            point.filter(|_| a * b < 0.0 && a.abs().min(b.abs()) > FLAT)
-        };
-        both.find_map(over)
-    }
-
-    /// Notes what is on the other side at a pose that was tried, as against the last that
-    /// counted.
-    pub fn note_turning_over(&mut self) {
-        let is_over = |block: &&Block| block.is_determined && block.side * block.next_side < 0.0;
-        let block = self.plan.blocks.iter().find(is_over);
-        let point = block.map(|block| block.point).or_else(|| self.watched_point_over());
-        self.turned_over = self.turned_over.or(point);
-    }
 }

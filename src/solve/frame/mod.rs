@@ -2,6 +2,7 @@
 //! other, its pose is expected from those before, and a motion that is not understood so is
 //! followed in smaller steps.
 
+pub mod attempt;
 pub mod branch;
 pub mod decomposition;
 pub mod dyad;

@@ -3,7 +3,8 @@
 
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
-use crate::solve::method::relaxation::{self, Coefficient};
+use crate::solve::method::coefficient::Coefficient;
+use crate::solve::method::relaxation;
 use crate::solve::method::spectrum::{Spectrum, noise};
 use crate::solve::method::{Limits, Outcome, Pose, Workspace};
 use crate::solve::method::{conjugate_gradient, newton};

@@ -1,8 +1,8 @@
 //! A frame in smaller steps: what drives the island is interpolated between the last frame
 //! and the present one, and each step is expected from those before it.
 
+use super::attempt::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use super::interpolate::Ends;
-use super::predict::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
 use crate::solve::method::Limits;

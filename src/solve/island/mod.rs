@@ -5,13 +5,14 @@ pub mod fingerprint;
 pub mod history;
 pub mod inputs;
 pub mod partition;
+pub mod sides;
 pub mod snapshot;
+pub mod workspaces;
 
 use std::sync::{Arc, OnceLock};
 
 use super::frame::branch::Watch;
 use super::frame::decomposition::{Plan, n_firm_rows};
-use super::method::rows::Equations;
 use super::method::spectrum::Spectrum;
 use super::method::{Limits, Workspace};
 use super::report::{Budget, Status};
@@ -347,39 +348,6 @@ impl Island {
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;
         let tolerance = tolerance.max(rounding);
         Limits { size, tolerance, n_iterations: settings.iterations, budget }
-    }
-
-    /// All constraints, to be met by moving all free points.
-    pub fn equations(&self) -> Equations {
-        let constraints = (0..self.constraints.len() as u32).collect();
-        let points = (0..self.n_free as u32).collect();
-        Equations::new(&self.constraints, constraints, points, &self.x, &self.w)
-    }
-
-    /// The room for methods that solve the island as a whole.
-    pub fn take_workspace(&mut self) -> Box<Workspace> {
-        if self.plan.is_one_part()
-            && let Some(workspace) = self.part_workspaces.pop()
-        {
-            return Box::new(workspace);
-        }
-        self.workspace.take().unwrap_or_else(|| Box::new(Workspace::new(self.equations())))
-    }
-
-    /// Keeps the room for what comes next.
-    pub fn put_workspace(&mut self, workspace: Box<Workspace>) {
-        if self.plan.is_one_part() {
-            // What is solved as one part is the island itself.
-            self.part_workspaces = vec![*workspace];
-        } else {
-            self.workspace = Some(workspace);
-        }
-    }
-
-    /// Gives up the room for the island as a whole, which is not needed while it can be
-    /// followed part by part.
-    pub fn drop_workspace(&mut self) {
-        self.workspace = None;
     }
 
     /// The blocks are on the sides they were found on.

@@ -27,7 +27,7 @@ pub(crate) enum Home {
 
 /// All islands.
 #[derive(Default)]
-pub(crate) struct Topology {
+pub(crate) struct Partition {
     islands: Vec<Option<Box<Island>>>,
     vacant: Vec<u32>,
     /// By handle of a point: its island, if it is free.
@@ -42,7 +42,7 @@ pub(crate) struct Topology {
     holders: OnceCell<BTreeSet<(PointId, ConstraintId)>>,
 }
 
-impl Topology {
+impl Partition {
     /// The islands that exist, with their numbers.
     pub fn iter(&self) -> impl Iterator<Item = (u32, &Island)> {
         let islands = self.islands.iter().enumerate();

@@ -1,20 +1,33 @@
 //! The method `anderson`: relaxation, extrapolated from its last few sweeps. The extrapolator
 //! the paper has in mind where it says that standard accelerators apply; not always stable.
 
-use super::relaxation::{Coefficient, ending};
+use super::coefficient::Coefficient;
+use super::relaxation::ending;
 use super::sweep::Sweep;
 use super::{Limits, Outcome};
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
 use crate::solve::report::Counters;
+use crate::solve::settings::Settings;
 
 /// How many past sweeps are used. More is not better: measured non-monotone from 3 to 8.
 const DEPTH: usize = 5;
 /// Sweeps that nearly repeat each other say nothing new; relative to the largest of them.
 const REGULAR: f64 = 1e-12;
 
+/// Relaxes and extrapolates in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let coefficient = Coefficient::new(island, settings.rho, work);
+    (solve(island, coefficient, limits, work), coefficient.lowered())
+}
+
 /// Improves the pose of an island; gives how it ended.
-pub(crate) fn solve(
+fn solve(
     island: &mut Island,
     coefficient: Coefficient,
     limits: &Limits,

@@ -2,7 +2,9 @@
 //! and the stiffness of stretched lengths. Needs no coefficient.
 
 use super::{Limits, Outcome, Pose, Workspace};
+use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
 
 /// A step longer than this part of the size is no longer a small change.
 const LONGEST_STEP: f64 = 0.1;
@@ -11,6 +13,17 @@ const LEAST_FACTOR: f64 = 1e-10;
 
 /// A gain below this part of the energy is lost in its rounding.
 const INVISIBLE: f64 = 1e-17;
+
+/// Descends along conjugate directions in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    _: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let outcome = island.with_workspace(|workspace, pose, _| solve(workspace, pose, limits, work));
+    (outcome, None)
+}
 
 /// Improves a pose; gives how it ended.
 pub(crate) fn solve(
@@ -47,7 +60,7 @@ pub(crate) fn solve(
         if !(along < 0.0 && curvature > 0.0) {
             return workspace.outcome(Status::BestFit, n);
         }
-        let longest = limits.longest_step(LONGEST_STEP, workspace)
+        let longest = workspace.longest_step(LONGEST_STEP, limits)
             / workspace.equations.reach(&workspace.step);
         let t = factor * (-along / curvature).min(longest);
         let start = workspace.rows.energy;

@@ -7,14 +7,20 @@ use super::{Limits, Outcome};
 use crate::constraint::{ConstraintKind, Vector};
 use crate::solve::island::Island;
 use crate::solve::report::Counters;
+use crate::solve::settings::Settings;
 
-/// Improves the pose of an island; gives how it ended.
-pub(crate) fn solve(
+/// Corrects one constraint after the other in one round.
+pub(crate) fn round(
     island: &mut Island,
-    rho: f64,
+    settings: &Settings,
     limits: &Limits,
     work: &mut Counters,
-) -> Outcome {
+) -> (Outcome, Option<f64>) {
+    (solve(island, settings.rho, limits, work), None)
+}
+
+/// Improves the pose of an island; gives how it ended.
+fn solve(island: &mut Island, rho: f64, limits: &Limits, work: &mut Counters) -> Outcome {
     let n_wheels = island.constraints.iter().filter(|c| is_wheel(c)).count() as u64;
     for n in 0..limits.n_iterations {
         let mut worst = 0.0_f64;

@@ -1,15 +1,28 @@
 //! The method `descent`: steepest descent on the normalised rows, with a line search.
 
 use super::{Limits, Outcome, Pose, Workspace};
+use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
 
 /// How often the parabola through what is known of the line is fitted anew.
 const REFINEMENTS: u32 = 3;
 /// Halvings before a direction counts as leading nowhere.
 const MOST_HALVINGS: u32 = 40;
 
+/// Descends in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    _: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let outcome = island.with_workspace(|workspace, pose, _| solve(workspace, pose, limits, work));
+    (outcome, None)
+}
+
 /// Improves a pose; gives how it ended.
-pub(crate) fn solve(
+fn solve(
     workspace: &mut Workspace,
     pose: &mut Pose,
     limits: &Limits,

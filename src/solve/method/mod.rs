@@ -1,188 +1,42 @@
-//! What all methods have in common: a pose to improve, limits, and how it ended.
+//! The methods, one file each, and what they have in common: a pose to improve, limits, and how
+//! it ended.
 
 pub mod anderson;
+pub mod coefficient;
 pub mod conjugate_gradient;
 pub mod gauss_seidel;
 pub mod gradient_descent;
+pub mod limits;
 pub mod nesterov;
 pub mod newton;
 pub mod relaxation;
 pub mod rows;
 pub mod spectrum;
 pub mod sweep;
+pub mod workspace;
 
-use super::report::{Budget, Counters, Status};
-use crate::constraint::{Constraint, Point};
-use crate::linalg::NormalMatrix;
-use rows::{Equations, Rows};
+pub(crate) use limits::{Limits, Outcome};
+pub(crate) use workspace::{Pose, Workspace};
 
-/// A pose that a method improves. Only points among the unknowns of its equations move.
-pub(crate) struct Pose<'a> {
-    /// The constraints, over indices into `x`.
-    pub constraints: &'a [Constraint],
-    /// The positions.
-    pub x: &'a mut [Point],
-}
+use super::island::Island;
+use super::report::Counters;
+use super::settings::{Method, Settings};
 
-/// How far a method is to go.
-#[derive(Clone, Copy)]
-pub(crate) struct Limits<'a> {
-    /// The size of what is solved, length units; never 0.
-    pub size: f64,
-    /// Solved means no distance to satisfaction above this, length units.
-    pub tolerance: f64,
-    /// The most iterations.
-    pub n_iterations: u32,
-    /// Asked between iterations.
-    pub budget: &'a Budget<'a>,
-}
+/// One round of a method: at most the iterations that the limits allow. Gives the coefficient of
+/// relaxation too, if the user's had to be lowered.
+pub(crate) type Round =
+    fn(&mut Island, &Settings, &Limits, &mut Counters) -> (Outcome, Option<f64>);
 
-impl Limits<'_> {
-    /// The longest step that is still a small change: a part of the size, or of the way that is
-    /// left where a constraint asks for a place far outside.
-    pub fn longest_step(&self, part: f64, workspace: &Workspace) -> f64 {
-        part * self.size.max(0.5 * workspace.rows.worst)
-    }
-}
-
-/// How a method ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Outcome {
-    /// What was reached.
-    pub status: Status,
-    /// The largest distance to satisfaction, length units.
-    pub worst: f64,
-    /// Half the sum of squares of the distances.
-    pub energy: f64,
-    /// The iterations it took.
-    pub n_iterations: u32,
-}
-
-impl Outcome {
-    /// Whether all constraints hold.
-    pub fn is_converged(&self) -> bool {
-        self.status == Status::Converged
-    }
-}
-
-/// The room a method works in: made when first needed, kept as long as it is.
-pub(crate) struct Workspace {
-    /// What is to be solved.
-    pub equations: Equations,
-    /// The rows at the pose that was evaluated last.
-    pub rows: Rows,
-    /// The unknown points before a step.
-    pub before: Vec<Point>,
-    /// What normalised the rows there.
-    scale_before: Vec<f64>,
-    /// The unknown points where a motion was expected to take them.
-    pub expected: Vec<Point>,
-    /// The derivative of the energy.
-    pub slope: Vec<f64>,
-    /// The step in the weighted unknowns.
-    pub step: Vec<f64>,
-    /// Room for one more step.
-    pub trial_step: Vec<f64>,
-    /// J^T J and its factor, for the methods that ask for it.
-    matrix: Option<Box<NormalMatrix>>,
-}
-
-impl Workspace {
-    /// Room for these equations.
-    pub fn new(equations: Equations) -> Self {
-        let n = 2 * equations.points().len();
-        Self {
-            equations,
-            rows: Rows::default(),
-            before: Vec::new(),
-            scale_before: Vec::new(),
-            expected: Vec::new(),
-            slope: vec![0.0; n],
-            step: vec![0.0; n],
-            trial_step: Vec::new(),
-            matrix: None,
-        }
-    }
-
-    /// How far the farthest unknown point is from where it was expected.
-    pub fn correction(&self, x: &[Point]) -> f64 {
-        let points = self.equations.points().iter().map(|&p| x[p as usize]);
-        points.zip(&self.expected).fold(0.0, |most, (at, expected)| {
-            let d = at - *expected;
-            most.max(d.x.abs()).max(d.y.abs())
-        })
-    }
-
-    /// Evaluates the rows at a pose.
-    pub fn evaluate(&mut self, pose: &Pose, work: &mut Counters) {
-        self.rows.evaluate(&self.equations, pose.constraints, pose.x, work);
-    }
-
-    /// Remembers the unknown points and the scales of their rows, to try steps from there.
-    pub fn remember(&mut self, pose: &Pose) {
-        self.equations.gather(pose.x, &mut self.before);
-        self.scale_before.clear();
-        self.scale_before.extend_from_slice(self.rows.scales());
-    }
-
-    /// Takes `t` times the step from the remembered points and evaluates the rows there.
-    /// Gives the energy in the remembered scales; infinite where there is none.
-    pub fn try_step(&mut self, pose: &mut Pose, t: f64, work: &mut Counters) -> f64 {
-        if !self.equations.displace(pose.x, &self.before, &self.step, t) {
-            return f64::INFINITY;
-        }
-        let Self { rows, equations, scale_before, .. } = self;
-        let energy =
-            rows.evaluate_as_scaled_by(scale_before, equations, pose.constraints, pose.x, work);
-        if energy.is_finite() { energy } else { f64::INFINITY }
-    }
-
-    /// Goes back to the remembered points, and evaluates the rows there again: steps are rarely
-    /// taken back, and to keep both would take as much workspace as the scene.
-    pub fn reject(&mut self, pose: &mut Pose, work: &mut Counters) {
-        self.equations.scatter(&self.before, pose.x);
-        self.evaluate(pose, work);
-    }
-
-    /// The derivative of the energy at the present rows.
-    pub fn update_slope(&mut self) {
-        self.rows.slope(&self.equations, &mut self.slope);
-    }
-
-    /// J^T J of the present rows, with the stiffness of stretched lengths.
-    pub fn assemble(&mut self) -> &mut NormalMatrix {
-        let equations = &self.equations;
-        let matrix = self.matrix.get_or_insert_with(|| {
-            Box::new(NormalMatrix::new(equations.points().len(), equations.pattern()))
-        });
-        matrix.clear();
-        for (r, (_, unknowns, gradient, bend)) in self.rows.iter(equations).enumerate() {
-            matrix.add_row(r, gradient);
-            if bend > 0.0 {
-                // No row holds more points than a constraint of four.
-                let mut across = [0.0; 8];
-                let (turned, _) = across.as_chunks_mut::<2>();
-                for (to, g) in turned.iter_mut().zip(gradient.as_chunks::<2>().0) {
-                    *to = [-bend * g[1], bend * g[0]];
-                }
-                matrix.add_row(r, &across[..2 * unknowns.len()]);
-            }
-        }
-        matrix
-    }
-
-    /// The matrix as last assembled and factored.
-    pub fn matrix(&mut self) -> &mut NormalMatrix {
-        self.matrix.as_mut().expect("the matrix was assembled")
-    }
-
-    /// The ending at the present rows.
-    pub fn outcome(&self, status: Status, n_iterations: u32) -> Outcome {
-        Outcome { status, worst: self.rows.worst, energy: self.rows.energy, n_iterations }
-    }
-
-    /// Whether the present rows are met.
-    pub fn is_met(&self, limits: &Limits) -> bool {
-        self.rows.energy.is_finite() && self.rows.worst <= limits.tolerance
+/// What a method does in a round; none for [`Method::Auto`], which is no one iteration.
+pub(crate) fn round_of(method: Method) -> Option<Round> {
+    match method {
+        Method::Auto => None,
+        Method::Relaxation => Some(relaxation::round),
+        Method::Successive => Some(gauss_seidel::round),
+        Method::Descent => Some(gradient_descent::round),
+        Method::Newton => Some(newton::round),
+        Method::Conjugate => Some(conjugate_gradient::round),
+        Method::Nesterov => Some(nesterov::round),
+        Method::Anderson => Some(anderson::round),
     }
 }

@@ -3,7 +3,9 @@
 use super::spectrum::Spectrum;
 use super::{Limits, Outcome, Pose, Workspace};
 use crate::constraint::{Point, Vector};
+use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
 use crate::world::PointId;
 
 /// A pose that moves by less, relative to the size, has come to rest.
@@ -12,8 +14,20 @@ const STILL: f64 = 1e-15;
 /// A step of descent longer than this part of the size is no longer a small change.
 const LONGEST_STEP: f64 = 0.1;
 
+/// Descends with momentum in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    _: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let outcome = island
+        .with_workspace(|workspace, pose, points| solve(workspace, points, pose, limits, work));
+    (outcome, None)
+}
+
 /// Improves a pose; gives how it ended.
-pub(crate) fn solve(
+fn solve(
     workspace: &mut Workspace,
     points: &[PointId],
     pose: &mut Pose,
@@ -43,7 +57,7 @@ pub(crate) fn solve(
         workspace.remember(pose);
         let Workspace { step, slope, .. } = workspace;
         step.iter_mut().zip(&*slope).for_each(|(s, g)| *s = -g / largest);
-        let longest = limits.longest_step(LONGEST_STEP, workspace);
+        let longest = workspace.longest_step(LONGEST_STEP, limits);
         let t = (longest / workspace.equations.reach(&workspace.step)).min(1.0);
         if !workspace.equations.displace(pose.x, &workspace.before, &workspace.step, t) {
             workspace.reject(pose, work);

@@ -3,7 +3,9 @@
 
 use super::{Limits, Outcome, Pose, Workspace};
 use crate::constraint::Point;
+use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
 
 /// The damping, relative to the distance to satisfaction, that a solve begins with; measured
 /// best among powers of ten on mechanisms. Larger is slower, smaller overshoots more often.
@@ -29,6 +31,17 @@ const SLOW: f64 = 1e-2;
 const FLAT: f64 = 1e-8;
 /// Steps taken at a best fit for the last digits; convergence is quadratic there.
 const POLISHES: u32 = 2;
+
+/// Takes damped Gauss-Newton steps in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    _: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let outcome = island.with_workspace(|workspace, pose, _| solve(workspace, pose, limits, work));
+    (outcome, None)
+}
 
 /// Improves a pose until it is solved, a best fit, or the limits are reached.
 pub(crate) fn solve(
@@ -133,7 +146,7 @@ fn descend(
                 return End::Stuck;
             };
             *n += 1;
-            let longest = limits.longest_step(LONGEST_STEP, workspace);
+            let longest = workspace.longest_step(LONGEST_STEP, limits);
             let is_near = workspace.equations.reach(&workspace.step) <= longest;
             let energy = if is_near { workspace.try_step(pose, 1.0, work) } else { f64::INFINITY };
             let gain = (before - energy) / promised;

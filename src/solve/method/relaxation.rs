@@ -1,15 +1,14 @@
 //! The method `relaxation`: the paper's. Every constraint is corrected exactly, from the same
 //! pose and all at once; the corrections, times rho, are added up.
 
-use super::spectrum::Spectrum;
+use super::coefficient::Coefficient;
 use super::sweep::Sweep;
 use super::{Limits, Outcome};
 use crate::constraint::{ConstraintKind, Vector};
 use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
 
-/// Simultaneous corrections contract if rho < 2 / lambda; this keeps a tenth away from that.
-const MOST_RHO: f64 = 1.8;
 /// Sweeps whose moves grow by this factor, as a sum of squares, diverge: that of sweeps which
 /// contract can grow only where the constraints are far from linear.
 const GROWTH: f64 = 4.0;
@@ -18,66 +17,16 @@ const MOST_LOOKS: u32 = 4;
 /// A pose that a sweep moves by less, relative to the size, is where the sweeps end.
 const STILL: f64 = 1e-15;
 
-/// The coefficients of a run: the user's, lowered where they would diverge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Coefficient {
-    /// What every constraint without one of its own gets.
-    pub rho: f64,
-    /// What those of constraints that have one are multiplied with.
-    pub factor: f64,
-}
-
-impl Coefficient {
-    /// The user's coefficient, or what contracts where that would diverge.
-    pub fn new(island: &mut Island, rho: f64, work: &mut Counters) -> Self {
-        let mut workspace = island.take_workspace();
-        workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, work);
-        let mut spectrum = island
-            .spectrum
-            .take()
-            .unwrap_or_else(|| Box::new(Spectrum::new(&island.points[..island.n_free])));
-        let by_row: Vec<f64> = if island.own_rho.is_empty() {
-            Vec::new()
-        } else {
-            let rows = island.constraints.iter().zip(&island.own_rho);
-            rows.flat_map(|(c, own)| std::iter::repeat_n(own.unwrap_or(rho), c.n_rows())).collect()
-        };
-        let largest = spectrum.largest(&workspace.equations, &workspace.rows, |r| {
-            by_row.get(r).copied().unwrap_or(rho)
-        });
-        island.spectrum = Some(spectrum);
-        island.put_workspace(workspace);
-        let factor = if largest > MOST_RHO { MOST_RHO / largest } else { 1.0 };
-        Self { rho: rho * factor, factor }
-    }
-
-    /// The coefficient where sweeps with the present one diverge: the eigenvalue it was worked
-    /// out from is no longer the largest.
-    fn look_again(&mut self, island: &mut Island, work: &mut Counters) {
-        if let Some(spectrum) = &mut island.spectrum {
-            spectrum.forget();
-        }
-        let found = Self::new(island, self.rho / self.factor, work);
-        if found.rho < self.rho {
-            *self = found;
-        }
-    }
-
-    /// The coefficient, if it is lower than the user's.
-    pub fn lowered(self) -> Option<f64> {
-        (self.factor < 1.0).then_some(self.rho)
-    }
-
-    /// The coefficient `rho`, or what contracts where the largest eigenvalue is `largest`.
-    pub fn at_most(rho: f64, largest: f64) -> Self {
-        let factor = if rho * largest > MOST_RHO { MOST_RHO / (rho * largest) } else { 1.0 };
-        Self { rho: rho * factor, factor }
-    }
-
-    /// The coefficient of constraint `c`.
-    pub fn of(self, own: &[Option<f64>], c: usize) -> f64 {
-        own.get(c).copied().flatten().map_or(self.rho, |own| own * self.factor)
-    }
+/// Relaxes an island in one round.
+pub(crate) fn round(
+    island: &mut Island,
+    settings: &Settings,
+    limits: &Limits,
+    work: &mut Counters,
+) -> (Outcome, Option<f64>) {
+    let mut coefficient = Coefficient::new(island, settings.rho, work);
+    let outcome = solve(island, &mut coefficient, limits, work);
+    (outcome, coefficient.lowered())
 }
 
 /// Improves the pose of an island; gives how it ended.

@@ -3,9 +3,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
-use super::relaxation::Coefficient;
+use super::coefficient::Coefficient;
 use super::rows::is_wheel;
 use crate::constraint::{Constraint, ConstraintKind, Point, Vector};
 use crate::solve::island::Island;
@@ -122,15 +120,21 @@ impl Sweep {
     /// The same for the bars alone, share by share.
     fn correct_shares(&mut self, constraints: &[Constraint], x: &[Point], d: &mut [Vector]) -> f64 {
         let Self { bars, shares, .. } = self;
-        let worst = shares.par_iter_mut().map(|share| {
-            share.d.fill(Vector::ZERO);
-            let bars = &bars[share.bars.clone()];
-            correct_each(bars, constraints, x, share.first_point, &mut share.d)
-        });
-        let worst = worst.reduce(|| 0.0, f64::max);
-        d.par_chunks_mut(SHARE).enumerate().for_each(|(k, d)| {
+        let worst = parallel::map_reduce(
+            shares,
+            1,
+            |share| {
+                share.d.fill(Vector::ZERO);
+                let bars = &bars[share.bars.clone()];
+                correct_each(bars, constraints, x, share.first_point, &mut share.d)
+            },
+            0.0,
+            f64::max,
+        );
+        let shares = &*shares;
+        parallel::for_each_chunk(d, SHARE, |k, d| {
             d.fill(Vector::ZERO);
-            for share in &*shares {
+            for share in shares {
                 share.add_to(k * SHARE, d);
             }
         });

@@ -1,0 +1,200 @@
+//! What changed in a world since the solver saw it last, island by island.
+
+use super::Solver;
+use crate::constraint::Point;
+use crate::solve::dispatch::{Cause, check};
+use crate::solve::island::Island;
+use crate::solve::island::partition::{Home, Partition};
+use crate::solve::island::snapshot::{self, Memory};
+use crate::solve::report::{Counters, Status};
+use crate::solve::settings::Settings;
+use crate::world::{ConstraintId, PointId, Touched, World};
+
+impl Solver {
+    /// Brings the islands up to date with what changed in the world; gives the new ones.
+    pub(super) fn apply_changes(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        cause: Cause,
+        work: &mut Counters,
+    ) -> Vec<u32> {
+        if !self.is_stale && world.is_untouched() && self.settings.as_ref() == Some(settings) {
+            return Vec::new();
+        }
+        let before = self.settings.replace(*settings);
+        let is_doubtful = before.is_some_and(|before| {
+            (before.method, before.tolerance) != (settings.method, settings.tolerance)
+        });
+        if is_doubtful {
+            self.invalidate(|_| true);
+        }
+        let mut touched = world.take_touched(self.touched.take().unwrap_or_default());
+        if std::mem::take(&mut self.is_stale) {
+            // What is remembered is what counts: forget the rest.
+            self.partition = Partition::default();
+            *touched = Touched::everything();
+        }
+        if !touched.constraints.is_empty() {
+            // A constraint that was changed but holds as many equations on the same points as
+            // before leaves its island as it is.
+            let (values, others): (Vec<_>, Vec<_>) =
+                touched.constraints.iter().partition(|&&id| self.is_same_but_for_values(world, id));
+            touched.values.extend(values);
+            touched.constraints = others;
+        }
+        let is_changed = !touched.is_empty();
+        let mut made = Vec::new();
+        if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
+            made = self.partition.update(&touched, world, &mut self.pending);
+            work.islands_rebuilt += made.len() as u64;
+            for &k in &made {
+                self.restore_island(k);
+            }
+            self.pending = Memory::default();
+            if touched.all {
+                self.awake.clear();
+                self.is_awake.fill(false);
+            }
+            for &k in &made {
+                // One that was asleep when it was remembered sleeps on.
+                if self.partition.get(k).is_some_and(|island| island.is_awake) {
+                    self.wake(k);
+                }
+            }
+            if is_doubtful {
+                // What was brought back is as doubtful as what was there.
+                self.invalidate(|_| true);
+            }
+            let partition = &self.partition;
+            // An island that takes the place of one that was awake is to be woken again.
+            let is_awake = &mut self.is_awake;
+            self.awake.retain(|&k| {
+                is_awake[k as usize] = partition.get(k).is_some();
+                is_awake[k as usize]
+            });
+            self.unsolved.retain(|&k| partition.get(k).is_some());
+            self.unsatisfiable.clear();
+            let checked: Vec<ConstraintId> = partition.checked().collect();
+            for id in checked {
+                self.check(world, id, settings);
+            }
+        }
+        for &id in &touched.values {
+            match self.partition.home(id) {
+                Home::None => {}
+                Home::Checked => self.check(world, id, settings),
+                Home::Island(k) => self.apply_values(world, k, id),
+            }
+        }
+        for &p in &touched.moved {
+            self.apply_move(world, p, settings);
+        }
+        if cause == Cause::Hand && is_changed {
+            for k in self.awake.clone() {
+                if let Some(island) = self.partition.get_mut(k)
+                    && !island.inputs.is_empty()
+                {
+                    island.note_edit(island.inputs.is_disturbed);
+                }
+            }
+        }
+        // What makes islands may have touched everything: that much room is not needed again.
+        self.touched = made.is_empty().then_some(touched);
+        made
+    }
+
+    /// Gives a new island the memory that waits for it.
+    fn restore_island(&mut self, k: u32) {
+        let Some(island) = self.partition.get_mut(k) else { return };
+        if let Some(remembered) = self.pending.take(island) {
+            snapshot::restore(island, &remembered);
+            if island.status != Status::Converged {
+                self.unsolved.insert(k);
+            }
+        }
+    }
+
+    /// What counted as solved may not any more.
+    pub(super) fn invalidate(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
+        let all: Vec<u32> = self.partition.iter().map(|(k, _)| k).collect();
+        for k in all {
+            if let Some(island) = self.partition.get_mut(k)
+                && is_doubtful(island)
+            {
+                island.status = Status::Stalled;
+                island.remembered.take();
+                self.wake(k);
+            }
+        }
+    }
+
+    fn is_same_but_for_values(&self, world: &World, id: ConstraintId) -> bool {
+        let Some(record) = world.constraint(id).filter(|record| record.is_on) else {
+            return false;
+        };
+        let Home::Island(k) = self.partition.home(id) else { return false };
+        let c = self.partition.local_constraint(id);
+        self.partition.get(k).is_some_and(|island| island.has_same(c, record))
+    }
+
+    fn apply_values(&mut self, world: &World, k: u32, id: ConstraintId) {
+        let c = self.partition.local_constraint(id);
+        if let (Some(island), Some(record)) = (self.partition.get_mut(k), world.constraint(id)) {
+            island.set_values(c, &record.constraint);
+            self.wake(k);
+        }
+    }
+
+    fn apply_move(&mut self, world: &World, p: PointId, settings: &Settings) {
+        if p.idx() >= world.points().column().len() || !world.points().is_alive(p) {
+            return;
+        }
+        let at = world.points().at(p);
+        if let Some(k) = self.partition.island_of_point(p) {
+            self.put_point(k, p, at);
+        }
+        let holders: Vec<ConstraintId> = self.partition.holders(p, world).collect();
+        for id in holders {
+            match self.partition.home(id) {
+                Home::None => {}
+                Home::Checked => self.check(world, id, settings),
+                Home::Island(k) => self.put_point(k, p, at),
+            }
+        }
+    }
+
+    fn put_point(&mut self, k: u32, p: PointId, at: Point) {
+        if let Some(island) = self.partition.get_mut(k)
+            && let Some(p) = island.local_point(p)
+            && island.x[p] != at
+        {
+            island.set_point(p, at);
+            self.wake(k);
+        }
+    }
+
+    pub(super) fn wake(&mut self, k: u32) {
+        let at = k as usize;
+        if at >= self.is_awake.len() {
+            self.is_awake.resize(at + 1, false);
+        }
+        if !std::mem::replace(&mut self.is_awake[at], true) {
+            self.awake.push(k);
+            if let Some(island) = self.partition.get_mut(k) {
+                island.is_awake = true;
+            }
+        }
+    }
+
+    /// Notes whether a constraint between frozen points holds.
+    pub(super) fn check(&mut self, world: &World, id: ConstraintId, settings: &Settings) {
+        self.unsatisfiable.remove(&id);
+        if let Some(record) = world.constraint(id) {
+            let (violation, size) = check(world, &record.constraint);
+            if violation > settings.tolerance * size {
+                self.unsatisfiable.insert(id, violation / size);
+            }
+        }
+    }
+}

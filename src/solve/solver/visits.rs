@@ -1,0 +1,152 @@
+//! A call of the solver: the islands that it visits, and what that comes to.
+
+use super::Solver;
+use crate::solve::dispatch::{Cause, Task, Visit, turn_back, visit, write_back};
+use crate::solve::island::Island;
+use crate::solve::parallel::{self, ISLANDS};
+use crate::solve::report::{Budget, Counters, Report, Status};
+use crate::solve::settings::Settings;
+use crate::world::World;
+
+/// An island on its way through a visit.
+struct Guest {
+    /// Its number.
+    k: u32,
+    island: Box<Island>,
+    /// What the visit came to.
+    visit: Option<Visit>,
+}
+
+/// Visits islands side by side; gives the work that was.
+fn visit_all(
+    guests: &mut [Guest],
+    settings: &Settings,
+    tolerance: Option<f64>,
+    task: Task,
+) -> Counters {
+    let each = |guest: &mut Guest| {
+        let mut work = Counters::default();
+        let budget = Budget { tolerance, stop: None };
+        guest.visit = Some(visit(&mut guest.island, settings, &budget, task, &mut work));
+        work
+    };
+    parallel::map_reduce(guests, ISLANDS, each, Counters::default(), |a, b| a.plus(&b))
+}
+
+impl Solver {
+    pub(super) fn run(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        task: Task,
+    ) -> Report {
+        let mut report = Report::default();
+        let cause = if task == Task::Frame { Cause::Clock } else { Cause::Hand };
+        let made = self.apply_changes(world, settings, cause, &mut report.counters);
+        if task == Task::Frame {
+            for &k in &made {
+                if let Some(island) = self.partition.get_mut(k) {
+                    turn_back(island, world.clock().dt);
+                }
+            }
+        }
+        if task == Task::Settle
+            && let Some(tolerance) = budget.tolerance
+        {
+            self.invalidate(|island| island.residual > tolerance);
+        }
+        self.missed.clear();
+        let mut due = std::mem::take(&mut self.due);
+        std::mem::swap(&mut due, &mut self.awake);
+        for &k in &due {
+            self.is_awake[k as usize] = false;
+        }
+        let can_share = budget.stop.is_none() && due.len() > 1;
+        if can_share && parallel::pays(&self.partition.effort_of(&due)) {
+            self.visit_side_by_side(&due, world, settings, budget, task, &mut report);
+        } else {
+            for &k in &due {
+                if budget.is_spent() {
+                    report.is_interrupted = true;
+                    self.wake(k);
+                } else if let Some(island) = self.partition.get_mut(k) {
+                    let visit = visit(island, settings, budget, task, &mut report.counters);
+                    self.close(k, &visit, world, &mut report);
+                }
+            }
+        }
+        due.clear();
+        self.due = due;
+        let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
+        for &violation in self.unsatisfiable.values() {
+            let is_met = violation <= tolerance;
+            let status = if is_met { Status::Converged } else { Status::Unsatisfiable };
+            report.include(status, 0, violation);
+        }
+        for &k in &self.unsolved {
+            if let Some(island) = self.partition.get(k) {
+                let is_met = island.residual <= tolerance;
+                let status = if is_met { Status::Converged } else { island.status };
+                report.include(status, 0, island.residual);
+            }
+        }
+        report
+    }
+
+    /// Visits islands on all cores, and takes in what that came to in their order.
+    fn visit_side_by_side(
+        &mut self,
+        due: &[u32],
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        task: Task,
+        report: &mut Report,
+    ) {
+        let islands = due.iter().filter_map(|&k| Some((k, self.partition.lend(k)?)));
+        let mut guests: Vec<Guest> =
+            islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
+        let work = visit_all(&mut guests, settings, budget.tolerance, task);
+        report.counters.add(&work);
+        for Guest { k, island, visit } in guests {
+            self.partition.give_back(k, island);
+            if let Some(visit) = visit {
+                self.close(k, &visit, world, report);
+            }
+        }
+    }
+
+    /// Takes in what a visit came to.
+    fn close(&mut self, k: u32, visit: &Visit, world: &mut World, report: &mut Report) {
+        let (Some(island), Some(outcome)) = (self.partition.get_mut(k), visit.outcome) else {
+            return;
+        };
+        write_back(island, world);
+        let is_awake = island.is_awake;
+        if let Some(p) = island.turned_over.take() {
+            let id = island.points[p as usize];
+            report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
+        }
+        if island.before.is_some() {
+            self.missed.push(k);
+        }
+        if outcome.is_converged() {
+            if !self.unsolved.is_empty() {
+                self.unsolved.remove(&k);
+            }
+            let residual = outcome.worst / visit.size;
+            report.include(Status::Converged, outcome.n_iterations.into(), residual);
+        } else {
+            self.unsolved.insert(k);
+            report.iterations = report.iterations.max(outcome.n_iterations.into());
+        }
+        report.lowered_rho = match (report.lowered_rho, visit.lowered) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        if is_awake {
+            self.wake(k);
+        }
+    }
+}
