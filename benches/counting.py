@@ -1,7 +1,7 @@
 """What a frame does, counted in instructions: `python3 benches/counting.py`.
 
 Runs the program itself under callgrind with some number of frames and with that number more;
-the difference is what those frames did, by file of source. tests/work.rs asserts the same of
+the difference is what those frames did, by file of source. tests/it/work.rs asserts the same of
 the solver's own counters.
 """
 

@@ -1,20 +1,18 @@
 //! What is said of each mistake that only a world can show, and that it changes nothing.
 //!
-//! `tests/mistakes/*.link` are scripts that end in a mistake; beside each stands what is said of
+//! `mistakes/*.link` are scripts that end in a mistake; beside each stands what is said of
 //! it and the exit status. With `UPDATE_GOLDEN=1` these are written anew; read the difference
 //! before you keep it.
-
-mod desk;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use desk::{Seat, check_golden, status};
+use crate::support::desk::{Seat, check_golden, status};
 use linkwork::lang::parse;
 
 #[test]
 fn mistakes_are_told_and_change_nothing() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mistakes");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden/mistakes");
     let mut scripts: Vec<PathBuf> = fs::read_dir(&folder)
         .expect("the folder is there")
         .map(|entry| entry.expect("it can be listed").path())

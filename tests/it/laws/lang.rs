@@ -1,13 +1,11 @@
 //! Laws of the language: what is printed reads back, and no text is too odd to be read.
 
-mod lang_trees;
-
 use linkwork::diag::{Diagnostic, Paint, Sources, Span, render};
 use linkwork::lang::ast::Statement;
 use linkwork::lang::{catalogue, is_incomplete, parse};
 use proptest::prelude::*;
 
-use lang_trees::statement;
+use crate::support::trees::statement;
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(600) })]

@@ -1,7 +1,5 @@
 //! The hard cases: no method answers with numbers that are not finite, that run away, or that
-//! claim what is not so. `tests/scripts.rs` sees to it that `auto` holds what each script asserts.
-
-mod talk;
+//! claim what is not so. `scripts.rs` sees to it that `auto` holds what each script asserts.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -9,13 +7,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
+use crate::support::talk::Talking;
 use linkwork::constraint::ConstraintKind as _;
 use linkwork::diag::Span;
 use linkwork::lang::ast::{Body, Command, Expr, Function, Node, Promise, Statement};
 use linkwork::session::Session;
 use linkwork::solve::{Method, Status};
 use linkwork::world::{PointId, World};
-use talk::Talking;
 
 /// The most frames of a single run or round of a loop when every method has its turn: enough
 /// for a method to lose its way, few enough for an unoptimised build.

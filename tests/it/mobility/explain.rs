@@ -1,11 +1,9 @@
 //! `check` and `why` on mechanisms whose answers are known, and repairs that are carried out.
 
-mod talk;
-
 use std::process::Command;
 
+use crate::support::talk::Talking;
 use linkwork::mobility::Pose;
-use talk::Talking;
 
 /// `check` finds these counts and nothing that contradicts.
 #[track_caller]

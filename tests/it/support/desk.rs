@@ -1,5 +1,4 @@
 //! A session without a process around it: what it says and writes is kept for the test to see.
-#![allow(dead_code)] // Each test takes what it needs.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -82,10 +81,10 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// An empty world; files are read from `folder`, below `tests/`.
+    /// An empty world; files are read from `folder`, below `golden/`.
     pub fn new(folder: &str) -> Self {
         let desk = Rc::new(Desk::default());
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(folder);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden").join(folder);
         let session = Session::new(Box::new(Chair { desk: desk.clone(), folder }));
         Self { desk, session }
     }

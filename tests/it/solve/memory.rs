@@ -1,11 +1,9 @@
 //! What the solver remembers: a run that is interrupted goes on to the same bits.
 
-mod solve_scene;
-
+use crate::support::scene::{Scene, four_bar, jansen, peaucellier};
 use linkwork::constraint::{Cog, Field};
 use linkwork::solve::{Memory, Method, Solver};
 use linkwork::world::{Edit, Touched};
-use solve_scene::{Scene, four_bar, jansen, peaucellier};
 
 fn through_numbers(memory: &Memory) -> Memory {
     let mut copy = Memory::default();

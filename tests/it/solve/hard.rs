@@ -1,11 +1,9 @@
 //! Places where a solver may lie, jump, blow up or fall silent.
 
-mod solve_scene;
-
+use crate::support::scene::{FourBar, Scene, four_bar, jansen, peaucellier};
 use linkwork::constraint::{Cog, Field, Point};
 use linkwork::solve::{Method, Status};
 use linkwork::world::{Edit, PointId};
-use solve_scene::{FourBar, Scene, four_bar, jansen, peaucellier};
 
 #[test]
 fn an_impossible_triangle_fits_best() {

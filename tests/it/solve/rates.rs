@@ -1,9 +1,7 @@
 //! Velocities and accelerations against closed forms and differences.
 
-mod solve_scene;
-
+use crate::support::scene::{Scene, four_bar, jansen};
 use linkwork::constraint::Motor;
-use solve_scene::{Scene, four_bar, jansen};
 use std::f64::consts::TAU;
 
 #[test]

@@ -1,12 +1,10 @@
 //! How far motors turn: `limits` against closed forms, and what runs do at dead points.
 
-mod talk;
-
+use crate::support::talk::Talking;
 use linkwork::constraint::geometry::wrap;
 use linkwork::mobility::{End, Range, Reach};
 use linkwork::session::Session;
 use linkwork::world::Entity;
-use talk::Talking;
 
 fn range(session: &Session, name: &str) -> Range {
     let Some(Entity::Constraint(id)) = session.world().names().get(name) else {
@@ -231,7 +229,7 @@ fn limits_says_what_it_cannot_tell() {
 
 #[test]
 fn a_jansen_leg_turns_fully() {
-    let script = include_str!("../scripts/hard/jansen.link");
+    let script = include_str!("../../../scripts/hard/jansen.link");
     let mut talking = Talking::after(&format!(
         "{script}\npoint O = (0, 0) frozen\nuse jansen(O, 1) as leg\nsolve"
     ));

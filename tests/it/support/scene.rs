@@ -1,10 +1,7 @@
 //! A world built, driven and solved in a few words, for the tests of the solver.
 
-#![allow(dead_code, reason = "each test binary uses what it needs")]
-
 use linkwork::constraint::{
-    Bounds, Constraint, ConstraintKind, Coordinate, Equal, Field, Glider, Length, Motor,
-    Orientation, Period, Point,
+    Bounds, Constraint, ConstraintKind, Coordinate, Field, Glider, Length, Motor, Point,
 };
 use linkwork::solve::{Budget, Report, Settings, Solver};
 use linkwork::world::{Clock, ConstraintId, Edit, PointId, PointRecord, Record, World};
@@ -73,21 +70,8 @@ impl Scene {
         self.add(Glider { points: [p.0, a.0, b.0], bounded: true })
     }
 
-    pub fn equal(&mut self, a: PointId, b: PointId, c: PointId, d: PointId) -> ConstraintId {
-        self.add(Equal { points: [a.0, b.0, c.0, d.0], bounds: Bounds::exactly(0.0) })
-    }
-
     pub fn coordinate(&mut self, p: PointId, x: f64, y: f64) -> ConstraintId {
         self.add(Coordinate { points: [p.0], target: Point::new(x, y) })
-    }
-
-    pub fn orientation(&mut self, points: [PointId; 4], angle: f64) -> ConstraintId {
-        self.add(Orientation {
-            points: points.map(|p| p.0),
-            bounds: Bounds::exactly(angle),
-            period: Period::Whole,
-            side: 0.0,
-        })
     }
 
     /// Sets a value of a constraint, as `change` would.
@@ -197,24 +181,4 @@ pub fn peaucellier(s: &mut Scene) -> [PointId; 2] {
         s.length(from, to, l);
     }
     [p, out]
-}
-
-/// The paper's crankshaft with four pistons and their indicators; gives crank and pistons.
-pub fn crankshaft(s: &mut Scene) -> [PointId; 5] {
-    let o = s.ground(0.0, 0.0);
-    let p = s.point(1.0, 0.0);
-    s.motor(o, p, 1.0, 0.0);
-    let mut all = [p; 5];
-    for (k, piston) in all[1..].iter_mut().enumerate() {
-        let phi = std::f64::consts::FRAC_PI_2 * k as f64;
-        let (c, n) = (phi.cos(), phi.sin());
-        let (near, far) = (s.ground(1.5 * c, 1.5 * n), s.ground(4.5 * c, 4.5 * n));
-        *piston = s.point(3.1 * c, 3.1 * n);
-        s.length(p, *piston, 3.0);
-        s.glider(*piston, near, far);
-        let a = s.ground(6.0 + k as f64, 0.0);
-        let b = s.point(6.0 + k as f64, 1.5);
-        s.equal(a, b, *piston, near);
-    }
-    all
 }

@@ -1,5 +1,4 @@
 //! A session whose talk is kept, for tests.
-#![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use std::cell::{Cell, RefCell};
 use std::io;

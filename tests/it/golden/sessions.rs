@@ -1,21 +1,19 @@
 //! Whole sessions, word for word.
 //!
-//! `tests/sessions/*.txt` hold them: lines that begin with `> ` are typed, what follows is what
+//! `sessions/*.txt` hold them: lines that begin with `> ` are typed, what follows is what
 //! the session says. With `UPDATE_GOLDEN=1` the files are written anew; read the difference
 //! before you keep it.
-
-mod desk;
 
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use desk::{Seat, check_golden};
+use crate::support::desk::{Seat, check_golden};
 use linkwork::lang::is_incomplete;
 
 #[test]
 fn sessions_go_as_written() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sessions");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden/sessions");
     let mut files: Vec<PathBuf> = fs::read_dir(&folder)
         .expect("the folder is there")
         .map(|entry| entry.expect("it can be listed").path())

@@ -1,6 +1,6 @@
 //! What is said of each mistake in a text, word for word.
 //!
-//! `tests/lang_mistakes/*.txt` hold the mistakes: lines that begin with `> ` are the text,
+//! `lang_mistakes/*.txt` hold the mistakes: lines that begin with `> ` are the text,
 //! what follows is what is said of it. With `UPDATE_GOLDEN=1` the files are written anew;
 //! read the difference before you keep it.
 
@@ -32,7 +32,8 @@ fn layout() {
 }
 
 fn check(file: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lang_mistakes").join(file);
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden/lang_mistakes").join(file);
     let golden = fs::read_to_string(&path).expect("the file is there");
     let said: String = texts(&golden).iter().map(|text| told(text)).collect();
     if std::env::var_os("UPDATE_GOLDEN").is_some() {

@@ -9,7 +9,7 @@ fn the_front_page_tells_the_truth() {
 
 #[test]
 fn the_reference_names_every_command() {
-    let reference = include_str!("../docs/language.md");
+    let reference = include_str!("../../docs/language.md");
     // What stands between two backticks: every other piece.
     let code: Vec<&str> = reference.split('`').skip(1).step_by(2).collect();
     let is_named = |word: &str| code.iter().any(|code| code.split(is_no_letter).any(|w| w == word));

@@ -1,10 +1,8 @@
 //! Mechanisms in motion, solved by `auto`, against closed forms and against themselves.
 
-mod solve_scene;
-
+use crate::support::scene::{FourBar, Scene, four_bar, jansen};
 use linkwork::constraint::Field;
 use linkwork::solve::Status;
-use solve_scene::{FourBar, Scene, four_bar, jansen};
 
 /// Where circles about `p` and `q` meet, on the left of p -> q or on the right.
 fn meet(p: (f64, f64), r: f64, q: (f64, f64), s: f64, side: f64) -> (f64, f64) {

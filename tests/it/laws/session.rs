@@ -1,9 +1,7 @@
 //! The laws of a session: a command is whole or nothing, `undo` and `redo` are exact, and what
 //! is saved goes on to the same bits.
 
-mod desk;
-
-use desk::{Seat, check_same};
+use crate::support::desk::{Seat, check_same};
 use proptest::prelude::*;
 
 /// What there is before anything random happens: a four-bar with a driven crank, an actuator,

@@ -1,14 +1,12 @@
 //! Laws of sessions on random scenes of all constraint types under random edits.
 
-mod talk;
-
+use crate::support::talk::Talking;
 use linkwork::constraint::ConstraintKind as _;
 use linkwork::constraint::Row;
 use linkwork::session::Session;
 use linkwork::world::{Entity, PointId};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use talk::Talking;
 
 const N_POINTS: usize = 7;
 const N_CONSTRAINTS: usize = 9;

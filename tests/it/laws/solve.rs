@@ -1,12 +1,10 @@
 //! Laws that hold for every scene: nothing worse than relaxation, no bit that depends on the
 //! order of declaration, mirror images stay mirror images, work where something moves.
 
-mod solve_scene;
-
+use crate::support::scene::{Scene, four_bar, jansen};
 use linkwork::constraint::{Bounds, Constraint, Distance, Equal, Length, Orientation, Period};
 use linkwork::solve::{Budget, Method, Solver, Status};
 use linkwork::world::PointId;
-use solve_scene::{Scene, four_bar, jansen};
 
 /// Numbers that look random and are the same on every run.
 struct Dice(u64);

@@ -1,0 +1,6 @@
+//! The solver on mechanisms whose answers are known.
+
+mod hard;
+mod memory;
+mod motion;
+mod rates;

@@ -1,0 +1,6 @@
+//! What tests share: sessions whose talk is kept, scenes for the solver, random statements.
+
+pub mod desk;
+pub mod scene;
+pub mod talk;
+pub mod trees;
