@@ -4,6 +4,7 @@
 //! script but its last statement is setting up and not timed; one iteration is one frame, of as
 //! many as the bench asks for in one statement. Times are of the processor. Further: a sweep of
 //! the method `relaxation`, what a statement costs, and the functions of `libm`.
+#![allow(clippy::disallowed_methods)]
 
 use std::time::Duration;
 

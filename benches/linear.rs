@@ -1,4 +1,5 @@
 //! What the linear algebra of an island costs: `cargo bench --bench linear`.
+#![allow(clippy::disallowed_methods)]
 
 use linkwork::linalg::{NormalMatrix, Storage};
 use std::f64::consts::FRAC_1_SQRT_2;

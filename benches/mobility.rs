@@ -1,4 +1,5 @@
 //! What the analysis of a mechanism costs: `cargo bench --bench mobility`.
+#![allow(clippy::disallowed_methods)]
 
 use linkwork::constraint::{Bounds, Constraint, Length, Point};
 use linkwork::mobility::{Scene, analyse};

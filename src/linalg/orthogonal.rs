@@ -99,7 +99,7 @@ impl RowBasis {
 /// Turns a row of R and the row at work in their plane until the latter is 0 at `half`.
 fn rotate(row: &mut [[f64; 2]], work: &mut [[f64; 2]], place: usize, reach: &[u32], half: usize) {
     let (a, b) = (row[0][half], work[place][half]);
-    let r = a.hypot(b);
+    let r = libm::hypot(a, b);
     let (c, s) = (a / r, b / r);
     let turn = |row: &mut f64, work: &mut f64| {
         (*row, *work) = (c * *row + s * *work, c * *work - s * *row);

@@ -448,7 +448,7 @@ mod tests {
         let mut normal = Normal::new(&analysis.lower, &analysis.order, points);
         for row_idx in 0..rows.len() {
             let values: [f64; 8] =
-                std::array::from_fn(|k| f64::sin((7 * row_idx * (k + 1)) as f64));
+                std::array::from_fn(|k| libm::sin((7 * row_idx * (k + 1)) as f64));
             normal.add_row(row_idx, &values);
         }
         let mut factor = Supernodal::new(&analysis.lower, analysis.columns);

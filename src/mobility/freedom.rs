@@ -45,7 +45,7 @@ pub fn freedom(scene: &Scene, point: PointIdx) -> Freedom {
         share[axis] = [motion[2 * place], motion[2 * place + 1]];
     }
     let [[a, b], [_, c]] = share;
-    let (middle, spread) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
+    let (middle, spread) = (0.5 * (a + c), libm::hypot(0.5 * (a - c), b));
     if middle - spread > NO_SHARE {
         return Freedom { directions: Directions::All, held_by: Vec::new() };
     }

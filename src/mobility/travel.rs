@@ -278,7 +278,7 @@ fn regularity(projector: &mut Projector, tangent: &[f64]) -> f64 {
         y[n - 1] = 0.0;
     };
     // All places differ, so that no symmetry of a mechanism hides a motion from it.
-    let mut probe: Vec<f64> = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
+    let mut probe: Vec<f64> = (0..n).map(|k| libm::sin(1.0 + 0.7 * k as f64)).collect();
     across(&mut probe);
     let mut y = probe.clone();
     projector.solve_damped(1e-2 * DAMPING, &mut y);

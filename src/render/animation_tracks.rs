@@ -101,7 +101,7 @@ impl Actor {
         let mut turns: Vec<f64> = placements.iter().map(|p| p.turn).collect();
         unwind(&mut turns);
         // A turn moves the far end of the figure.
-        let tolerance = TOLERANCE.atan2(reach).to_degrees();
+        let tolerance = libm::atan2(TOLERANCE, reach).to_degrees();
         let mut turn = track(Change::Turn, times, &turns, 1, tolerance, numbers);
         if turn.is_none() && turns[0] != 0.0 && place.is_some() {
             // A moving place stands for the whole transform: the turn has to be said again.

@@ -2,8 +2,8 @@
 //! file is two.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+
+use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
 const ROOMS: [(&str, &[&str]); 12] = [
@@ -28,15 +28,19 @@ const ROOMS: [(&str, &[&str]); 12] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 9] = [
+const HOMES: [(&str, &[&str]); 13] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/args.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
+    ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/lower/"]),
+    ("rayon", &["solve/parallel.rs", "cli/run.rs"]),
     ("rustc_hash", &["world/names.rs"]),
     ("rustyline", &["repl/"]),
+    ("serde_json", &["cli/", "session/"]),
+    ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
 ];
 
@@ -45,7 +49,7 @@ const MOST_LINES: usize = 500;
 
 #[test]
 fn imports_run_one_way() {
-    for (path, text) in sources() {
+    for Source { path, text } in sources() {
         let room = room_of(&path);
         let Some((_, may_use)) = ROOMS.iter().find(|(name, _)| *name == room) else { continue };
         for used in rooms_used(&text) {
@@ -59,7 +63,7 @@ fn imports_run_one_way() {
 
 #[test]
 fn a_foreign_crate_has_one_home() {
-    for (path, text) in sources() {
+    for Source { path, text } in sources() {
         for (name, homes) in HOMES {
             let is_at_home = homes.iter().any(|home| path.starts_with(home));
             let is_named = code(&text).any(|line| names_crate(line, name));
@@ -70,7 +74,7 @@ fn a_foreign_crate_has_one_home() {
 
 #[test]
 fn no_file_is_two() {
-    for (path, text) in sources() {
+    for Source { path, text } in sources() {
         let n_lines = text.split("#[cfg(test)]").next().map_or(0, |code| code.lines().count());
         assert!(n_lines <= MOST_LINES, "{path} has {n_lines} lines: split it");
     }
@@ -78,7 +82,7 @@ fn no_file_is_two() {
 
 #[test]
 fn every_file_says_what_it_is_for() {
-    for (path, text) in sources() {
+    for Source { path, text } in sources() {
         assert!(text.starts_with("//! "), "{path} does not open with what it is for");
     }
 }
@@ -93,34 +97,6 @@ fn the_check_sees_what_it_should() {
     assert_eq!(used, BTreeSet::from(["diag".to_owned(), "lang".to_owned()]));
     assert!(names_crate("use rustyline::Editor;", "rustyline"));
     assert!(!names_crate("let myclap::x", "clap"));
-}
-
-/// The sources, each with its path below `src`.
-fn sources() -> Vec<(String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    collect(&root, &mut files);
-    files.sort();
-    assert!(files.len() > 50, "the sources are found");
-    files
-        .into_iter()
-        .map(|path| {
-            let text = fs::read_to_string(&path).expect("a source can be read");
-            let path = path.strip_prefix(&root).expect("it lies below src");
-            (path.to_string_lossy().replace('\\', "/"), text)
-        })
-        .collect()
-}
-
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder can be listed") {
-        let path = entry.expect("it can be listed").path();
-        if path.is_dir() {
-            collect(&path, files);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            files.push(path);
-        }
-    }
 }
 
 fn room_of(path: &str) -> String {

@@ -47,7 +47,7 @@ impl Scale {
     pub fn new(axis: &Axis, data: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
         let is_log = axis.is_log;
         let has_place = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
-        let data = data.filter(has_place).map(|v| if is_log { v.log10() } else { v });
+        let data = data.filter(has_place).map(|v| if is_log { libm::log10(v) } else { v });
         let (mut lo, mut hi) =
             data.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
         if lo > hi {
@@ -75,7 +75,7 @@ impl Scale {
         if !value.is_finite() || (self.is_log && value <= 0.0) {
             return None;
         }
-        Some(self.at(if self.is_log { value.log10() } else { value }))
+        Some(self.at(if self.is_log { libm::log10(value) } else { value }))
     }
 
     fn at(&self, value: f64) -> f64 {
@@ -100,7 +100,7 @@ impl Scale {
                 ticks.push(Tick { at: self.at(f64::from(k)), label });
             }
             if room > 60.0 {
-                let fine = (2..=9).map(|m| f64::from(k) + f64::from(m).log10());
+                let fine = (2..=9).map(|m| f64::from(k) + libm::log10(f64::from(m)));
                 let fine = fine.filter(|v| (self.lo..=self.hi).contains(v));
                 ticks.extend(fine.map(|v| Tick { at: self.at(v), label: None }));
             }
@@ -110,10 +110,10 @@ impl Scale {
 
     fn steps(&self) -> Vec<Tick> {
         let rough = (self.hi - self.lo) / N_TICKS;
-        let decade = 10f64.powi(rough.log10().floor() as i32);
+        let decade = libm::pow(10.0, libm::log10(rough).floor());
         let nice = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough);
         let step = nice.unwrap_or(10.0) * decade;
-        let n_places = (-step.log10().floor()).max(0.0) as usize;
+        let n_places = (-libm::log10(step).floor()).max(0.0) as usize;
         let (first, last) = ((self.lo / step).ceil() as i64, (self.hi / step).floor() as i64);
         let tick = |k: i64| {
             let value = k as f64 * step;

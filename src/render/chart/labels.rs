@@ -75,7 +75,7 @@ impl Labels {
     pub fn avoid_line(&mut self, spots: &[Spot]) {
         for ends in spots.windows(2) {
             let (dx, dy) = (ends[1].x - ends[0].x, ends[1].y - ends[0].y);
-            let n = (dx.hypot(dy) / STEP).ceil().clamp(1.0, 1000.0);
+            let n = (libm::hypot(dx, dy) / STEP).ceil().clamp(1.0, 1000.0);
             for k in 0..n as u32 {
                 let t = f64::from(k) / n;
                 self.lines.push(Spot { x: ends[0].x + t * dx, y: ends[0].y + t * dy });
@@ -104,7 +104,7 @@ impl Labels {
         for &distance in distances {
             for k in 0..16 {
                 let phi = f64::from(k) * std::f64::consts::TAU / 16.0;
-                let (c, s) = (phi.cos(), phi.sin());
+                let (c, s) = (libm::cos(phi), libm::sin(phi));
                 // The nearest edge of the label is at that distance.
                 let (x, y) = (at.x + c * (distance + 0.5 * w), at.y - s * (distance + 0.5 * h));
                 let area = Area {
@@ -115,7 +115,7 @@ impl Labels {
                 };
                 let Some(covered) = self.covered(&area) else { continue };
                 let preferred = match anchor {
-                    Anchor::Near => -0.3 * (phi - 0.785).cos(),
+                    Anchor::Near => -0.3 * libm::cos(phi - 0.785),
                     Anchor::End => -1.5 * c,
                 };
                 let cost = covered + preferred + 0.12 * distance;
@@ -131,7 +131,7 @@ impl Labels {
         self.taken.push(area);
         let (x, y) = (0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom));
         let (nx, ny) = (at.x.clamp(area.left, area.right), at.y.clamp(area.top, area.bottom));
-        if (nx - at.x).hypot(ny - at.y) > FAR {
+        if libm::hypot(nx - at.x, ny - at.y) > FAR {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 svg,

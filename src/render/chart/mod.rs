@@ -302,7 +302,7 @@ impl Line<'_> {
         let mut last: Option<Spot> = None;
         self.marks.iter().filter_map(move |&(spot, mark)| {
             let is_apart =
-                last.is_none_or(|last| (spot.x - last.x).hypot(spot.y - last.y) >= MARK_GAP);
+                last.is_none_or(|last| libm::hypot(spot.x - last.x, spot.y - last.y) >= MARK_GAP);
             (mark.label.is_some() || is_apart).then(|| {
                 last = Some(spot);
                 (spot, mark)

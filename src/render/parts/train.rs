@@ -197,7 +197,7 @@ impl Train {
             };
             let off = radii.iter().map(off).fold(0.0, f64::max);
             // Rounding of the radii is not an error; another size of teeth is a small one.
-            off.max(1e-4) + 0.004 * (f64::from(n) / wanted).ln().abs()
+            off.max(1e-4) + 0.004 * libm::log(f64::from(n) / wanted).abs()
         };
         let n = candidates.min_by(|&a, &b| error_with(a).total_cmp(&error_with(b)))?;
         Some(radii.iter().map(|r| (f64::from(n) * r / smallest).round()).collect())

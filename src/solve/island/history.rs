@@ -130,7 +130,7 @@ mod tests {
     fn after(n: usize, degree: u8) -> Option<f64> {
         let mut history = History::default();
         for k in 0..n {
-            history.begin(&[Point::new((k as f64).powi(3), 0.0)], degree);
+            history.begin(&[Point::new((k * k * k) as f64, 0.0)], degree);
             if k + 1 < n {
                 history.advance();
             }

@@ -191,7 +191,7 @@ fn shorter(before: f64, promised: f64, energy: f64) -> f64 {
     let c = energy - (before - promised);
     let ratio = 2.0 * c / promised;
     // From above, where the cubic is convex.
-    let mut t = ratio.cbrt().recip().min(1.0);
+    let mut t = libm::cbrt(ratio).recip().min(1.0);
     for _ in 0..4 {
         t -= (ratio * t * t * t + t - 1.0) / (3.0 * ratio * t * t + 1.0);
     }
@@ -259,7 +259,7 @@ mod tests {
     fn a_step_is_shortened_to_where_the_energy_is_least() {
         let (before, promised, energy) = (1.0, 0.9, 70.0);
         let c = energy - (before - promised);
-        let at = |t: f64| before - promised * t * (2.0 - t) + c * t.powi(4);
+        let at = |t: f64| before - promised * t * (2.0 - t) + c * (t * t) * (t * t);
         let best = shorter(before, promised, energy);
         assert!((at(1.0) - energy).abs() < 1e-12);
         assert!(at(best) < before && at(best) < at(0.999 * best) && at(best) < at(1.001 * best));

@@ -2,5 +2,6 @@
 
 pub mod desk;
 pub mod scene;
+pub mod sources;
 pub mod talk;
 pub mod trees;
