@@ -7,6 +7,7 @@
 //! row of zeros. No result depends on threads or on the machine's vector width.
 
 mod block;
+mod disjoint_sets;
 mod elimination;
 mod graph;
 mod kernel;
@@ -17,6 +18,7 @@ mod sparse;
 mod supernodal;
 
 pub use block::Pivots;
+pub use disjoint_sets::DisjointSets;
 use graph::{Graph, Lists, lower_triangle};
 use normal::Normal;
 pub use orthogonal::RowBasis;

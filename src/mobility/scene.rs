@@ -1,6 +1,7 @@
 //! A scene at rest, as the analysis takes it, and its rows of length 1.
 
 use crate::constraint::{Constraint, ConstraintKind, Jet, Point, PointIdx, Row, Vec2, Vector};
+use crate::linalg::DisjointSets;
 
 /// Constraints, in order of creation, at a pose.
 #[derive(Clone, Copy)]
@@ -109,17 +110,17 @@ impl Rows {
 
     /// Points and rows that share none of each other's points.
     pub fn islands(self) -> Vec<Self> {
-        let mut sets = Sets::new(self.points.len());
+        let mut sets = DisjointSets::default();
         for row in &self.rows {
             for ends in row.points().windows(2) {
-                sets.join(ends[0], ends[1]);
+                sets.join(ends[0] as usize, ends[1] as usize);
             }
         }
         let mut island_of = vec![usize::MAX; self.points.len()];
         let mut islands: Vec<Self> = Vec::new();
         let mut place = vec![0; self.points.len()];
         for (k, &point) in self.points.iter().enumerate() {
-            let root = sets.find(k as u32) as usize;
+            let root = sets.least(k);
             if island_of[root] == usize::MAX {
                 island_of[root] = islands.len();
                 islands.push(Self::default());
@@ -129,7 +130,7 @@ impl Rows {
             island.points.push(point);
         }
         for row in self.rows {
-            let root = sets.find(row.points[0]) as usize;
+            let root = sets.least(row.points[0] as usize);
             islands[island_of[root]].rows.push(row.renumbered(|p| place[p as usize]));
         }
         islands
@@ -156,14 +157,15 @@ impl Scene<'_> {
     /// The places of all constraints that hang together with one through points that move,
     /// itself included, ascending.
     pub fn neighbours(&self, constraint: usize) -> Vec<usize> {
-        let mut sets = Sets::new(self.x.len());
+        let mut sets = DisjointSets::default();
         let moves = |p: &&PointIdx| self.w[**p as usize] > 0.0;
         for constraint in self.constraints {
             let moving: Vec<_> = constraint.points().iter().filter(moves).collect();
-            moving.windows(2).for_each(|ends| sets.join(*ends[0], *ends[1]));
+            moving.windows(2).for_each(|ends| sets.join(*ends[0] as usize, *ends[1] as usize));
         }
-        let mut root =
-            |k: usize| self.constraints[k].points().iter().find(moves).map(|&p| sets.find(p));
+        let mut root = |k: usize| {
+            self.constraints[k].points().iter().find(moves).map(|&p| sets.least(p as usize))
+        };
         let here = root(constraint);
         let all = 0..self.constraints.len();
         all.filter(|&k| k == constraint || here.is_some() && root(k) == here).collect()
@@ -264,30 +266,5 @@ impl Scene<'_> {
             });
         }
         curvatures
-    }
-}
-
-/// Disjoint sets, each known by its least member.
-pub struct Sets(Vec<u32>);
-
-impl Sets {
-    /// Each of `n` for itself.
-    pub fn new(n: usize) -> Self {
-        Self((0..n as u32).collect())
-    }
-
-    /// The least member of the set of `k`.
-    pub fn find(&mut self, mut k: u32) -> u32 {
-        while self.0[k as usize] != k {
-            self.0[k as usize] = self.0[self.0[k as usize] as usize];
-            k = self.0[k as usize];
-        }
-        k
-    }
-
-    /// Makes one set of those of `a` and `b`.
-    pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
     }
 }

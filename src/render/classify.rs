@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::figure::Key;
-use super::groups::Groups;
 use super::parts::{
     Angle, Arrows, Construction, Cord, Crank, Cross, Dimension, Foot, Form, Gears, Joint, Link,
     Part, Plate, Rail, Ring, Rod, Sense, Telescope, Ticks, Web,
@@ -12,6 +11,7 @@ use super::parts::{
 use crate::constraint::{
     Bounds, Constraint, ConstraintKind, Field, Length, Orientation, Point, PointIdx,
 };
+use crate::linalg::DisjointSets;
 use crate::world::{ConstraintId, Record, World};
 
 /// Triangles of rods are looked for among at most so many rods: a net of a thousand is a net
@@ -56,7 +56,7 @@ struct Plan<'a> {
 #[derive(Default)]
 struct Marks {
     number_of: BTreeMap<[PointIdx; 2], usize>,
-    groups: Groups,
+    groups: DisjointSets,
     /// The classes, by their least member, in order of appearance.
     classes: Vec<usize>,
 }
@@ -72,7 +72,7 @@ impl Marks {
 
     /// One to three strokes: more cannot be told apart at a glance.
     fn n_strokes(&mut self, ends: [PointIdx; 2]) -> u8 {
-        let class = self.groups.of(self.number_of[&sorted(ends)]);
+        let class = self.groups.least(self.number_of[&sorted(ends)]);
         let idx = self.classes.iter().position(|&c| c == class).unwrap_or_else(|| {
             self.classes.push(class);
             self.classes.len() - 1

@@ -15,7 +15,6 @@
 
 // From a world to what is to be drawn.
 mod classify;
-mod groups;
 mod parts;
 mod samples;
 mod scene;

@@ -14,7 +14,7 @@ const ROOMS: [(&str, &[&str]); 12] = [
     ("linalg", &[]),
     ("mobility", &["constraint", "linalg"]),
     ("solve", &["diag", "constraint", "world", "linalg", "mobility"]),
-    ("render", &["diag", "constraint", "world"]),
+    ("render", &["diag", "constraint", "linalg", "world"]),
     ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
     ("session", &["diag", "lang", "constraint", "world", "mobility", "solve", "render", "study"]),
     (

@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use super::bar::Span;
 use super::{Draw, teeth};
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::linalg::DisjointSets;
 use crate::render::canvas::Ink;
 use crate::render::figure::{Layer, Placement};
-use crate::render::groups::Groups;
 use crate::render::page::Extent;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -50,7 +50,7 @@ enum Mesh {
 pub struct Gears {
     wheels: Vec<(Wheel, f64)>,
     meshes: Vec<Mesh>,
-    groups: Groups,
+    groups: DisjointSets,
 }
 
 impl Gears {
@@ -93,7 +93,7 @@ impl Gears {
                 Mesh::Wheels([a, b], _) => vec![a, b],
                 Mesh::Rack(a, ..) => vec![a],
             };
-            let group = self.groups.of(wheels[0]);
+            let group = self.groups.least(wheels[0]);
             if train_of[group] == usize::MAX {
                 train_of[group] = trains.len();
                 trains.push((k, Train { wheels: Vec::new(), meshes: Vec::new() }));

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::snapshot::Memory;
 use super::{Island, Member};
 use crate::constraint::ConstraintKind;
+use crate::linalg::DisjointSets;
 use crate::solve::parallel::Effort;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
@@ -247,7 +248,7 @@ impl Partition {
             members.push((set, id));
         }
         for (set, _) in &mut members {
-            *set = sets.root(*set);
+            *set = sets.least(*set);
         }
         members.sort_unstable();
         let mut made = Vec::new();
@@ -304,37 +305,25 @@ struct Loose {
     memory: Memory,
 }
 
-/// Disjoint sets of points.
+/// Disjoint sets of points, as far as they are named.
 #[derive(Default)]
 struct Sets {
-    of_point: BTreeMap<u32, u32>,
-    parent: Vec<u32>,
+    number: BTreeMap<u32, u32>,
+    numbers: DisjointSets,
 }
 
 impl Sets {
-    /// The set of a point, made if there is none.
+    /// The number of a point, which is the next one if it has none.
     fn enter(&mut self, p: u32) -> u32 {
-        let next = self.parent.len() as u32;
-        let set = *self.of_point.entry(p).or_insert(next);
-        if set == next {
-            self.parent.push(next);
-        }
-        set
-    }
-
-    fn root(&mut self, set: u32) -> u32 {
-        let mut k = set;
-        while self.parent[k as usize] != k {
-            let above = self.parent[self.parent[k as usize] as usize];
-            self.parent[k as usize] = above;
-            k = above;
-        }
-        k
+        let next = self.number.len() as u32;
+        *self.number.entry(p).or_insert(next)
     }
 
     fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The older set stays: roots do not depend on the order of joins.
-        self.parent[a.max(b) as usize] = a.min(b);
+        self.numbers.join(a as usize, b as usize);
+    }
+
+    fn least(&mut self, set: u32) -> u32 {
+        self.numbers.least(set as usize) as u32
     }
 }
