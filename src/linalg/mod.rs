@@ -131,6 +131,13 @@ impl NormalMatrix {
         self.normal.add_row(row_idx, values);
     }
 
+    /// Adds a symmetric matrix over the points of row `row_idx`, in their order: what the
+    /// curvature of its equation adds to J^T J. `matrix` holds it row by row, 2 n by 2 n for n
+    /// points.
+    pub fn add_symmetric(&mut self, row_idx: usize, matrix: &[f64]) {
+        self.normal.add_symmetric(row_idx, matrix);
+    }
+
     /// Factors J^T J + `mu` I into L D L^T.
     pub fn factor(&mut self, mu: f64) -> Pivots {
         match &mut self.factor {

@@ -69,6 +69,26 @@ impl Normal {
         }
     }
 
+    /// Adds a symmetric matrix over the points of a row; `matrix` holds it row by row, (x, y) for
+    /// each of its points.
+    pub fn add_symmetric(&mut self, row_idx: usize, matrix: &[f64]) {
+        let terms = self.terms.get(row_idx);
+        let n = 2 * terms.len();
+        assert_eq!(matrix.len(), n * n, "a matrix has a row and a column for each coordinate");
+        let mut targets = self.targets.get(row_idx).iter();
+        for (k, &b) in terms.iter().enumerate() {
+            let b = 2 * b as usize;
+            for (&a, &target) in terms[..=k].iter().zip(&mut targets) {
+                let a = 2 * a as usize;
+                let block = &mut self.blocks[target as usize];
+                block[0] += matrix[n * b + a];
+                block[1] += matrix[n * b + a + 1];
+                block[2] += matrix[n * (b + 1) + a];
+                block[3] += matrix[n * (b + 1) + a + 1];
+            }
+        }
+    }
+
     /// How many places there are.
     pub fn len(&self) -> usize {
         self.pattern.len()

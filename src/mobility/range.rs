@@ -235,7 +235,7 @@ impl<'a> Tour<'a> {
             self.mechanism.accept(&next.stand);
             self.node = next;
         }
-        Arrival::End(End::Lost(self.node.stand.turn))
+        self.lost()
     }
 
     /// The node a step on, if it is safe to say that it lies on the same motion.
@@ -321,7 +321,16 @@ impl<'a> Tour<'a> {
         let new = active.into_iter().find(|row| !self.node.active.contains(row));
         match new {
             Some((constraint, _)) => Arrival::End(End::Stop(turn, constraint)),
-            None => Arrival::End(End::Lost(turn)),
+            None => self.lost(),
+        }
+    }
+
+    /// The motion cannot be followed any farther; where several freedoms are left, because it
+    /// is not said which of them goes on.
+    fn lost(&self) -> Arrival {
+        match self.node.n_freedoms {
+            0 | 1 => Arrival::End(End::Lost(self.node.stand.turn)),
+            n => Arrival::Open(n - 1),
         }
     }
 }

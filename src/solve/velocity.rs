@@ -6,8 +6,8 @@
 
 use super::island::Island;
 use super::island::partition::Partition;
-use super::method::Workspace;
 use super::method::rows::{add_row, dot_row};
+use super::method::{Stiffness, Workspace};
 use super::report::Counters;
 use crate::constraint::{ConstraintKind, Field, Jet, PointIdx, Real, Vec2, Vector};
 use crate::diag::Diagnostic;
@@ -54,7 +54,7 @@ fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
     let mut workspace = island.take_workspace();
     let mut work = Counters::default();
     workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, &mut work);
-    workspace.assemble().factor(FLOOR);
+    workspace.assemble(Stiffness::None).factor(FLOOR);
     let mut motion = vec![[Vector::ZERO; 2]; island.x.len()];
     for order in 0..2 {
         let rhs = right_side(island, &workspace, fields, &motion, order);

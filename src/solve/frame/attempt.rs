@@ -5,7 +5,7 @@ use super::dyad;
 use crate::constraint::Point;
 use crate::solve::island::Island;
 use crate::solve::method::newton;
-use crate::solve::method::{Limits, Pose, Workspace};
+use crate::solve::method::{Limits, Pose, Stiffness, Workspace};
 use crate::solve::report::Counters;
 
 /// A correction of the expected pose larger than this part of the motion means that the
@@ -103,7 +103,9 @@ fn attempt_rest(
     }
     if is_found {
         if !island.has_degree {
-            let is_rigid = |workspace: &mut Workspace| workspace.assemble().nullity(RANK_CUT) == 0;
+            let is_rigid = |workspace: &mut Workspace| {
+                workspace.assemble(Stiffness::None).nullity(RANK_CUT) == 0
+            };
             island.set_smooth(workspaces.iter_mut().all(is_rigid));
         }
         let correction =

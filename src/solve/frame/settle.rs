@@ -1,6 +1,7 @@
 //! A pose that does not follow from the one before: a first solve, a place out of reach, or
 //! the way back from there.
 
+use super::nearest::{self, Held};
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
 use crate::solve::method::coefficient::Coefficient;
@@ -81,7 +82,8 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     let start: Box<[Point]> = island.x[..n_free].into();
     let is_elsewhere = island.feasible.as_ref().is_some_and(|pose| *pose != start);
     let mut workspace = island.take_workspace();
-    let mut best = descend(island, &mut workspace, limits, work);
+    let mut best_is_from_feasible = false;
+    let mut best = first_descent(island, &mut workspace, &start, limits, work);
     // What is reached from the last feasible pose does not depend on the way since then. It
     // counts unless it is worse: there and back ends where it began.
     if let Some(feasible) = island.feasible.take() {
@@ -93,12 +95,15 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
                 island.x[..n_free].copy_from_slice(&here);
             } else {
                 best = from_feasible;
+                best_is_from_feasible = true;
             }
         }
         island.feasible = Some(feasible);
     }
-    // Pushing once is enough as long as the scene is about as wrong as then.
-    let is_probed = island.probed_at > 0.0 && best.energy >= MUCH_LESS * island.probed_at;
+    // Pushing once is enough as long as nothing drives the island and it is about as wrong as then.
+    let is_probed = island.inputs.is_empty()
+        && island.probed_at > 0.0
+        && best.energy >= MUCH_LESS * island.probed_at;
     if !best.is_converged() && !is_probed && !limits.budget.is_spent() {
         island.probed_at = best.energy.min(f64::MAX);
         best = escape_saddle(island, &mut workspace, best, limits, work);
@@ -107,11 +112,43 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
             best = relax_first(island, &mut workspace, &start, best, n_sweeps, limits, work);
         }
     }
+    if best.is_converged() && !island.plan.is_linear() {
+        let from = if best_is_from_feasible { island.feasible.take() } else { None };
+        nearest::approach(island, &mut workspace, from.as_deref().unwrap_or(&start), limits, work);
+        best.worst = workspace.rows.worst;
+        best.energy = workspace.rows.energy;
+    }
     island.put_workspace(workspace);
     if best.is_converged() {
         mark_converged(island);
     }
     best
+}
+
+/// The way down from the start; ranges that it begins outside of hold it to their stops if that
+/// can be.
+fn first_descent(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let held = Held::new(island);
+    if held.is_empty() {
+        return descend(island, workspace, limits, work);
+    }
+    let on_stops = {
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        newton::solve_near(workspace, &mut pose, limits, work)
+    };
+    held.release(island);
+    if on_stops.is_converged() {
+        return on_stops;
+    }
+    island.x[..start.len()].copy_from_slice(start);
+    let outcome = descend(island, workspace, limits, work);
+    Outcome { n_iterations: on_stops.n_iterations + outcome.n_iterations, ..outcome }
 }
 
 /// Whether one ending is better than another, by more than rounding.

@@ -7,6 +7,7 @@ pub mod conjugate_gradient;
 pub mod gauss_seidel;
 pub mod gradient_descent;
 pub mod limits;
+pub mod minimum;
 pub mod nesterov;
 pub mod newton;
 pub mod relaxation;
@@ -16,7 +17,7 @@ pub mod sweep;
 pub mod workspace;
 
 pub(crate) use limits::{Limits, Outcome};
-pub(crate) use workspace::{Pose, Workspace};
+pub(crate) use workspace::{Pose, Stiffness, Workspace};
 
 use super::island::Island;
 use super::report::Counters;

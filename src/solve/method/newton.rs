@@ -1,7 +1,8 @@
 //! The method `newton`: Levenberg-Marquardt on normalised rows, with the stiffness that a
 //! stretched length has across its direction.
 
-use super::{Limits, Outcome, Pose, Workspace};
+use super::minimum::{self, Finding};
+use super::{Limits, Outcome, Pose, Stiffness, Workspace};
 use crate::constraint::Point;
 use crate::solve::island::Island;
 use crate::solve::report::{Counters, Status};
@@ -10,8 +11,11 @@ use crate::solve::settings::Settings;
 /// The damping, relative to the distance to satisfaction, that a solve begins with; measured
 /// best among powers of ten on mechanisms. Larger is slower, smaller overshoots more often.
 const FIRST_DAMPING: f64 = 1e-2;
-/// Damping never falls below this share of the distance to satisfaction.
-const LEAST_DAMPING: f64 = 1e-6;
+/// Damping never falls below this share of the distance to satisfaction: rounding of the slope,
+/// divided by the damping, is what a step does to what the rows leave open.
+const LEAST_DAMPING: f64 = 1e-3;
+/// The same where stretched lengths leave little open.
+const LEAST_DAMPING_STRETCHED: f64 = 1e-6;
 /// What is added to the matrix even at the solution. Rank-deficient systems need it to have
 /// a factor; it is far below the smallest square of a singular value that matters.
 const FLOOR: f64 = 1e-11;
@@ -29,8 +33,8 @@ const SLOW: f64 = 1e-2;
 /// The energy that the undamped model could still gain, relative to what there is, at a best
 /// fit. The gradient's norm would not tell: it is small on any ill-conditioned slope too.
 const FLAT: f64 = 1e-8;
-/// Steps taken at a best fit for the last digits; convergence is quadratic there.
-const POLISHES: u32 = 2;
+/// How many saddles are left in one solve.
+const MOST_LEFT: u32 = 20;
 
 /// Takes damped Gauss-Newton steps in one round.
 pub(crate) fn round(
@@ -50,18 +54,28 @@ pub(crate) fn solve(
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    let mut nu = FIRST_DAMPING;
-    let mut n = 0;
+    let mut way = Way::new();
+    let mut n_left = MOST_LEFT;
     loop {
-        let left = Limits { n_iterations: limits.n_iterations - n, ..*limits };
-        let end = descend(workspace, pose, &left, &mut nu, &mut n, work);
+        let end = descend(workspace, pose, limits, &mut way, work);
         let status = match end {
             End::Met => Status::Converged,
-            _ if is_best_fit(workspace, pose, work) => Status::BestFit,
-            End::Slow => continue,
-            End::Stuck | End::Spent => Status::Stalled,
+            _ if !is_flat(workspace, work) => match end {
+                End::Slow => continue,
+                _ => Status::Stalled,
+            },
+            _ => match minimum::examine(workspace, pose, limits, work) {
+                Finding::Minimum => Status::BestFit,
+                Finding::Left if n_left > 0 && !limits.budget.is_spent() => {
+                    n_left -= 1;
+                    // What comes now is another way down, with its own limits.
+                    way.begin_anew();
+                    continue;
+                }
+                Finding::Left | Finding::Unclear => Status::Stalled,
+            },
         };
-        return workspace.outcome(status, n);
+        return workspace.outcome(status, way.n_iterations);
     }
 }
 
@@ -72,10 +86,39 @@ pub(crate) fn solve_near(
     limits: &Limits,
     work: &mut Counters,
 ) -> Outcome {
-    let (mut nu, mut n) = (FIRST_DAMPING, 0);
-    let end = descend(workspace, pose, limits, &mut nu, &mut n, work);
+    let mut way = Way::new();
+    let end = descend(workspace, pose, limits, &mut way, work);
     let status = if end == End::Met { Status::Converged } else { Status::Stalled };
-    workspace.outcome(status, n)
+    workspace.outcome(status, way.n_iterations)
+}
+
+/// How far a solve has come.
+struct Way {
+    stiffness: Stiffness,
+    /// The damping, relative to the distance to satisfaction.
+    nu: f64,
+    n_iterations: u32,
+    /// The iterations before the present way down.
+    n_before: u32,
+}
+
+impl Way {
+    /// A way begins with the shortest steps that meet the rows.
+    fn new() -> Self {
+        Self { stiffness: Stiffness::None, nu: FIRST_DAMPING, n_iterations: 0, n_before: 0 }
+    }
+
+    fn least_damping(&self) -> f64 {
+        match self.stiffness {
+            Stiffness::None => LEAST_DAMPING,
+            Stiffness::Stretched => LEAST_DAMPING_STRETCHED,
+        }
+    }
+
+    fn begin_anew(&mut self) {
+        *self =
+            Self { n_iterations: self.n_iterations, n_before: self.n_iterations, ..Self::new() };
+    }
 }
 
 /// A step from an expected pose that also takes back whatever way from `origin` the rows do
@@ -92,7 +135,7 @@ pub(crate) fn project_prediction(
     limits: &Limits,
     work: &mut Counters,
 ) -> bool {
-    workspace.assemble();
+    workspace.assemble(Stiffness::None);
     workspace.update_slope();
     workspace.remember(pose);
     let rms = (2.0 * workspace.rows.energy / workspace.rows.n_active().max(1) as f64).sqrt();
@@ -117,44 +160,64 @@ enum End {
     Spent,
 }
 
-/// Takes damped steps until there is a reason to stop; adds up their number in `n`.
+/// Takes damped steps until there is a reason to stop: the shortest that meet the rows, and where
+/// those gain next to nothing such as know the stiffness of stretched lengths.
 fn descend(
     workspace: &mut Workspace,
     pose: &mut Pose,
     limits: &Limits,
-    nu: &mut f64,
-    n: &mut u32,
+    way: &mut Way,
+    work: &mut Counters,
+) -> End {
+    let end = descend_by(workspace, pose, limits, way, work);
+    if way.stiffness == Stiffness::None && matches!(end, End::Slow | End::Stuck) {
+        way.stiffness = Stiffness::Stretched;
+        way.nu = FIRST_DAMPING;
+        return descend_by(workspace, pose, limits, way, work);
+    }
+    end
+}
+
+/// The same with one kind of steps.
+fn descend_by(
+    workspace: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    way: &mut Way,
     work: &mut Counters,
 ) -> End {
     workspace.evaluate(pose, work);
-    let most = *n + limits.n_iterations;
+    let most = way.n_before.saturating_add(limits.n_iterations);
     loop {
         if workspace.is_met(limits) {
             return End::Met;
         }
-        if *n >= most || !workspace.rows.energy.is_finite() || limits.budget.is_spent() {
+        if way.n_iterations >= most
+            || !workspace.rows.energy.is_finite()
+            || limits.budget.is_spent()
+        {
             return End::Spent;
         }
         let before = workspace.rows.energy;
-        workspace.assemble();
+        workspace.assemble(way.stiffness);
         workspace.update_slope();
         workspace.remember(pose);
         let rms = (2.0 * before / workspace.rows.n_active().max(1) as f64).sqrt();
         let unit = (rms / limits.size).min(1.0);
         loop {
-            let Some(promised) = solve_step(workspace, *nu * unit + FLOOR, work) else {
+            let Some(promised) = solve_step(workspace, way.nu * unit + FLOOR, work) else {
                 return End::Stuck;
             };
-            *n += 1;
+            way.n_iterations += 1;
             let longest = workspace.longest_step(LONGEST_STEP, limits);
             let is_near = workspace.equations.reach(&workspace.step) <= longest;
             let energy = if is_near { workspace.try_step(pose, 1.0, work) } else { f64::INFINITY };
             let gain = (before - energy) / promised;
             if gain > LEAST_GAIN {
                 if gain > 0.75 {
-                    *nu = (*nu / 4.0).max(LEAST_DAMPING);
+                    way.nu = (way.nu / 4.0).max(way.least_damping());
                 } else if gain < 0.25 {
-                    *nu = (*nu * 4.0).max(1e-3);
+                    way.nu = (way.nu * 4.0).max(1e-3);
                 }
                 break;
             }
@@ -168,11 +231,11 @@ fn descend(
             if is_near {
                 workspace.reject(pose, work);
             }
-            *nu = (*nu * 4.0).max(1e-3);
-            if *nu > MOST_DAMPING {
+            way.nu = (way.nu * 4.0).max(1e-3);
+            if way.nu > MOST_DAMPING {
                 return End::Stuck;
             }
-            if *n >= most {
+            if way.n_iterations >= most {
                 return End::Spent;
             }
         }
@@ -216,39 +279,15 @@ fn solve_step(workspace: &mut Workspace, mu: f64, work: &mut Counters) -> Option
     (promised > 0.0).then_some(promised)
 }
 
-/// Whether no small move would lower the energy any further. If so, the last digits of the
-/// pose are got too: what they gain is too little to show in the energy, but the slope shows it.
-fn is_best_fit(workspace: &mut Workspace, pose: &mut Pose, work: &mut Counters) -> bool {
+/// Whether no small move would lower the energy any further, as far as the slope tells.
+fn is_flat(workspace: &mut Workspace, work: &mut Counters) -> bool {
     let energy = workspace.rows.energy;
     if !energy.is_finite() {
         return false;
     }
-    workspace.assemble();
+    workspace.assemble(Stiffness::Stretched);
     workspace.update_slope();
-    for _ in 0..=POLISHES {
-        let Some(gain) = solve_step(workspace, FLOOR, work) else { return true };
-        if gain > FLAT * energy {
-            return false;
-        }
-        let before = steepness(workspace);
-        workspace.remember(pose);
-        if workspace.try_step(pose, 1.0, work) > energy * (1.0 + FLAT) {
-            workspace.reject(pose, work);
-            return true;
-        }
-        workspace.assemble();
-        workspace.update_slope();
-        if steepness(workspace) >= before {
-            workspace.reject(pose, work);
-            return true;
-        }
-    }
-    true
-}
-
-/// The squared norm of the slope.
-fn steepness(workspace: &Workspace) -> f64 {
-    workspace.slope.iter().map(|g| g * g).sum()
+    solve_step(workspace, FLOOR, work).is_none_or(|gain| gain <= FLAT * energy)
 }
 
 #[cfg(test)]

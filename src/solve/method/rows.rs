@@ -1,6 +1,8 @@
 //! The equations of an island, linearised at a pose: normalised and weighted.
 
-use crate::constraint::{Constraint, ConstraintKind, Kind, Point, PointIdx, Row, Vector};
+use crate::constraint::{
+    Constraint, ConstraintKind, Field, Jet, Kind, Point, PointIdx, Real, Row, Vec2, Vector,
+};
 use crate::solve::report::Counters;
 
 /// A constraint of no more points has all of them in each of its rows, as far as we know.
@@ -73,6 +75,11 @@ impl Equations {
     /// How many rows there are.
     pub fn n_rows(&self) -> usize {
         self.start.len() - 1
+    }
+
+    /// The points that row `r` holds, as indices among [`Equations::points`].
+    fn unknowns(&self, r: usize) -> &[u32] {
+        &self.unknown[self.start[r] as usize..self.start[r + 1] as usize]
     }
 
     /// For each row the points it holds, as indices among [`Equations::points`].
@@ -258,6 +265,46 @@ impl Rows {
         })
     }
 
+    /// For each row that is not met its value times its second derivatives by the weighted
+    /// unknowns, row by row of the matrix, with the row's number.
+    pub fn each_curvature(
+        &self,
+        equations: &Equations,
+        all: &[Constraint],
+        x: &[Point],
+        mut give: impl FnMut(usize, &[f64]),
+    ) {
+        // Time stands still: no motor turns.
+        let at_rest = |field: Field, value: f64| {
+            Jet::constant(if field == Field::Speed { 0.0 } else { value })
+        };
+        let mut first = 0;
+        for &c in &equations.constraints {
+            let constraint = &all[c as usize];
+            let n_rows = constraint.n_rows();
+            for part in 0..n_rows {
+                let r = first + part;
+                let unknowns = equations.unknowns(r);
+                if self.f[r] != 0.0 && self.scale[r] > 0.0 && !unknowns.is_empty() {
+                    let factor = self.f[r] * self.scale[r];
+                    let matrix = second_derivatives(equations, unknowns, x, |at| {
+                        let mut k = 0;
+                        let mut found = 0.0;
+                        constraint.equations(&at, &at_rest, &mut |f: Jet| {
+                            if k == part {
+                                found = f.dd;
+                            }
+                            k += 1;
+                        });
+                        factor * found
+                    });
+                    give(r, &matrix);
+                }
+            }
+            first += n_rows;
+        }
+    }
+
     /// The derivative of the energy by the weighted unknowns.
     pub fn slope(&self, equations: &Equations, to: &mut [f64]) {
         to.fill(0.0);
@@ -279,6 +326,45 @@ impl Rows {
         }
         sum
     }
+}
+
+/// The second derivatives of a function of the places of some unknown points, by the weighted
+/// unknowns: from those along each unknown and along each pair of them.
+fn second_derivatives(
+    equations: &Equations,
+    unknowns: &[u32],
+    x: &[Point],
+    along: impl Fn(&dyn Fn(PointIdx) -> Vec2<Jet>) -> f64,
+) -> Vec<f64> {
+    let n = 2 * unknowns.len();
+    let still = |p: PointIdx| x[p as usize];
+    let rate = |p: PointIdx, k: usize| -> Vector {
+        let unknown = unknowns[k / 2] as usize;
+        if equations.points[unknown] != p {
+            return Vector::ZERO;
+        }
+        let w = equations.root_w[unknown];
+        if k.is_multiple_of(2) { Vector::new(w, 0.0) } else { Vector::new(0.0, w) }
+    };
+    let curvature = |i: usize, j: Option<usize>| -> f64 {
+        along(&|p| {
+            let (at, v) = (still(p), rate(p, i) + j.map_or(Vector::ZERO, |j| rate(p, j)));
+            Vec2 { x: Jet::new(at.x, v.x, 0.0), y: Jet::new(at.y, v.y, 0.0) }
+        })
+    };
+    let mut matrix = vec![0.0; n * n];
+    for i in 0..n {
+        matrix[n * i + i] = curvature(i, None);
+    }
+    for i in 0..n {
+        for j in 0..i {
+            let both = curvature(i, Some(j));
+            let mixed = 0.5 * (both - matrix[n * i + i] - matrix[n * j + j]);
+            matrix[n * i + j] = mixed;
+            matrix[n * j + i] = mixed;
+        }
+    }
+    matrix
 }
 
 /// Adds `k` times a row to a vector of unknowns.

@@ -14,6 +14,16 @@ pub(crate) struct Pose<'a> {
     pub x: &'a mut [Point],
 }
 
+/// What a step takes into account of the curvature of its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stiffness {
+    /// Nothing: Gauss-Newton, whose steps are the shortest that meet the rows.
+    None,
+    /// A stretched length resists a move across it as well. Where not all can hold that is what
+    /// makes steps go where the energy is least; where all can, they would go too far.
+    Stretched,
+}
+
 /// The room a method works in: made when first needed, kept as long as it is.
 pub(crate) struct Workspace {
     /// What is to be solved.
@@ -104,16 +114,13 @@ impl Workspace {
         self.rows.slope(&self.equations, &mut self.slope);
     }
 
-    /// J^T J of the present rows, with the stiffness of stretched lengths.
-    pub fn assemble(&mut self) -> &mut NormalMatrix {
-        let equations = &self.equations;
-        let matrix = self.matrix.get_or_insert_with(|| {
-            Box::new(NormalMatrix::new(equations.points().len(), equations.pattern()))
-        });
-        matrix.clear();
-        for (r, (_, unknowns, gradient, bend)) in self.rows.iter(equations).enumerate() {
+    /// J^T J of the present rows, with or without the stiffness of stretched lengths.
+    pub fn assemble(&mut self, stiffness: Stiffness) -> &mut NormalMatrix {
+        let Self { equations, rows, matrix, .. } = self;
+        let matrix = cleared(matrix, equations);
+        for (r, (_, unknowns, gradient, bend)) in rows.iter(equations).enumerate() {
             matrix.add_row(r, gradient);
-            if bend > 0.0 {
+            if stiffness == Stiffness::Stretched && bend > 0.0 {
                 // No row holds more points than a constraint of four.
                 let mut across = [0.0; 8];
                 let (turned, _) = across.as_chunks_mut::<2>();
@@ -124,6 +131,23 @@ impl Workspace {
             }
         }
         matrix
+    }
+
+    /// The curvature of the energy at the present rows, `J^T J + sum f hess f`.
+    pub fn assemble_curvature(&mut self, pose: &Pose) {
+        let Self { equations, rows, matrix, .. } = self;
+        let matrix = cleared(matrix, equations);
+        for (r, (_, _, gradient, _)) in rows.iter(equations).enumerate() {
+            matrix.add_row(r, gradient);
+        }
+        rows.each_curvature(equations, pose.constraints, pose.x, |r, hessian| {
+            matrix.add_symmetric(r, hessian);
+        });
+    }
+
+    /// The norm of the slope.
+    pub fn steepness(&self) -> f64 {
+        self.slope.iter().map(|g| g * g).sum::<f64>().sqrt()
     }
 
     /// The matrix as last assembled and factored.
@@ -140,4 +164,16 @@ impl Workspace {
     pub fn is_met(&self, limits: &Limits) -> bool {
         self.rows.energy.is_finite() && self.rows.worst <= limits.tolerance
     }
+}
+
+/// The matrix of these equations, made when it is needed first, with nothing in it.
+fn cleared<'a>(
+    matrix: &'a mut Option<Box<NormalMatrix>>,
+    equations: &Equations,
+) -> &'a mut NormalMatrix {
+    let matrix = matrix.get_or_insert_with(|| {
+        Box::new(NormalMatrix::new(equations.points().len(), equations.pattern()))
+    });
+    matrix.clear();
+    matrix
 }
