@@ -9,7 +9,7 @@ use super::scene::{Pose, Scene};
 use super::trace::Curve;
 use super::view::{Options, View};
 use super::{legend, trace_animation};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// A picture holds at most so many frames times parts: some ten megabytes. Beyond it frames
 /// are left out evenly, and straight lines lead over the gaps.
@@ -104,7 +104,7 @@ impl Animation {
 
     /// Every ghost of any frame, while it is there.
     fn ghosts(&self, times: &[f64]) -> Vec<Group> {
-        let mut all: Vec<Rc<Pose>> = Vec::new();
+        let mut all: Vec<Arc<Pose>> = Vec::new();
         let mut is_there: Vec<Vec<bool>> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for ghost in &scene.ghosts {

@@ -1,7 +1,7 @@
 //! The pen: collects the figures of a picture while its parts are drawn.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::figure::{Figure, Key, Layer, Placement};
 use super::page::Page;
@@ -24,7 +24,7 @@ pub struct Ink<'a> {
     key: Key,
     n_of_key: u16,
     is_off: bool,
-    note: Option<Rc<str>>,
+    note: Option<Arc<str>>,
 }
 
 impl<'a> Ink<'a> {
@@ -43,7 +43,7 @@ impl<'a> Ink<'a> {
     }
 
     /// What follows belongs to `key`.
-    pub fn begin(&mut self, key: Key, is_off: bool, note: Option<Rc<str>>) {
+    pub fn begin(&mut self, key: Key, is_off: bool, note: Option<Arc<str>>) {
         if key != self.key {
             self.n_of_key = 0;
         }

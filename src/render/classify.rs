@@ -1,7 +1,7 @@
 //! Which parts the constraints and points of a world are drawn as.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::figure::Key;
 use super::parts::{
@@ -49,7 +49,7 @@ struct Plan<'a> {
     gears_on: Gears,
     gears_off: Gears,
     /// Whose each mesh is, those that are on and those that are off.
-    meshes: [Vec<(ConstraintId, Rc<str>)>; 2],
+    meshes: [Vec<(ConstraintId, Arc<str>)>; 2],
 }
 
 /// How many strokes mark each of several classes of segments.
@@ -211,7 +211,7 @@ impl<'a> Plan<'a> {
     fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<Form>) {
         self.parts.push(Part {
             key: Key::Constraint(id),
-            name: Rc::from(&*record.name),
+            name: Arc::from(&*record.name),
             is_off: !record.is_on,
             form: form.into(),
         });
@@ -263,7 +263,7 @@ impl<'a> Plan<'a> {
         } else {
             gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
         }
-        self.meshes[usize::from(!record.is_on)].push((id, Rc::from(&*record.name)));
+        self.meshes[usize::from(!record.is_on)].push((id, Arc::from(&*record.name)));
     }
 
     fn gears(&mut self) {
@@ -312,7 +312,7 @@ impl<'a> Plan<'a> {
                 (true, false) => Foot::Frozen,
                 (true, true) => Foot::FrozenMotor,
             };
-            let name: Rc<str> = points.name(id).into();
+            let name: Arc<str> = points.name(id).into();
             let form = Joint { point: id.0, name: name.clone(), foot, is_driven }.into();
             self.parts.push(Part { key: Key::Point(id), name, is_off: false, form });
         }

@@ -1,6 +1,6 @@
 //! Figures: the shapes that a picture is made of, in px on the page, y down.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::path::Path;
 use super::style::Class;
@@ -63,7 +63,7 @@ pub struct Figure {
     /// Whether what it stands for is switched off.
     pub is_off: bool,
     /// What it shows when pointed at.
-    pub note: Option<Rc<str>>,
+    pub note: Option<Arc<str>>,
     /// Where its own origin lies on the page, and how it is turned.
     pub placement: Placement,
     /// What it is made of, in its own coordinates.
@@ -100,7 +100,7 @@ impl Figure {
     }
 
     /// Adds a text that stands on `at`.
-    pub fn text(&mut self, class: Class, at: Point, text: Rc<str>) -> &mut Self {
+    pub fn text(&mut self, class: Class, at: Point, text: Arc<str>) -> &mut Self {
         self.shapes.push(Shape { class, outline: Outline::Text { at, text } });
         self
     }
@@ -165,7 +165,7 @@ pub enum Outline {
         /// Where it stands: the middle of its base line, or the left end of a caption's.
         at: Point,
         /// What it says.
-        text: Rc<str>,
+        text: Arc<str>,
     },
 }
 

@@ -1,6 +1,6 @@
 //! A scene: the parts of a mechanism, where its points are, and what they left behind.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::classify;
 use super::page::Extent;
@@ -16,7 +16,7 @@ use crate::world::{Ghost, World};
 pub struct Scene {
     pub(super) pose: Pose,
     /// The same at other times, the oldest first.
-    pub(super) ghosts: Vec<Rc<Pose>>,
+    pub(super) ghosts: Vec<Arc<Pose>>,
     pub(super) curves: Vec<Curve>,
 }
 
@@ -24,9 +24,9 @@ pub struct Scene {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
     /// What is drawn.
-    pub parts: Rc<[Part]>,
+    pub parts: Arc<[Part]>,
     /// Positions by handle; those of points that do not live mean nothing.
-    pub at: Rc<[Point]>,
+    pub at: Arc<[Point]>,
 }
 
 impl Scene {
@@ -92,7 +92,7 @@ impl Pose {
 
     /// The same parts where they were, without those that had not all their points then, and
     /// without those that cannot have been elsewhere.
-    fn exposed(&self, ghost: &Ghost, world: &World) -> Rc<Self> {
+    fn exposed(&self, ghost: &Ghost, world: &World) -> Arc<Self> {
         let mut at = vec![None; self.at.len()];
         for (id, place) in &ghost.at {
             if let Some(slot) = at.get_mut(id.idx()) {
@@ -107,7 +107,7 @@ impl Pose {
             is_whole && can_move && !matches!(part.form, Form::Construction(_))
         };
         let parts = self.parts.iter().filter(is_seen).cloned().collect();
-        Rc::new(Self { parts, at: at.into_iter().map(Option::unwrap_or_default).collect() })
+        Arc::new(Self { parts, at: at.into_iter().map(Option::unwrap_or_default).collect() })
     }
 
     /// Grows the box to hold it.

@@ -54,5 +54,5 @@ fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
         length += last.replace(here).map_or(0.0, |before| here.distance(before));
         length
     };
-    curve.samples.get().iter().map(|sample| sample.at).map(up_to).collect()
+    curve.samples.read(|samples| samples.iter().map(|sample| sample.at).map(up_to).collect())
 }

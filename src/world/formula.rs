@@ -1,6 +1,6 @@
 //! Expressions bound to what they name: live formulas over points, parameters and time.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
 use super::{Function, ParameterId, PointId, Shape};
@@ -12,7 +12,7 @@ const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
 
 /// An expression whose names are resolved; cheap to clone.
 #[derive(Debug, Clone)]
-pub struct Formula(Rc<Inner>);
+pub struct Formula(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
@@ -174,7 +174,7 @@ impl Formula {
 
     /// A node with its shape, what it depends on and its place in the text.
     pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
-        Self(Rc::new(Inner { node, shape, depends, span }))
+        Self(Arc::new(Inner { node, shape, depends, span }))
     }
 
     /// The tree.
@@ -199,7 +199,7 @@ impl Formula {
 
     /// Whether two handles show the same formula.
     pub fn is_same(&self, other: &Self) -> bool {
-        Rc::ptr_eq(&self.0, &other.0)
+        Arc::ptr_eq(&self.0, &other.0)
     }
 
     /// Calls `visit` for each point and parameter it mentions.

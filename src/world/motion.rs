@@ -1,7 +1,7 @@
 //! Time going on: what a frame advances, and all that running changes as one piece of data.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::same::{are_same_places, are_same_states};
 use super::trace::Tail;
@@ -16,11 +16,11 @@ pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
 /// One of these takes a whole run back, however many frames it had. Copies share what is large.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    at: Rc<Vec<Point>>,
-    start: Rc<Vec<Point>>,
-    start_states: Rc<States>,
+    at: Arc<Vec<Point>>,
+    start: Arc<Vec<Point>>,
+    start_states: Arc<States>,
     clock: Clock,
-    states: Rc<States>,
+    states: Arc<States>,
     /// Constraints with live values, which a frame sets: whole.
     driven: Vec<(ConstraintId, Constraint)>,
     traces: Vec<Tail<Sample>>,
@@ -41,15 +41,15 @@ impl World {
     /// All that running changes, as it is now.
     pub fn motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
-        let at = Rc::new(self.points.at.clone());
+        let at = Arc::new(self.points.at.clone());
         let is_at_start = are_same_places(&self.points.start, &self.points.at);
-        let start = if is_at_start { at.clone() } else { Rc::new(self.points.start.clone()) };
+        let start = if is_at_start { at.clone() } else { Arc::new(self.points.start.clone()) };
         Motion {
             at,
             start,
-            start_states: Rc::new(self.start_states.clone()),
+            start_states: Arc::new(self.start_states.clone()),
             clock: self.clock,
-            states: Rc::new(self.states()),
+            states: Arc::new(self.states()),
             driven: self.driven(),
             traces,
             ghosts,
@@ -111,7 +111,7 @@ impl World {
             start: exchange(&mut self.points.start, motion.start),
             start_states: exchange(&mut self.start_states, motion.start_states),
             clock: std::mem::replace(&mut self.clock, motion.clock),
-            states: Rc::new(states),
+            states: Arc::new(states),
             driven,
             traces,
             ghosts: motion.ghosts.swap(&mut self.ghosts),
@@ -233,12 +233,12 @@ fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
 }
 
 /// Puts `new` in a place; gives what was there.
-fn exchange<T: Clone>(place: &mut T, new: Rc<T>) -> Rc<T> {
-    Rc::new(std::mem::replace(place, Rc::unwrap_or_clone(new)))
+fn exchange<T: Clone>(place: &mut T, new: Arc<T>) -> Arc<T> {
+    Arc::new(std::mem::replace(place, Arc::unwrap_or_clone(new)))
 }
 
 /// Gives up a copy for what it is equal to by this measure.
-fn share<T>(copy: &mut Rc<T>, with: &Rc<T>, is_same: impl Fn(&T, &T) -> bool) {
+fn share<T>(copy: &mut Arc<T>, with: &Arc<T>, is_same: impl Fn(&T, &T) -> bool) {
     if is_same(copy, with) {
         copy.clone_from(with);
     }

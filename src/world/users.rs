@@ -1,7 +1,7 @@
 //! Who uses what: the question that `delete` asks.
 
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 use crate::constraint::ConstraintKind;
 
@@ -34,7 +34,7 @@ impl User {
 /// By point, what holds or mentions it. Made when it is first asked for, since only `delete` asks,
 /// and kept up from then on, so that a thousand deletions look at the scene once.
 #[derive(Debug, Clone, Default)]
-pub(super) struct PointUsers(OnceCell<BTreeSet<(PointId, User)>>);
+pub(super) struct PointUsers(OnceLock<BTreeSet<(PointId, User)>>);
 
 impl PointUsers {
     /// What uses a point, in order.

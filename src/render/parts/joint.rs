@@ -6,7 +6,7 @@ use crate::render::canvas::Ink;
 use crate::render::figure::{Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::{BASE_LINE, Class, JOINT, MOTOR, letter};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// What a point stands on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct Joint {
     /// Which one.
     pub point: PointIdx,
     /// What it is called.
-    pub name: Rc<str>,
+    pub name: Arc<str>,
     /// What it stands on.
     pub foot: Foot,
     /// Whether it sits within the disc of a motor.

@@ -39,7 +39,7 @@ pub use ticks::Ticks;
 pub use train::{Gears, Train};
 pub use web::Web;
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::canvas::Ink;
 use super::figure::Key;
@@ -101,7 +101,7 @@ pub struct Part {
     /// Whose it is.
     pub key: Key,
     /// Its name.
-    pub name: Rc<str>,
+    pub name: Arc<str>,
     /// Whether it is switched off.
     pub is_off: bool,
     /// What it is drawn as.

@@ -1,7 +1,6 @@
 //! What was done, so that it can be undone: every command is one transaction.
 
 use std::collections::{BTreeSet, VecDeque};
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::recorder::{Recorder, Reel};
@@ -22,7 +21,7 @@ pub enum Change {
     /// Sets what a definition is, or that there is none.
     Definition(Box<(Arc<str>, Option<Arc<Definition>>)>),
     /// Sets what the solver remembers.
-    Memory(Rc<Memory>),
+    Memory(Arc<Memory>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
     /// Appends a value to a series, or takes the last one away.

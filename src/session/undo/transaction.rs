@@ -1,6 +1,6 @@
 //! A command is a transaction: what it changed can be taken back, and done again.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
@@ -25,7 +25,7 @@ impl Session {
                 Change::Definition(definition)
             }
             Change::Memory(memory) => {
-                let old = Rc::new(self.solver.memory());
+                let old = Arc::new(self.solver.memory());
                 self.solver.set_memory(Memory::clone(&memory));
                 self.is_behind = true;
                 Change::Memory(old)
@@ -130,7 +130,7 @@ impl Session {
     pub(crate) fn note_memory(&mut self) {
         if !std::mem::replace(&mut self.journal.has_memory, true) {
             self.note_unseen();
-            let memory = Rc::new(self.solver.memory());
+            let memory = Arc::new(self.solver.memory());
             self.journal.current.push(Change::Memory(memory));
         }
     }
@@ -138,7 +138,7 @@ impl Session {
     /// Commands that the solver has not seen yet are taken back to what it remembers now.
     fn note_unseen(&mut self) {
         if self.journal.has_unseen() {
-            let memory = Rc::new(self.solver.memory());
+            let memory = Arc::new(self.solver.memory());
             self.journal.see(|| Change::Memory(memory.clone()));
         }
     }
