@@ -1,4 +1,5 @@
-//! How every number is written: the shortest text that reads back to the same bits.
+//! How every number is written: the shortest text that reads back to the same bits, and what is
+//! left of it in talk.
 
 /// Writes `value` in the fewest digits that read back to the same bits.
 ///
@@ -20,6 +21,45 @@ pub fn format_number(value: f64) -> String {
     } else {
         format!("{value:e}")
     }
+}
+
+/// A number rounded to so many digits, of which there is at least one.
+///
+/// ```
+/// use linkwork::diag::format_digits;
+///
+/// assert_eq!(format_digits(0.123456, 5), "0.12346");
+/// ```
+pub fn format_digits(value: f64, n_digits: usize) -> String {
+    let text = format!("{value:.*e}", n_digits - 1);
+    format_number(text.parse().unwrap_or(value))
+}
+
+/// A number for talk: three digits say enough.
+pub fn format_rounded(value: f64) -> String {
+    format_digits(value, 3)
+}
+
+/// A count for a message: nobody counts the zeros of a large round one.
+pub fn format_count(value: f64) -> String {
+    if value.abs() >= 1e6 { format!("{value:e}") } else { format_number(value) }
+}
+
+/// An angle, given in radians, in degrees with its unit, to 1e-9.
+pub fn format_degrees(radians: f64) -> String {
+    let rounded = (radians.to_degrees() * 1e9).round() / 1e9;
+    // Adding 0 makes a 0 of -0.
+    format!("{} deg", format_number(rounded + 0.0))
+}
+
+/// A time with its unit, three digits: `1.25 us`.
+pub fn format_seconds(seconds: f64) -> String {
+    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
+    let (scale, unit) =
+        units.into_iter().find(|(scale, _)| seconds >= *scale).unwrap_or((1e-9, "ns"));
+    let value = seconds / scale;
+    let n_places = if value >= 100.0 { 0 } else { usize::from(value < 10.0) + 1 };
+    format!("{value:.n_places$} {unit}")
 }
 
 /// Adds a whole number to a text, in a fraction of the time that the general formatting takes:
@@ -56,6 +96,29 @@ mod tests {
             push_integer(&mut text, value);
             assert_eq!(text, format!("p{value}"));
         }
+    }
+
+    #[test]
+    fn times_have_three_digits_and_a_unit() {
+        let check = |seconds: f64, wanted: &str| assert_eq!(format_seconds(seconds), wanted);
+        check(1.25, "1.25 s");
+        check(0.0123, "12.3 ms");
+        check(4.2e-6, "4.20 us");
+        check(3.21e-7, "321 ns");
+        check(0.0, "0.00 ns");
+    }
+
+    #[test]
+    fn angles_are_degrees_without_a_sign_of_zero() {
+        let check = |radians: f64, wanted: &str| assert_eq!(format_degrees(radians), wanted);
+        check(std::f64::consts::FRAC_PI_2, "90 deg");
+        check(-0.0, "0 deg");
+        check(-1e-12, "0 deg");
+    }
+
+    #[test]
+    fn large_counts_have_an_exponent() {
+        assert_eq!([format_count(1e9), format_count(720.0)], ["1e9", "720"]);
     }
 
     #[test]

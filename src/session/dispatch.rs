@@ -1,7 +1,7 @@
 //! Which command does what.
 
 use super::{Flow, Session};
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::lang::ast::{Command, Expr, Statement};
 
 impl Session {
@@ -103,13 +103,12 @@ impl Session {
         let n = value.round();
         if (n - value).abs() > 1e-9 * value.abs().max(1.0) {
             return Err(Diagnostic::error(format!("expected a whole number of {of}"))
-                .at(expr.span, format!("this is {}", crate::diag::format_number(value))));
+                .at(expr.span, format!("this is {}", format_number(value))));
         }
         if n < least || n > most {
-            let number = crate::diag::format_number;
             return Err(Diagnostic::error(format!(
                 "expected {} to {} {of}",
-                number(least),
+                format_number(least),
                 format_count(most)
             ))
             .at(expr.span, format!("this is {}", format_count(value))));
@@ -147,9 +146,4 @@ impl Session {
         Err(Diagnostic::error(format!("`{word}` cannot be part of another command"))
             .at(span, "inside of a `for`, a definition or an included file"))
     }
-}
-
-/// A count for a message: nobody counts the zeros of a large round one.
-pub(super) fn format_count(value: f64) -> String {
-    if value.abs() >= 1e6 { format!("{value:e}") } else { crate::diag::format_number(value) }
 }

@@ -3,12 +3,10 @@
 use std::fmt::Write;
 
 use super::Session;
-use super::commands::run::format_rounded;
-use super::settled::listed;
 use crate::constraint::Constraint;
-use crate::diag::{Diagnostic, Span, format_number};
+use crate::diag::{Diagnostic, Span, format_number, format_rounded, format_seconds, listed};
 use crate::solve::{Method, Report, Settings, Status};
-use crate::study::{format_seconds, freedoms};
+use crate::study::freedoms;
 use crate::world::PointId;
 
 /// Receipt of a command that let time pass.

@@ -3,9 +3,8 @@
 use std::fmt::Write;
 
 use super::Session;
-use super::commands::run::format_rounded;
 use super::commands::settings::SETTINGS;
-use crate::diag::format_number;
+use crate::diag::{format_number, format_rounded};
 use crate::render::Options;
 
 /// The hash FNV-1a of 64 bits (G. Fowler, L. C. Noll, P. Vo).

@@ -1,8 +1,8 @@
 //! A copy of the world at rest, for questions that must not touch the world itself.
 
 use super::Session;
-use super::commands::run::format_rounded;
 use crate::constraint::{Constraint, ConstraintKind as _, Kind};
+use crate::diag::format_rounded;
 use crate::mobility::Scene;
 use crate::solve::{Budget, Report, Solver};
 use crate::world::{ConstraintId, Entity, PointId, World};
@@ -95,29 +95,5 @@ impl Session {
         let size = solver.size();
         let slack = self.preferences.solve.tolerance.max(1e-9) * size;
         Settled { parts: Parts::of(&world), world, report, slack, size }
-    }
-}
-
-/// More names than this in one sentence are counted.
-const MOST_NAMES: usize = 8;
-
-/// The first of many names as a list in words: `a, b, c and 20 more`.
-pub(super) fn listed_first(names: &[String]) -> String {
-    if names.len() <= MOST_NAMES + 1 {
-        return listed(names, "and");
-    }
-    let (first, others) = names.split_at(MOST_NAMES);
-    format!("{} and {} more", first.join(", "), others.len())
-}
-
-/// Names as a list in words: `a`, `a and b`, `a, b and c`.
-pub(super) fn listed<S: AsRef<str>>(names: &[S], last: &str) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.as_ref().to_owned(),
-        [first @ .., end] => {
-            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
-            format!("{} {last} {}", first.join(", "), end.as_ref())
-        }
     }
 }

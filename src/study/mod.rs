@@ -22,4 +22,4 @@ pub use picture::picture;
 pub use reference::freedoms;
 pub use report::{Cut, Measure, Row, Study, Why};
 pub use setting_ladder::{Rung, Step, ladder};
-pub use table::{csv, format_seconds, json, table};
+pub use table::{csv, json, table};

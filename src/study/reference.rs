@@ -5,7 +5,7 @@ use super::course::{Course, Replay};
 use super::measure::Outside;
 use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
-use crate::diag::{Diagnostic, format_number};
+use crate::diag::{Diagnostic, format_digits};
 use crate::mobility::{self, Analysis, Directions, Scene, analyse, freedom};
 use crate::solve::{Budget, Method, Report, Settings, Status};
 use crate::world::{PointId, World};
@@ -135,7 +135,7 @@ pub(super) fn of_motion(
             best.n_bad,
             best.n_frames,
             best.worst.status.phrase(),
-            rounded(best.worst.residual)
+            format_digits(best.worst.residual, 2)
         ));
         return Ok(found);
     }
@@ -162,7 +162,7 @@ pub(super) fn of_motion(
                 "there is no reference: with frames half as long points come out elsewhere, by \
                  {} of the scene's size; the motion goes through a pose where it has several \
                  branches, or past one where it has none; position errors are left out",
-                rounded(off)
+                format_digits(off, 2)
             ));
             return Ok(found);
         }
@@ -193,7 +193,7 @@ pub(super) fn of_pose(subject: &Subject, outside: &Outside) -> Result<Found, Dia
             "there is no reference: it ended as {}, with a residual of {}; position errors are \
              left out",
             report.status.phrase(),
-            rounded(report.residual)
+            format_digits(report.residual, 2)
         ));
         return Ok(found);
     }
@@ -319,13 +319,4 @@ impl Recording {
                 frame.iter().zip(first).all(|(p, q)| p.distance(*q) <= STILL * size)
             })
     }
-}
-
-/// Three digits, which is what such a number is good for.
-pub(super) fn rounded(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
-    format_number(rounded)
 }

@@ -1,7 +1,7 @@
 //! What a study found.
 
-use super::reference::rounded;
 use super::setting_ladder::Rung;
+use crate::diag::format_digits;
 use crate::solve::Settings;
 
 /// What came of a study.
@@ -155,14 +155,18 @@ impl Study {
         let mut spreads: Vec<f64> = self.rows.iter().map(|row| row.spread).collect();
         spreads.sort_by(f64::total_cmp);
         let spread = spreads.get(spreads.len() / 2).copied().unwrap_or(0.0);
-        let good = format!("times good to about {} %", rounded(100.0 * spread));
+        let good = format!("times good to about {} %", format_digits(100.0 * spread, 2));
         let times = match (least, most) {
             (Some(1), Some(1)) => "each timed once".to_owned(),
             (Some(a), Some(b)) if a == b => format!("{a} rounds, {good}"),
             (Some(a), Some(b)) => format!("{a} to {b} rounds, {good}"),
             _ => "none timed".to_owned(),
         };
-        format!("{what}, {} settings, {times}, {} s in all", self.rows.len(), rounded(self.seconds))
+        format!(
+            "{what}, {} settings, {times}, {} s in all",
+            self.rows.len(),
+            format_digits(self.seconds, 2)
+        )
     }
 }
 

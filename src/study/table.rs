@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::reference::rounded;
 use super::report::{Measure, Row, Study};
-use crate::diag::format_number;
+use crate::diag::{format_digits, format_number, format_seconds};
 
 /// The table, a line a row; the efficient ones have a star.
 pub fn table(study: &Study) -> Vec<String> {
@@ -42,16 +41,6 @@ fn error_text(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
-/// A time with its unit, three digits: `1.25 us`.
-pub fn format_seconds(seconds: f64) -> String {
-    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
-    let (scale, unit) =
-        units.into_iter().find(|(scale, _)| seconds >= *scale).unwrap_or((1e-9, "ns"));
-    let value = seconds / scale;
-    let n_places = if value >= 100.0 { 0 } else { usize::from(value < 10.0) + 1 };
-    format!("{value:.n_places$} {unit}")
-}
-
 /// The rows as CSV, with a line of names.
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
@@ -68,7 +57,7 @@ pub fn csv(study: &Study) -> String {
             row.settings.iterations,
             format_number(row.settings.tolerance),
             format_number(three_digits(row.seconds_per_frame)),
-            rounded(row.spread),
+            format_digits(row.spread, 2),
             row.n_rounds,
             format_number(row.residual),
             row.n_failed,
@@ -103,19 +92,4 @@ pub fn json(study: &Study) -> String {
 /// A time is not known any better.
 fn three_digits(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::format_seconds;
-
-    #[test]
-    fn times_have_three_digits_and_a_unit() {
-        let check = |seconds: f64, wanted: &str| assert_eq!(format_seconds(seconds), wanted);
-        check(1.25, "1.25 s");
-        check(0.0123, "12.3 ms");
-        check(4.2e-6, "4.20 us");
-        check(3.21e-7, "321 ns");
-        check(0.0, "0.00 ns");
-    }
 }

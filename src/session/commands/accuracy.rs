@@ -2,14 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::run::format_rounded;
-use crate::diag::Span;
+use crate::diag::{Span, format_rounded, format_seconds};
 use crate::lang::ast::Promise;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::session::{Diagnostic, Flow, Session};
 use crate::study::{
-    Advice, Course, Outside, Row, Study, Wish, csv, format_seconds, json, ladder, picture, study,
-    table,
+    Advice, Course, Outside, Row, Study, Wish, csv, json, ladder, picture, study, table,
 };
 
 /// How long a study takes at most, roughly, seconds: longer and nobody would ask.

@@ -4,9 +4,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::diag::{Kind, Span};
+use crate::diag::{Kind, Span, format_count, format_number};
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
-use crate::session::dispatch::format_count;
 use crate::session::quotas::{DEEPEST_NESTING, MOST_STATEMENTS};
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
@@ -59,7 +58,7 @@ impl Session {
                 return Ok(value);
             }
             Err(Diagnostic::error("expected a whole number")
-                .at(expr.span, format!("this is {}", crate::diag::format_number(value))))
+                .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
         // Loops within loops multiply; one that is long in every round is found in the first.

@@ -1,8 +1,8 @@
 //! Motors that cannot go on: noticing it, saying so, and what happens then.
 
-use super::motor_range::degrees;
 use crate::constraint::geometry::wrap;
 use crate::constraint::{ConstraintKind as _, Field};
+use crate::diag::format_degrees;
 use crate::session::Session;
 use crate::session::undo::recorder::{Recorder, Reel};
 use crate::solve::{Halt, Memory, Method};
@@ -137,7 +137,7 @@ impl Session {
     /// What a motor met in the frame that was just tried, and where; none if nothing that is
     /// worth telling.
     fn tell_halt(&self, halt: Halt) -> Option<String> {
-        let at = |angle: f64| degrees(wrap(angle));
+        let at = |angle: f64| format_degrees(wrap(angle));
         match halt {
             Halt::DeadPoint(angle) => Some(format!("meets a dead point at {}", at(angle))),
             Halt::Stop(angle, by) => {

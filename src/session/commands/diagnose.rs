@@ -1,13 +1,13 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
-use super::run::{format_digits, format_rounded};
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind, Period};
+use crate::diag::{format_digits, format_rounded, listed, listed_first, listed_ways};
 use crate::lang::ast::{ChangePart, Command, Name};
 use crate::mobility::{
     Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
 };
 use crate::session::resolve::unbind::text_of;
-use crate::session::settled::{Settled, listed, listed_first};
+use crate::session::settled::Settled;
 use crate::session::{Diagnostic, Session};
 use crate::solve::Status;
 use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId};
@@ -371,12 +371,4 @@ fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field
             &[Field::Lo]
         }
     })
-}
-
-/// Ways as one line: commas between them, `or` before the last.
-fn listed_ways(ways: &[String]) -> String {
-    match ways {
-        [first @ .., last] if !first.is_empty() => format!("{}, or {last}", first.join(", ")),
-        _ => ways.join(""),
-    }
 }

@@ -1,6 +1,7 @@
 //! `effects`: what this scene has switched on, because of which statements, and what each costs.
 
 use crate::constraint::{Constraint, Kind};
+use crate::diag::format_digits;
 use crate::session::Session;
 use crate::solve::{Budget, Effect, Solver, is_inequality, is_wheel};
 use crate::world::{Formula, Record, Sample, World};
@@ -196,7 +197,7 @@ impl Effects {
     /// The effects as lines of text.
     pub fn lines(&self) -> Vec<String> {
         let per_frame = |seconds: f64| seconds / self.n_frames.max(1) as f64 * 1e6;
-        let digits = |value: f64| super::run::format_digits(value, 3);
+        let digits = |value: f64| format_digits(value, 3);
         let head = ("effect", "", "memory", "us a frame", "share");
         let mut lines = vec![format!(
             "{:<20}{:<5}{:>10}{:>12}{:>8}  because of",

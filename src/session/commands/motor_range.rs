@@ -2,19 +2,12 @@
 
 use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
-use crate::diag::format_number;
+use crate::diag::{format_degrees, listed};
 use crate::lang::ast::Name;
 use crate::mobility::{End, Range, Reach, range};
-use crate::session::settled::{Parts, listed};
+use crate::session::settled::Parts;
 use crate::session::{Diagnostic, Session};
 use crate::world::{ConstraintId, Entity};
-
-/// An angle in degrees, to 1e-9.
-pub(crate) fn degrees(radians: f64) -> String {
-    let rounded = (radians.to_degrees() * 1e9).round() / 1e9;
-    // Adding 0 makes a 0 of -0.
-    format!("{} deg", format_number(rounded + 0.0))
-}
 
 impl Session {
     pub(crate) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
@@ -67,16 +60,16 @@ impl Session {
             return cannot("it is switched off".to_owned());
         };
         let end = |end: End, which: &str| match end {
-            End::DeadPoint(angle) => format!("{which} {}, a dead point", degrees(angle)),
+            End::DeadPoint(angle) => format!("{which} {}, a dead point", format_degrees(angle)),
             End::Stop(angle, by) => {
                 let by = Parts::of(&self.world).ids[by];
                 let by = self.world.name_of(Entity::Constraint(by));
-                format!("{which} {}, where {by} stops it", degrees(angle))
+                format!("{which} {}, where {by} stops it", format_degrees(angle))
             }
             End::Lost(angle) => {
-                format!("{which} at least {}, where the motion was lost", degrees(angle))
+                format!("{which} at least {}, where the motion was lost", format_degrees(angle))
             }
-            End::Endless(angle) => format!("{which} {} and on", degrees(angle)),
+            End::Endless(angle) => format!("{which} {} and on", format_degrees(angle)),
         };
         let text = match reach {
             Reach::Full(1) => format!("{name} turns fully"),
@@ -85,7 +78,7 @@ impl Session {
                 "{name} turns {}, {}; it is at {}",
                 end(lower, "from"),
                 end(upper, "to"),
-                degrees(now)
+                format_degrees(now)
             ),
             Reach::Rigid => format!("{name} cannot turn: what it drives is rigid"),
             Reach::Unsatisfied => cannot("the constraints do not hold now".to_owned()),
@@ -103,7 +96,7 @@ impl Session {
         angles.sort_by(f64::total_cmp);
         // They are known to some 1e-8.
         let rounded = |angle: f64| ((angle.to_degrees() * 1e6).round() / 1e6).to_radians();
-        let mut angles: Vec<String> = angles.into_iter().map(rounded).map(degrees).collect();
+        let mut angles: Vec<String> = angles.into_iter().map(rounded).map(format_degrees).collect();
         angles.dedup();
         match angles.len() {
             0 => text,

@@ -1,9 +1,8 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
 use super::dead_point::{Next, WayBack};
-use crate::diag::{Kind, Span, format_number};
+use crate::diag::{Kind, Span, format_count, format_number, format_rounded};
 use crate::lang::ast::{DragTarget, Expr, Promise};
-use crate::session::dispatch::format_count;
 use crate::session::report::Summary;
 use crate::session::{Diagnostic, Flow, Session};
 use crate::solve::{Budget, Report, Status};
@@ -328,15 +327,4 @@ impl Session {
 /// Whether a frame counts as missed.
 fn is_missed(report: &Report) -> bool {
     report.status != Status::Converged || report.is_interrupted
-}
-
-/// A number for talk: three digits say enough.
-pub(crate) fn format_rounded(value: f64) -> String {
-    format_digits(value, 3)
-}
-
-/// A number rounded to so many digits.
-pub(crate) fn format_digits(value: f64, n_digits: usize) -> String {
-    let text = format!("{value:.*e}", n_digits - 1);
-    format_number(text.parse().unwrap_or(value))
 }

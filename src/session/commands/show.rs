@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::run::format_rounded;
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{Kind, Span, format_number};
+use crate::diag::{Kind, Span, format_number, format_rounded};
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry};
 use crate::session::{Diagnostic, Session};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Period, PointIdx};
-use crate::diag::{SourceId, Span, format_number};
+use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
     Name, Node as Syntax, Pair, Range, Relation, Text,
@@ -199,9 +199,7 @@ impl Session {
     pub(crate) fn constraint_details(&self, id: ConstraintId) -> Vec<String> {
         let record = self.world.constraint(id).expect("a listed constraint lives");
         let x = self.world.points().column();
-        let angle = |phi: f64| {
-            format!("{} deg", crate::session::commands::run::format_rounded(phi.to_degrees()))
-        };
+        let angle = |phi: f64| format!("{} deg", format_rounded(phi.to_degrees()));
         let at = |p: PointIdx| x[p as usize];
         match &record.constraint {
             Constraint::Length(c) => {
