@@ -12,7 +12,7 @@ mod source;
 
 pub use diagnostic::{Diagnostic, Kind, Label, Severity};
 pub use list::{listed, listed_first, listed_ways};
-pub use nearest::nearest;
+pub use nearest::{nearest, suggest};
 pub use number::{
     format_count, format_degrees, format_digits, format_number, format_rounded, format_seconds,
     push_integer,

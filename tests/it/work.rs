@@ -21,9 +21,9 @@ set dt 1/360
 
 /// The world that a script makes.
 fn world(script: &str) -> World {
-    let mut session = Session::new(Box::new(Nowhere));
+    let mut session = Session::new();
     let source = session.add_source("work", script, None);
-    session.execute_all(source).expect("a script that works");
+    session.execute_all(source, &mut Nowhere).expect("a script that works");
     session.world().clone()
 }
 
@@ -148,10 +148,10 @@ const EFFECTS: [(&str, &str); 6] = [
 #[test]
 fn what_no_statement_calls_for_has_no_memory() {
     let effects = |with: &str| {
-        let mut session = Session::new(Box::new(Nowhere));
+        let mut session = Session::new();
         let source = session.add_source("work", &format!("{FOUR_BAR}{with}\nstep 30"), None);
-        session.execute_all(source).expect("a script that works");
-        session.effects_on().rows
+        session.execute_all(source, &mut Nowhere).expect("a script that works");
+        session.effects_on(&Nowhere).rows
     };
     let without = effects("");
     for (name, with) in EFFECTS {

@@ -2,23 +2,24 @@
 
 use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
-use crate::diag::{format_degrees, listed};
+use crate::diag::{Diagnostic, format_degrees, listed};
 use crate::lang::ast::Name;
 use crate::mobility::{End, Range, Reach, range};
+use crate::session::execution::Execution;
 use crate::session::settled::Parts;
-use crate::session::{Diagnostic, Session};
+use crate::session::state::State;
 use crate::world::{ConstraintId, Entity};
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        let entity = self.entity(name)?;
+        let entity = self.resolve().entity(name)?;
         let motor = match entity {
-            Entity::Constraint(id) => self.world.constraint(id).map(|record| (id, record)),
+            Entity::Constraint(id) => self.state.world.constraint(id).map(|record| (id, record)),
             _ => None,
         };
         let Some((id, record)) = motor.filter(|(_, r)| r.constraint.kind() == Kind::Motor) else {
             return Err(Diagnostic::error("`limits` asks how far a motor can turn")
-                .at(name.span, format!("this is a {}", self.noun_of(entity)))
+                .at(name.span, format!("this is a {}", self.state.noun_of(entity)))
                 .help("`list constraints` shows the motors"));
         };
         if !record.is_on {
@@ -26,11 +27,13 @@ impl Session {
             self.host.print(&text);
             return Ok(());
         }
-        let text = self.limits_of(id);
+        let text = self.state.limits_of(id);
         self.host.print(&text);
         Ok(())
     }
+}
 
+impl State {
     fn noun_of(&self, entity: Entity) -> &'static str {
         match entity {
             Entity::Constraint(id) => {

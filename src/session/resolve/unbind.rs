@@ -10,8 +10,9 @@ use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
     Name, Node as Syntax, Pair, Range, Relation, Text,
 };
-use crate::session::Session;
-use crate::world::{ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record};
+use crate::world::{
+    ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record, World,
+};
 
 /// The place of what no text says.
 pub(crate) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -47,7 +48,17 @@ pub(crate) fn text_of(command: &Command) -> String {
     command.to_string()
 }
 
-impl Session {
+/// A world whose things are to be said.
+pub(crate) struct Unbind<'a> {
+    world: &'a World,
+}
+
+impl<'a> Unbind<'a> {
+    /// The statements of a world.
+    pub const fn of(world: &'a World) -> Self {
+        Self { world }
+    }
+
     fn point_name(&self, p: PointIdx) -> Name {
         named(self.world.points().name(PointId(p)))
     }

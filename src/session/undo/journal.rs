@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
-use crate::session::Preferences;
+use crate::session::preferences::Preferences;
 use crate::session::quotas::{UNDO_BYTES, UNDO_COMMANDS};
+use crate::session::series::SeriesList;
 use crate::solve::Memory;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
 
@@ -27,7 +28,7 @@ pub enum Change {
     /// Appends a value to a series, or takes the last one away.
     Sample(Box<(Arc<str>, Option<f64>)>),
     /// Sets all series.
-    Series(Box<crate::session::commands::plot::SeriesList>),
+    Series(Box<SeriesList>),
     /// Sets what the recorders have taken.
     Reels(Box<[Reel]>),
 }
