@@ -16,7 +16,7 @@ mod setting_ladder;
 mod table;
 
 pub use advice::{Advice, Wish};
-pub use course::{Course, Hand, Leg};
+pub use course::{Course, Hand, Leg, move_by};
 pub use measure::{Outside, study};
 pub use picture::picture;
 pub use reference::freedoms;

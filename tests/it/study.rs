@@ -188,6 +188,26 @@ fn a_study_that_is_stopped_shows_what_it_has() {
 }
 
 #[test]
+fn a_study_knows_where_a_hand_took_a_point_up() {
+    // C keeps to its side of the line from B to D: where it has to be at the end is known.
+    for (from, to, side) in [("(1.1, -1.5)", "(6.8, 2.9)", ">"), ("(3.8, -0.8)", "(4.7, 2.6)", "<")]
+    {
+        let (printed, told, _) = said(&format!(
+            "point D = (4, 0) frozen, B = {from}, C = (3, 2.9)
+             length B C = 3.5; length C D = 3; solve
+             point Z = (0, 9)
+             drag B to {to} over 2
+             assert cross(D - B, C - B) {side} 0
+             accuracy"
+        ));
+        assert!(told.iter().all(|told| !told.contains("no reference")), "{told:?}");
+        let auto = printed.iter().find(|line| numbers(line).starts_with(&["auto", "1e-12"]));
+        let error: f64 = numbers(auto.expect("it is a setting"))[7].parse().expect("a number");
+        assert!(error < 1e-10, "the position error of auto is {error}");
+    }
+}
+
+#[test]
 fn nothing_to_study_is_an_error() {
     let (mut session, mut notebook) = (Session::new(), notebook());
     let problem = run(&mut session, &mut notebook, "point A = (0, 0); accuracy")

@@ -149,12 +149,14 @@ impl State {
         let settings = &self.preferences.solve;
         // The first frames bring the copy to its pace.
         for _ in 0..2 {
-            let Ok(report) = solver.step(&mut world, settings, &Budget::default()) else { return };
+            let Ok(report) = solver.step(&mut world, settings, &Budget::default(), |_| {}) else {
+                return;
+            };
             effects.islands = (solver.n_islands().0, report.counters.islands_visited as usize);
         }
         let begun = now();
         while effects.n_frames < TIMED_FRAMES && now() - begun < TIMED_SECONDS {
-            if solver.step(&mut world, settings, &Budget::default()).is_err() {
+            if solver.step(&mut world, settings, &Budget::default(), |_| {}).is_err() {
                 break;
             }
             world.sample_traces(false);

@@ -8,8 +8,8 @@ use crate::session::quotas::MOST_FRAMES;
 use crate::session::state::State;
 use crate::session::summary::Summary;
 use crate::solve::{Budget, Report, Status};
-use crate::study::Hand;
-use crate::world::{Edit, PointId};
+use crate::study::{Hand, move_by};
+use crate::world::{Edit, PointId, World};
 
 /// A promise, evaluated.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,6 +18,13 @@ pub(crate) struct Limits {
     pub tolerance: Option<f64>,
     /// The wall time that no frame is to exceed.
     pub seconds: Option<f64>,
+}
+
+/// So many frames, and the hands that are at work in them.
+#[derive(Clone, Copy)]
+struct Frames<'a> {
+    n: u64,
+    hands: &'a [Hand],
 }
 
 /// What a user who wants to stop does to a frame on its way.
@@ -60,7 +67,7 @@ impl Execution<'_> {
         };
         let limits = self.promised(promise)?;
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
-        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
+        let (flow, n_done) = self.frames(n, limits, span, &[])?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
@@ -81,7 +88,7 @@ impl Execution<'_> {
         }
         let (n, limits) = (n as u64, self.promised(promise)?);
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
-        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
+        let (flow, n_done) = self.frames(n, limits, span, &[])?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
@@ -118,12 +125,7 @@ impl Execution<'_> {
             self.edit(Edit::Freeze(id, true));
         }
         let is_at_start = self.state.world.clock().frame == 0;
-        let (flow, n_done) = self.frames(n, Limits::default(), span, |session, k| {
-            for hand in &hands {
-                let at = hand.at(k as f64 / n as f64);
-                session.state.world.apply(Edit::Move(hand.point, at));
-            }
-        })?;
+        let (flow, n_done) = self.frames(n, Limits::default(), span, &hands)?;
         for &id in &free {
             self.edit(Edit::Freeze(id, false));
         }
@@ -137,14 +139,13 @@ impl Execution<'_> {
         Ok(flow)
     }
 
-    /// Lets `n` frames pass; gives how many did. Before each, `hand` may move points; it is
-    /// given the frame's number, from 1.
+    /// Lets `n` frames pass, in which hands go their ways; gives how many did.
     fn frames(
         &mut self,
         n: u64,
         limits: Limits,
         span: Span,
-        hand: impl Fn(&mut Self, u64),
+        hands: &[Hand],
     ) -> Result<(Flow, u64), Diagnostic> {
         let clock = self.state.world.clock();
         if !(clock.time() + n as f64 * clock.dt).is_finite() {
@@ -162,6 +163,7 @@ impl Execution<'_> {
             && self.state.recorders.is_empty()
             && self.state.preferences.expose_every.is_none();
         let mut way_back = None;
+        let frames = Frames { n, hands };
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
@@ -170,19 +172,19 @@ impl Execution<'_> {
             }
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
-            let mut report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+            let mut report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
             if report.status != Status::Converged {
                 let next = self.met(way_back.is_some(), k, n);
                 if next != Next::On
                     && let Some(way) = way_back.take()
                 {
-                    self.go_back_to(k, way, &limits, &hand)?;
+                    self.go_back_to(k, way, frames, &limits)?;
                 }
                 match next {
                     Next::On => {}
                     Next::Again(motors) => {
                         motors.into_iter().for_each(|id| self.reverse(id));
-                        report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+                        report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
                     }
                     Next::Stop => break,
                 }
@@ -208,42 +210,13 @@ impl Execution<'_> {
     fn one_frame(
         &mut self,
         k: u64,
+        frames: Frames,
         limits: &Limits,
         stop: Stop,
-        hand: impl Fn(&mut Self, u64),
     ) -> Result<Report, Diagnostic> {
+        // What was edited is part of no frame's time.
         self.sync();
-        hand(self, k);
-        self.pass(limits, stop).map_err(|why| self.in_frame(why))
-    }
-
-    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
-    /// already, so none is cut short: what comes out is what was.
-    fn go_back_to(
-        &mut self,
-        k: u64,
-        way: WayBack,
-        limits: &Limits,
-        hand: impl Fn(&mut Self, u64),
-    ) -> Result<(), Diagnostic> {
-        let limits = Limits { tolerance: limits.tolerance, seconds: None };
-        let again = way.frame..k;
-        self.go_back(way);
-        for k in again {
-            let report = self.one_frame(k, &limits, Stop::Ignored, &hand)?;
-            self.keep_frame(is_missed(&report));
-        }
-        Ok(())
-    }
-
-    /// Adds to an error in which frame it came up.
-    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
-        let clock = self.state.world.clock();
-        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
-    }
-
-    fn pass(&mut self, limits: &Limits, stop: Stop) -> Result<Report, Diagnostic> {
-        let Self { state, host, .. } = self;
+        let Self { state, host, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
         let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
@@ -253,7 +226,36 @@ impl Execution<'_> {
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
-        solver.step(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
+        let budget = Budget { tolerance: limits.tolerance, stop };
+        let share = k as f64 / frames.n as f64;
+        let hand = |world: &mut World| move_by(frames.hands, share, world);
+        let report = solver.step(world, &preferences.solve, &budget, hand);
+        report.map_err(|why| self.in_frame(why))
+    }
+
+    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
+    /// already, so none is cut short: what comes out is what was.
+    fn go_back_to(
+        &mut self,
+        k: u64,
+        way: WayBack,
+        frames: Frames,
+        limits: &Limits,
+    ) -> Result<(), Diagnostic> {
+        let limits = Limits { tolerance: limits.tolerance, seconds: None };
+        let again = way.frame..k;
+        self.go_back(way);
+        for k in again {
+            let report = self.one_frame(k, frames, &limits, Stop::Ignored)?;
+            self.keep_frame(is_missed(&report));
+        }
+        Ok(())
+    }
+
+    /// Adds to an error in which frame it came up.
+    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+        let clock = self.state.world.clock();
+        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }
 
     pub(crate) fn relax(&mut self, n: Option<&Expr>) -> Result<Flow, Diagnostic> {
