@@ -1,4 +1,4 @@
-//! The pen: collects the figures of a picture while its parts are drawn.
+//! The canvas: collects the figures of a picture while its symbols are drawn.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,9 +11,9 @@ use crate::constraint::{Point, PointIdx, Vector};
 /// goes without.
 pub type Lettering = BTreeMap<PointIdx, Vector>;
 
-/// Draws figures for one part after the other.
+/// Takes the figures of one symbol after the other.
 #[derive(Debug)]
-pub struct Ink<'a> {
+pub struct Canvas<'a> {
     /// The page.
     pub page: &'a Page,
     /// Where the points are, by handle.
@@ -27,7 +27,7 @@ pub struct Ink<'a> {
     note: Option<Arc<str>>,
 }
 
-impl<'a> Ink<'a> {
+impl<'a> Canvas<'a> {
     /// An empty page.
     pub fn new(page: &'a Page, at: &'a [Point], lettering: &'a Lettering) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl<'a> Ink<'a> {
             at,
             lettering,
             figures: Vec::new(),
-            key: Key::Strip,
+            key: Key::Legend,
             n_of_key: 0,
             is_off: false,
             note: None,

@@ -8,11 +8,10 @@ use svg::node::Text;
 use svg::node::element::{Element, Style};
 
 use super::figure::{Figure, Outline, Shape};
-use super::keyframes::{Change, Motion, Track};
+use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
 use super::number::rounded;
-use super::page::{Page, STRIP};
+use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
-use super::view::Options;
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -21,15 +20,24 @@ const DEGREE_PLACES: usize = 3;
 /// How strongly something that is switched off is drawn.
 const OFF: f64 = 0.3;
 
+/// What a picture says besides the drawing.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The title of the document.
+    pub title: Option<String>,
+    /// What made it and from what: keys and values, kept in the document and not drawn.
+    pub receipt: Vec<(String, String)>,
+}
+
 /// Figures that are shown as one.
 #[derive(Debug, Clone)]
 pub struct Group {
     /// From 0, not there, to 1.
     pub opacity: f64,
     /// How that changes.
-    pub motion: Option<Motion>,
+    pub motion: Option<Keyframes>,
     /// Figures from the bottom up, each with how it moves.
-    pub figures: Vec<(Figure, Option<Motion>)>,
+    pub figures: Vec<(Figure, Option<Keyframes>)>,
 }
 
 impl Group {
@@ -43,7 +51,7 @@ impl Group {
 /// The document of a page.
 pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = page.size();
-    let height = height + if page.is_empty() { 0.0 } else { STRIP };
+    let height = height + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
     let (width, height) = (rounded(width, PLACES), rounded(height, PLACES));
 
     let mut root = Element::new("svg");
@@ -92,7 +100,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
 }
 
 /// A figure; none if there is nothing to it.
-fn figure_element(figure: &Figure, motion: Option<&Motion>) -> Option<Element> {
+fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element> {
     if figure.shapes.is_empty() {
         return None;
     }
@@ -138,7 +146,7 @@ fn shape_element(shape: &Shape) -> Element {
             element.assign("d", path.write(path.numbers(), PLACES));
             element
         }
-        Outline::Pen { path, length } => {
+        Outline::GrowingPath { path, length } => {
             let mut element = Element::new("path");
             element.assign("d", path.write(path.numbers(), PLACES));
             let length = rounded(*length, PLACES);
@@ -168,7 +176,7 @@ fn shape_element(shape: &Shape) -> Element {
 }
 
 /// Adds those tracks of a motion that act on the figure itself, or on one of its shapes.
-fn append_tracks(element: &mut Element, motion: Option<&Motion>, shape: Option<usize>) {
+fn append_tracks(element: &mut Element, motion: Option<&Keyframes>, shape: Option<usize>) {
     let Some(motion) = motion else { return };
     if shape.is_none() && motion.is_hidden_at_first() {
         element.assign("visibility", "hidden");
@@ -178,22 +186,22 @@ fn append_tracks(element: &mut Element, motion: Option<&Motion>, shape: Option<u
     }
 }
 
-fn track_element(track: &Track, duration: f64) -> Element {
+fn track_element(track: &AttributeTrack, duration: f64) -> Element {
     let (name, attribute) = match track.change {
-        Change::Place | Change::Turn => ("animateTransform", "transform"),
-        Change::Visibility => ("animate", "visibility"),
-        Change::Shape(_, attribute) => ("animate", attribute),
+        AnimatedAttribute::Place | AnimatedAttribute::Turn => ("animateTransform", "transform"),
+        AnimatedAttribute::Visibility => ("animate", "visibility"),
+        AnimatedAttribute::Shape(_, attribute) => ("animate", attribute),
     };
     let mut element = Element::new(name);
     element.assign("attributeName", attribute);
     match track.change {
-        Change::Place => element.assign("type", "translate"),
-        Change::Turn => {
+        AnimatedAttribute::Place => element.assign("type", "translate"),
+        AnimatedAttribute::Turn => {
             element.assign("type", "rotate");
             element.assign("additive", "sum");
         }
-        Change::Visibility => element.assign("calcMode", "discrete"),
-        Change::Shape(..) => {}
+        AnimatedAttribute::Visibility => element.assign("calcMode", "discrete"),
+        AnimatedAttribute::Shape(..) => {}
     }
     element.assign("values", track.values.join(";"));
     if !track.times.is_empty() {

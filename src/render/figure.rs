@@ -33,13 +33,13 @@ pub enum Layer {
     /// Points.
     Joint,
     /// What stands below the drawing.
-    Strip,
+    Legend,
 }
 
 /// Whose figure it is; the same thing has the same key in every frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Key {
-    /// Part of how a constraint is drawn.
+    /// Symbol of how a constraint is drawn.
     Constraint(ConstraintId),
     /// A rigid triangle of three rods.
     Triangle([u32; 3]),
@@ -48,7 +48,7 @@ pub enum Key {
     /// A path, by its place among the paths.
     Trace(usize),
     /// The scale and the legend.
-    Strip,
+    Legend,
 }
 
 /// A group of shapes that moves as one.
@@ -78,7 +78,7 @@ impl Figure {
 
     /// Whether it shows a thing and not a remark about things.
     pub const fn is_solid(&self) -> bool {
-        !matches!(self.layer, Layer::Construction | Layer::Mark | Layer::Strip)
+        !matches!(self.layer, Layer::Construction | Layer::Mark | Layer::Legend)
     }
 
     /// How far from its origin it reaches, px, roughly.
@@ -153,8 +153,8 @@ pub enum Outline {
     },
     /// Lines and arcs.
     Path(Path),
-    /// A path that a pen draws: as far as it has come, in a motion.
-    Pen {
+    /// A path that grows as its point moves: shown as far as it has come.
+    GrowingPath {
         /// The whole path.
         path: Path,
         /// How long it is.
@@ -174,7 +174,7 @@ impl Outline {
     pub fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Circle { centre, radius } => vec![centre.x, centre.y, *radius],
-            Self::Path(path) | Self::Pen { path, .. } => path.numbers().to_vec(),
+            Self::Path(path) | Self::GrowingPath { path, .. } => path.numbers().to_vec(),
             Self::Text { at, .. } => vec![at.x, at.y],
         }
     }

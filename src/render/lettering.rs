@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::canvas::{Ink, Lettering};
-use super::occupancy::{Area, Cover, OVER_PART};
+use super::canvas::{Canvas, Lettering};
+use super::occupancy::{Area, OVER_PART, Occupancy};
 use super::page::Page;
-use super::parts::{Form, Joint};
-use super::scene::{Pose, Scene};
+use super::scene::{DrawnPose, Scene};
 use super::style::{self, JOINT};
+use super::symbols::{Joint, SymbolForm};
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// With more points than this, names of instances and rows (`left.P`, `p[3]`) are left out.
@@ -30,8 +30,8 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
     if names.is_empty() {
         return placed;
     }
-    let mut pages: Vec<(Cover, &Pose)> =
-        scenes.iter().map(|scene| (cover(scene, page), &scene.pose)).collect();
+    let mut pages: Vec<(Occupancy, &DrawnPose)> =
+        scenes.iter().map(|scene| (occupancy_of(scene, page), &scene.pose)).collect();
     for joint in names {
         let letter = style::letter(page.mark());
         let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.48 * letter);
@@ -39,14 +39,14 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
             .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)))
             .min_by_key(|(cost, _)| *cost);
         let Some((cost, offset)) = found else { continue };
-        // Letters half hidden by parts say nothing.
+        // Letters half hidden by symbols say nothing.
         let n_cells = half.x * half.y;
         if f64::from(cost) > 0.35 * f64::from(OVER_PART) * n_cells * pages.len() as f64 {
             continue;
         }
-        for (cover, pose) in &mut pages {
+        for (occupancy, pose) in &mut pages {
             let middle = page.px(pose.at[joint.point as usize]) + offset;
-            cover.add_area(Area { middle, half: half + Vector::new(2.0, 2.0) });
+            occupancy.add_area(Area { middle, half: half + Vector::new(2.0, 2.0) });
         }
         placed.insert(joint.point, offset);
     }
@@ -54,9 +54,9 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
 }
 
 /// The joints that get their names.
-fn names(pose: &Pose) -> Vec<&Joint> {
-    let all = pose.parts.iter().filter_map(|part| match &part.form {
-        Form::Joint(joint) => Some(joint),
+fn names(pose: &DrawnPose) -> Vec<&Joint> {
+    let all = pose.symbols.iter().filter_map(|symbol| match &symbol.form {
+        SymbolForm::Joint(joint) => Some(joint),
         _ => None,
     });
     let all: Vec<&Joint> = all.collect();
@@ -69,16 +69,16 @@ fn names(pose: &Pose) -> Vec<&Joint> {
 }
 
 /// What a scene covers of its page.
-fn cover(scene: &Scene, page: &Page) -> Cover {
-    let mut cover = Cover::new(page);
+fn occupancy_of(scene: &Scene, page: &Page) -> Occupancy {
+    let mut occupancy = Occupancy::new(page);
     let none = Lettering::new();
-    let mut ink = Ink::new(page, &scene.pose.at, &none);
-    scene.pose.parts.iter().for_each(|part| part.draw(&mut ink));
+    let mut canvas = Canvas::new(page, &scene.pose.at, &none);
+    scene.pose.symbols.iter().for_each(|symbol| symbol.draw(&mut canvas));
     for curve in &scene.curves {
-        curve.draw(&mut ink);
+        curve.draw(&mut canvas);
     }
-    ink.finish().iter().for_each(|figure| cover.add(figure, page.mark()));
-    cover
+    canvas.finish().iter().for_each(|figure| occupancy.add(figure, page.mark()));
+    occupancy
 }
 
 /// Places for a box of half size `half` around a joint, from the joint.
@@ -105,16 +105,16 @@ fn blend(component: f64) -> f64 {
 
 /// How much a name would disturb there, over all pages; none if it leaves one of them.
 fn cost(
-    pages: &[(Cover, &Pose)],
+    pages: &[(Occupancy, &DrawnPose)],
     point: PointIdx,
     half: Vector,
     page: &Page,
     offset: Vector,
 ) -> Option<u32> {
     let mut sum = 0;
-    for (cover, pose) in pages {
+    for (occupancy, pose) in pages {
         let at: Point = page.px(pose.at[point as usize]);
-        sum += cover.cost(Area { middle: at + offset, half })?;
+        sum += occupancy.cost(Area { middle: at + offset, half })?;
     }
     Some(sum)
 }

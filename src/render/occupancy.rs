@@ -11,12 +11,12 @@ const CELL: f64 = 2.0;
 pub const OVER_LINE: u32 = 1;
 /// On a mark, or a line that only carries one.
 const OVER_MARK: u32 = 3;
-/// On a part.
+/// On a symbol.
 pub const OVER_PART: u32 = 8;
 
 /// A page in cells, each with the worst that lies there.
 #[derive(Debug, Clone)]
-pub struct Cover {
+pub struct Occupancy {
     n_columns: usize,
     n_rows: usize,
     cells: Vec<u8>,
@@ -31,7 +31,7 @@ pub struct Area {
     pub half: Vector,
 }
 
-impl Cover {
+impl Occupancy {
     /// A page with nothing on it.
     pub fn new(page: &Page) -> Self {
         let (width, height) = page.size();
@@ -52,7 +52,7 @@ impl Cover {
                 self.add_line(figure.placement.place(a), figure.placement.place(b), half, weight);
             };
             match &shape.outline {
-                Outline::Path(path) | Outline::Pen { path, .. } => path.flatten(&mut line),
+                Outline::Path(path) | Outline::GrowingPath { path, .. } => path.flatten(&mut line),
                 Outline::Circle { centre, radius } => {
                     let n = (0.8 * radius).clamp(8.0, 96.0).round();
                     let on =

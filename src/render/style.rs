@@ -1,4 +1,4 @@
-//! How everything looks: colours, widths of strokes and sizes of marks, all in one table.
+//! The legend below a drawing: a scale, and which colour is whose path.
 
 use super::number::push_rounded;
 
@@ -100,7 +100,7 @@ pub enum Class {
     Construction,
     /// A name.
     Name,
-    /// Text in the strip below the drawing.
+    /// Text in the legend below the drawing.
     Caption,
     /// The line of the scale.
     Scale,
@@ -110,7 +110,7 @@ pub enum Class {
     Fine(u8),
     /// A path where frames missed their tolerance.
     Missed(u8),
-    /// A path drawn lightly, to be traced over by a moving pen.
+    /// A path drawn lightly, to be drawn over as its point moves.
     Faint(u8),
 }
 

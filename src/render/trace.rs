@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::canvas::Ink;
+use super::canvas::Canvas;
 use super::figure::{Figure, Key, Layer};
-use super::page::{Extent, Page};
+use super::page::{BoundingBox, Page};
 use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
@@ -54,8 +54,8 @@ impl Curve {
     }
 
     /// Grows the box to hold it.
-    pub fn extend(&self, extent: &mut Extent) {
-        self.samples.read(|all| all.iter().for_each(|sample| extent.include(sample.at)));
+    pub fn extend(&self, bounds: &mut BoundingBox) {
+        self.samples.read(|all| all.iter().for_each(|sample| bounds.include(sample.at)));
     }
 
     /// The class it has in a legend.
@@ -64,13 +64,13 @@ impl Curve {
     }
 
     /// Draws it; the figure is empty while there are fewer than two samples.
-    pub fn draw<'i>(&self, ink: &'i mut Ink) -> &'i mut Figure {
-        let paths = self.paths(ink.page);
+    pub fn draw<'c>(&self, canvas: &'c mut Canvas) -> &'c mut Figure {
+        let paths = self.paths(canvas.page);
         let colour = colour_number(self.idx);
         let is_long = paths[0].length() > LONG;
         let met = if is_long { Class::Fine(colour) } else { Class::Trace(colour) };
-        ink.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
-        let figure = ink.figure(Layer::Trace, super::figure::Placement::default());
+        canvas.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
+        let figure = canvas.figure(Layer::Trace, super::figure::Placement::default());
         for (class, points) in [met, Class::Missed(colour)].into_iter().zip(paths) {
             if !points.is_empty() {
                 figure.path(class, points);

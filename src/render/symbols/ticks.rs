@@ -1,9 +1,9 @@
 //! Equal distances: the same number of ticks across each.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -22,17 +22,17 @@ impl Draw for Ticks {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let (half, gap) = (ink.size(8.0), ink.size(4.5));
+    fn draw(&self, canvas: &mut Canvas) {
+        let (half, gap) = (canvas.size(8.0), canvas.size(4.5));
         let [a, b, c, d] = self.points;
         for (p, q) in [(a, b), (c, d)] {
-            let middle = Span::between(ink, p, q).middle();
+            let middle = Segment::between(canvas, p, q).middle();
             let mut ticks = Path::default();
             for k in 0..self.n_ticks {
                 let x = gap * (f64::from(k) - 0.5 * f64::from(self.n_ticks - 1));
                 ticks.move_to(Point::new(x, -half)).line_to(Point::new(x, half));
             }
-            ink.figure(Layer::Mark, middle).path(Class::Mark, ticks);
+            canvas.figure(Layer::Mark, middle).path(Class::Mark, ticks);
         }
     }
 }

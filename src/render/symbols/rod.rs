@@ -1,9 +1,9 @@
 //! A rod: a length that is held.
 
-use super::Draw;
-use super::bar::{Span, outlined};
+use super::bar::{Segment, outlined};
+use super::draw::Draw;
 use crate::constraint::PointIdx;
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::style::Class;
 
 /// A solid bar between two joints.
@@ -18,9 +18,9 @@ impl Draw for Rod {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [a, b] = self.points;
-        let span = Span::between(ink, a, b);
-        outlined(ink, &span, [Class::RodEdge, Class::Rod]);
+        let segment = Segment::between(canvas, a, b);
+        outlined(canvas, &segment, [Class::RodEdge, Class::Rod]);
     }
 }

@@ -1,8 +1,8 @@
 //! A point: a small circle, on a triangle if it is frozen.
 
-use super::Draw;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::{BASE_LINE, Class, JOINT, MOTOR, letter};
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// What a point stands on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Foot {
+pub enum Support {
     /// Nothing: it is free.
     Free,
     /// The ground: it is frozen.
@@ -27,7 +27,7 @@ pub struct Joint {
     /// What it is called.
     pub name: Arc<str>,
     /// What it stands on.
-    pub foot: Foot,
+    pub support: Support,
     /// Whether it sits within the disc of a motor.
     pub is_driven: bool,
 }
@@ -37,18 +37,18 @@ impl Draw for Joint {
         vec![self.point]
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let at = Placement::at(ink.px(self.point));
-        match self.foot {
-            Foot::Free => {}
-            Foot::Frozen => ground(ink, at, 16.0),
+    fn draw(&self, canvas: &mut Canvas) {
+        let at = Placement::at(canvas.px(self.point));
+        match self.support {
+            Support::Free => {}
+            Support::Frozen => ground(canvas, at, 16.0),
             // The triangle has to look out from under the disc.
-            Foot::FrozenMotor => ground(ink, at, 2.5 * MOTOR),
+            Support::FrozenMotor => ground(canvas, at, 2.5 * MOTOR),
         }
-        let radius = ink.size(if self.is_driven { 0.7 * JOINT } else { JOINT });
-        let offset = ink.lettering.get(&self.point).copied();
-        let to_base_line = Vector::new(0.0, BASE_LINE * letter(ink.page.mark()));
-        let joint = ink.figure(Layer::Joint, at).circle(Class::Joint, Point::ORIGIN, radius);
+        let radius = canvas.size(if self.is_driven { 0.7 * JOINT } else { JOINT });
+        let offset = canvas.lettering.get(&self.point).copied();
+        let to_base_line = Vector::new(0.0, BASE_LINE * letter(canvas.page.mark()));
+        let joint = canvas.figure(Layer::Joint, at).circle(Class::Joint, Point::ORIGIN, radius);
         if let Some(offset) = offset {
             joint.text(Class::Name, (offset + to_base_line).to_point(), self.name.clone());
         }
@@ -56,11 +56,11 @@ impl Draw for Joint {
 }
 
 /// The paper's sign of a frozen point, standing on hatched ground.
-fn ground(ink: &mut Ink, at: Placement, height: f64) {
-    let height = ink.size(height);
+fn ground(canvas: &mut Canvas, at: Placement, height: f64) {
+    let height = canvas.size(height);
     let half = 0.62 * height;
-    let hatch = ink.size(5.0);
-    let figure = ink.figure(Layer::Ground, at);
+    let hatch = canvas.size(5.0);
+    let figure = canvas.figure(Layer::Ground, at);
     let base = [Point::new(half, height), Point::new(-half, height)];
     figure.path(Class::Ground, Path::polygon([Point::ORIGIN, base[0], base[1]]));
     let mut strokes = Path::segment(

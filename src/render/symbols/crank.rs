@@ -1,11 +1,11 @@
 //! A motor: a disc with an arrow and the crank it drives.
 
-use super::Draw;
-use super::bar::{Span, arrow_head, outlined};
+use super::bar::{Segment, arrow_head, outlined};
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Figure, Layer, Placement};
-use crate::render::page::Extent;
+use crate::render::page::BoundingBox;
 use crate::render::path::Path;
 use crate::render::style::{Class, MOTOR};
 use std::f64::consts::FRAC_PI_2;
@@ -50,19 +50,23 @@ impl Draw for Crank {
         self.points.to_vec()
     }
 
-    fn extend(&self, at: &[Point], extent: &mut Extent) {
+    fn extend(&self, at: &[Point], bounds: &mut BoundingBox) {
         let [o, p] = self.points.map(|p| at[p as usize]);
-        extent.include_circle(o, o.distance(p));
+        bounds.include_circle(o, o.distance(p));
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [o, p] = self.points;
-        let span = Span::between(ink, o, p);
-        let radius = ink.size(MOTOR);
-        let centre = Placement::at(ink.px(o));
-        ink.figure(Layer::Construction, centre).circle(Class::Orbit, Point::ORIGIN, span.length);
-        outlined(ink, &span, [Class::CrankEdge, Class::Crank]);
-        let symbol = ink.figure(Layer::Drive, centre);
+        let segment = Segment::between(canvas, o, p);
+        let radius = canvas.size(MOTOR);
+        let centre = Placement::at(canvas.px(o));
+        canvas.figure(Layer::Construction, centre).circle(
+            Class::Orbit,
+            Point::ORIGIN,
+            segment.length,
+        );
+        outlined(canvas, &segment, [Class::CrankEdge, Class::Crank]);
+        let symbol = canvas.figure(Layer::Drive, centre);
         if self.rank == 0 {
             symbol.circle(Class::Motor, Point::ORIGIN, radius);
         }

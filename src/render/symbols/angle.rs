@@ -1,9 +1,9 @@
 //! The angle between two segments: an arc, or a square if it is a right one.
 
-use super::Draw;
 use super::bar::arrow_head;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -21,16 +21,16 @@ impl Draw for Angle {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let [a, b, c, d] = self.points.map(|p| ink.px(p));
+    fn draw(&self, canvas: &mut Canvas) {
+        let [a, b, c, d] = self.points.map(|p| canvas.px(p));
         let (Some(e), Some(f)) = ((b - a).unit(), (d - c).unit()) else {
             return;
         };
         let turn = e.angle_to(f);
         let vertex = vertex([a, b], [c, d]);
-        let (radius, ray) = (ink.size(25.0), ink.size(34.0));
+        let (radius, ray) = (canvas.size(25.0), canvas.size(34.0));
         let x_axis = Vector::new(1.0, 0.0);
-        let figure = ink.figure(Layer::Mark, Placement::along(vertex, e));
+        let figure = canvas.figure(Layer::Mark, Placement::along(vertex, e));
         let other = x_axis.rotate(turn);
         let mut rays = Path::along_x(0.0, ray);
         rays.move_to(Point::ORIGIN).line_to((other * ray).to_point());

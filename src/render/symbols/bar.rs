@@ -1,29 +1,29 @@
 //! Bars: where a straight part lies and how long it is on the page.
 
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Figure, Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::Class;
 
 /// A straight part between two places of the page.
 #[derive(Debug, Clone, Copy)]
-pub struct Span {
+pub struct Segment {
     /// At the first place, the x axis towards the second.
     pub placement: Placement,
     /// From the one to the other, px.
     pub length: f64,
 }
 
-impl Span {
+impl Segment {
     /// Between two places of the page.
     pub fn new(a: Point, b: Point) -> Self {
         Self { placement: Placement::along(a, b - a), length: a.distance(b) }
     }
 
     /// Between two points.
-    pub fn between(ink: &Ink, a: PointIdx, b: PointIdx) -> Self {
-        Self::new(ink.px(a), ink.px(b))
+    pub fn between(canvas: &Canvas, a: PointIdx, b: PointIdx) -> Self {
+        Self::new(canvas.px(a), canvas.px(b))
     }
 
     /// The same, with its origin some px further along.
@@ -38,10 +38,15 @@ impl Span {
 }
 
 /// Draws a bar with an outline; gives its figure.
-pub fn outlined<'i>(ink: &'i mut Ink, span: &Span, [edge, inside]: [Class; 2]) -> &'i mut Figure {
-    ink.figure(Layer::Bar, span.placement)
-        .path(edge, Path::along_x(0.0, span.length))
-        .path(inside, Path::along_x(0.0, span.length))
+pub fn outlined<'c>(
+    canvas: &'c mut Canvas,
+    segment: &Segment,
+    [edge, inside]: [Class; 2],
+) -> &'c mut Figure {
+    canvas
+        .figure(Layer::Bar, segment.placement)
+        .path(edge, Path::along_x(0.0, segment.length))
+        .path(inside, Path::along_x(0.0, segment.length))
 }
 
 /// A small arrow head with its point at `tip`, as a polygon.

@@ -1,9 +1,9 @@
 //! Equal vectors and parallels: the same number of chevrons on each.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -22,11 +22,11 @@ impl Draw for Arrows {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let (length, half, gap) = (ink.size(6.5), ink.size(7.5), ink.size(6.0));
+    fn draw(&self, canvas: &mut Canvas) {
+        let (length, half, gap) = (canvas.size(6.5), canvas.size(7.5), canvas.size(6.0));
         let [a, b, c, d] = self.points;
         for (p, q) in [(a, b), (c, d)] {
-            let middle = Span::between(ink, p, q).middle();
+            let middle = Segment::between(canvas, p, q).middle();
             let mut chevrons = Path::default();
             for k in 0..self.n_chevrons {
                 let tip =
@@ -36,7 +36,7 @@ impl Draw for Arrows {
                     .line_to(Point::new(tip, 0.0))
                     .line_to(Point::new(tip - length, half));
             }
-            ink.figure(Layer::Mark, middle).path(Class::Mark, chevrons);
+            canvas.figure(Layer::Mark, middle).path(Class::Mark, chevrons);
         }
     }
 }

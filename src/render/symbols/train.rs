@@ -2,13 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::bar::Span;
-use super::{Draw, teeth};
+use super::bar::Segment;
+use super::draw::Draw;
+use super::teeth;
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::linalg::DisjointSets;
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
-use crate::render::page::Extent;
+use crate::render::page::BoundingBox;
 use crate::render::path::Path;
 use crate::render::style::Class;
 
@@ -204,13 +205,13 @@ impl Train {
     }
 
     /// The wheels on the page, teeth in gaps; none where pitch circles are drawn instead.
-    fn rims(&self, ink: &Ink, radii: &[f64]) -> Option<Vec<Rim>> {
-        let px: Vec<f64> = radii.iter().map(|&r| ink.page.length(r)).collect();
-        let n_teeth = Self::n_teeth(&px, ink.size(PITCH))?;
+    fn rims(&self, canvas: &Canvas, radii: &[f64]) -> Option<Vec<Rim>> {
+        let px: Vec<f64> = radii.iter().map(|&r| canvas.page.length(r)).collect();
+        let n_teeth = Self::n_teeth(&px, canvas.size(PITCH))?;
         let mut rims: Vec<Rim> = (0..self.wheels.len())
             .map(|k| {
-                let centre = ink.px(self.wheels[k].centre);
-                let marker = (ink.px(self.wheels[k].marker) - centre).angle();
+                let centre = canvas.px(self.wheels[k].centre);
+                let marker = (canvas.px(self.wheels[k].marker) - centre).angle();
                 Rim { centre, marker, radius: px[k], n_teeth: n_teeth[k], tooth: marker }
             })
             .collect();
@@ -240,20 +241,20 @@ impl Train {
         Some(rims)
     }
 
-    fn draw_rack(ink: &mut Ink, [p, q]: [PointIdx; 2], rim: &Rim) {
-        let span = Span::between(ink, p, q);
-        let e = Vector::polar(1.0, span.placement.turn.to_radians());
-        let to_centre = rim.centre - span.placement.at;
-        let foot = to_centre.dot(e);
+    fn draw_rack(canvas: &mut Canvas, [p, q]: [PointIdx; 2], rim: &Rim) {
+        let segment = Segment::between(canvas, p, q);
+        let e = Vector::polar(1.0, segment.placement.turn.to_radians());
+        let to_centre = rim.centre - segment.placement.at;
+        let support = to_centre.dot(e);
         let is_below = e.cross(to_centre) > 0.0;
         // Page angles grow clockwise: at its lowest place a wheel above the line goes left.
         let down = if is_below { -e.perp() } else { e.perp() };
         let with_line = down.perp().dot(e).signum();
         let phase = PI + with_line * rim.phase(down.angle());
         let pitch = TAU * rim.radius / rim.n_teeth;
-        let turns = whole_turns_off(TAU * foot / pitch - phase) / TAU;
-        let outline = teeth::rack(span.length, pitch, turns * pitch, is_below, ink.size(7.0));
-        ink.figure(Layer::Wheel, span.placement).path(Class::Wheel, outline);
+        let turns = whole_turns_off(TAU * support / pitch - phase) / TAU;
+        let outline = teeth::rack(segment.length, pitch, turns * pitch, is_below, canvas.size(7.0));
+        canvas.figure(Layer::Wheel, segment.placement).path(Class::Wheel, outline);
     }
 }
 
@@ -279,19 +280,19 @@ impl Draw for Train {
         points
     }
 
-    fn extend(&self, at: &[Point], extent: &mut Extent) {
+    fn extend(&self, at: &[Point], bounds: &mut BoundingBox) {
         for (wheel, radius) in self.wheels.iter().zip(self.radii(at)) {
             let rim = if wheel.is_ring { 1.12 } else { 1.04 };
-            extent.include_circle(at[wheel.centre as usize], rim * radius);
+            bounds.include_circle(at[wheel.centre as usize], rim * radius);
         }
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let radii = self.radii(ink.at);
-        let rims = self.rims(ink, &radii);
+    fn draw(&self, canvas: &mut Canvas) {
+        let radii = self.radii(canvas.at);
+        let rims = self.rims(canvas, &radii);
         for mesh in &self.meshes {
             if let (Mesh::Rack(wheel, line, _), Some(rims)) = (*mesh, &rims) {
-                Self::draw_rack(ink, line, &rims[wheel]);
+                Self::draw_rack(canvas, line, &rims[wheel]);
             }
         }
         // A small wheel lies in front of a large one.
@@ -299,42 +300,43 @@ impl Draw for Train {
         order.sort_by(|&a, &b| radii[b].total_cmp(&radii[a]));
         for k in order {
             let wheel = &self.wheels[k];
-            let (centre, marker) = (ink.px(wheel.centre), ink.px(wheel.marker));
-            let radius = ink.page.length(radii[k]);
+            let (centre, marker) = (canvas.px(wheel.centre), canvas.px(wheel.marker));
+            let radius = canvas.page.length(radii[k]);
             match &rims {
-                Some(rims) => draw_toothed(ink, &rims[k], wheel.is_ring),
-                None => draw_plain(ink, centre, radius, wheel.is_ring),
+                Some(rims) => draw_toothed(canvas, &rims[k], wheel.is_ring),
+                None => draw_plain(canvas, centre, radius, wheel.is_ring),
             }
-            let spoke = Span::new(centre, marker);
+            let spoke = Segment::new(centre, marker);
             // The spokes of all wheels lie over the wheels, so that a turn is seen.
-            ink.figure(Layer::Wheel, spoke.placement)
+            canvas
+                .figure(Layer::Wheel, spoke.placement)
                 .path(Class::Spoke, Path::along_x(0.0, spoke.length));
         }
     }
 }
 
-fn draw_toothed(ink: &mut Ink, rim: &Rim, is_ring: bool) {
+fn draw_toothed(canvas: &mut Canvas, rim: &Rim, is_ring: bool) {
     let module = 2.0 * rim.radius / rim.n_teeth;
     let placement = Placement { at: rim.centre, turn: rim.tooth.to_degrees() };
     let mut outline = teeth::wheel(rim.radius, rim.n_teeth as u32, is_ring);
-    let rim_width = 1.2 * module + ink.size(9.0);
+    let rim_width = 1.2 * module + canvas.size(9.0);
     let upright = Placement::at(rim.centre);
     if is_ring {
         outline.circle(rim.radius + rim_width);
-        ink.figure(Layer::Wheel, placement).path(Class::RingWheel, outline);
+        canvas.figure(Layer::Wheel, placement).path(Class::RingWheel, outline);
     } else {
-        ink.figure(Layer::Wheel, placement).path(Class::Wheel, outline);
+        canvas.figure(Layer::Wheel, placement).path(Class::Wheel, outline);
         let web = rim.radius - rim_width;
-        if web > ink.size(24.0) {
-            ink.figure(Layer::Wheel, upright).circle(Class::WheelWeb, Point::ORIGIN, web);
+        if web > canvas.size(24.0) {
+            canvas.figure(Layer::Wheel, upright).circle(Class::WheelWeb, Point::ORIGIN, web);
         }
     }
-    ink.figure(Layer::Wheel, upright).circle(Class::Pitch, Point::ORIGIN, rim.radius);
+    canvas.figure(Layer::Wheel, upright).circle(Class::Pitch, Point::ORIGIN, rim.radius);
 }
 
-fn draw_plain(ink: &mut Ink, centre: Point, radius: f64, is_ring: bool) {
+fn draw_plain(canvas: &mut Canvas, centre: Point, radius: f64, is_ring: bool) {
     let class = if is_ring { Class::RingPlain } else { Class::Wheel };
-    ink.figure(Layer::Wheel, Placement::at(centre)).circle(class, Point::ORIGIN, radius);
+    canvas.figure(Layer::Wheel, Placement::at(centre)).circle(class, Point::ORIGIN, radius);
 }
 
 #[cfg(test)]
@@ -344,9 +346,9 @@ mod tests {
     use crate::render::page::Page;
 
     fn page_over(at: &[Point], train: &Train) -> Page {
-        let mut extent = Extent::default();
-        train.extend(at, &mut extent);
-        Page::fit(&extent)
+        let mut bounds = BoundingBox::default();
+        train.extend(at, &mut bounds);
+        Page::fit(&bounds)
     }
 
     fn one_train(points: [PointIdx; 4], ratio: f64, at: &[Point]) -> Train {
@@ -368,8 +370,8 @@ mod tests {
                 let train = one_train([0, 1, 2, 3], ratio, &at);
                 let page = page_over(&at, &train);
                 let lettering = Lettering::default();
-                let ink = Ink::new(&page, &at, &lettering);
-                let rims = train.rims(&ink, &train.radii(&at)).expect("room for teeth");
+                let canvas = Canvas::new(&page, &at, &lettering);
+                let rims = train.rims(&canvas, &train.radii(&at)).expect("room for teeth");
                 assert_eq!(rims[1].n_teeth / rims[0].n_teeth, ratio.abs());
                 let [from, to] = contact(rims[0], rims[1], ratio < 0.0);
                 let (p, q) = (rims[0].phase(from), rims[1].phase(to));

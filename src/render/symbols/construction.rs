@@ -1,9 +1,9 @@
 //! A thin line between points that no bar connects, for a mark to hang on.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use crate::constraint::PointIdx;
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -20,10 +20,11 @@ impl Draw for Construction {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [a, b] = self.points;
-        let span = Span::between(ink, a, b);
-        ink.figure(Layer::Construction, span.placement)
-            .path(Class::Construction, Path::along_x(0.0, span.length));
+        let segment = Segment::between(canvas, a, b);
+        canvas
+            .figure(Layer::Construction, segment.placement)
+            .path(Class::Construction, Path::along_x(0.0, segment.length));
     }
 }

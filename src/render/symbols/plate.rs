@@ -1,9 +1,9 @@
 //! A rigid body: points that keep their shape.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -29,22 +29,23 @@ impl Draw for Plate {
         self.points.clone()
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [first, .., last] = self.hull[..] else {
             return;
         };
-        let placement = Span::between(ink, first, last).placement;
-        let outline = polygon_from(ink, &placement, &self.hull);
-        ink.figure(Layer::Plate, placement)
+        let placement = Segment::between(canvas, first, last).placement;
+        let outline = polygon_from(canvas, &placement, &self.hull);
+        canvas
+            .figure(Layer::Plate, placement)
             .path(Class::PlateEdge, outline.clone())
             .path(Class::Plate, outline);
     }
 }
 
 /// The polygon over some points as seen from a placement.
-pub fn polygon_from(ink: &Ink, placement: &Placement, points: &[PointIdx]) -> Path {
+pub fn polygon_from(canvas: &Canvas, placement: &Placement, points: &[PointIdx]) -> Path {
     let back = -placement.turn.to_radians();
-    Path::polygon(points.iter().map(|&p| (ink.px(p) - placement.at).rotate(back).to_point()))
+    Path::polygon(points.iter().map(|&p| (canvas.px(p) - placement.at).rotate(back).to_point()))
 }
 
 /// The corners of the smallest convex polygon around some points, counter-clockwise, the one

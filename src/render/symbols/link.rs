@@ -1,9 +1,9 @@
 //! A hinge: a point that divides a bar which may stretch.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
 use crate::render::path::Path;
 use crate::render::style::{Class, JOINT};
@@ -24,13 +24,14 @@ impl Draw for Link {
         vec![self.pin, self.ends[0], self.ends[1]]
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [a, b] = self.ends;
-        let span = Span::between(ink, a, b);
-        let (from, to) = (span.length * self.ratio.min(0.0), span.length * self.ratio.max(1.0));
-        let radius = ink.size(1.5 * JOINT);
-        let pin = ink.px(self.pin);
-        ink.figure(Layer::Bar, span.placement).path(Class::Link, Path::along_x(from, to));
-        ink.figure(Layer::Slider, Placement::at(pin)).circle(Class::Pin, Point::ORIGIN, radius);
+        let segment = Segment::between(canvas, a, b);
+        let (from, to) =
+            (segment.length * self.ratio.min(0.0), segment.length * self.ratio.max(1.0));
+        let radius = canvas.size(1.5 * JOINT);
+        let pin = canvas.px(self.pin);
+        canvas.figure(Layer::Bar, segment.placement).path(Class::Link, Path::along_x(from, to));
+        canvas.figure(Layer::Slider, Placement::at(pin)).circle(Class::Pin, Point::ORIGIN, radius);
     }
 }

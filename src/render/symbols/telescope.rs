@@ -1,9 +1,9 @@
 //! A telescope: a length between two bounds, or one that is driven.
 
-use super::Draw;
-use super::bar::{Span, outlined};
+use super::bar::{Segment, outlined};
+use super::draw::Draw;
 use crate::constraint::PointIdx;
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -22,16 +22,18 @@ impl Draw for Telescope {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [a, b] = self.points;
-        let span = Span::between(ink, a, b);
+        let segment = Segment::between(canvas, a, b);
         // Some of the inner stage always shows, and the outer one is never a stump, so that
         // the two can be told apart whatever the bounds.
-        let outer = ink.page.length(self.outer).clamp(0.35 * span.length, 0.72 * span.length);
-        let sleeve = Span { length: outer, ..span };
-        ink.figure(Layer::Bar, span.placement)
-            .path(Class::PistonEdge, Path::along_x(outer, span.length))
-            .path(Class::Piston, Path::along_x(outer, span.length));
-        outlined(ink, &sleeve, [Class::RodEdge, Class::Rod]);
+        let outer =
+            canvas.page.length(self.outer).clamp(0.35 * segment.length, 0.72 * segment.length);
+        let sleeve = Segment { length: outer, ..segment };
+        canvas
+            .figure(Layer::Bar, segment.placement)
+            .path(Class::PistonEdge, Path::along_x(outer, segment.length))
+            .path(Class::Piston, Path::along_x(outer, segment.length));
+        outlined(canvas, &sleeve, [Class::RodEdge, Class::Rod]);
     }
 }

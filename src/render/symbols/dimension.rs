@@ -1,9 +1,9 @@
 //! The distance of a point to a line, as a dimension line.
 
-use super::Draw;
-use super::bar::{Span, arrow_head};
+use super::bar::{Segment, arrow_head};
+use super::draw::Draw;
 use crate::constraint::{Point, PointIdx, Vector};
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::path::Path;
 use crate::render::style::Class;
@@ -22,28 +22,30 @@ impl Draw for Dimension {
         vec![self.point, self.line[0], self.line[1]]
     }
 
-    fn draw(&self, ink: &mut Ink) {
-        let [a, b] = self.line.map(|p| ink.px(p));
-        let p = ink.px(self.point);
+    fn draw(&self, canvas: &mut Canvas) {
+        let [a, b] = self.line.map(|p| canvas.px(p));
+        let p = canvas.px(self.point);
         let Some(e) = (b - a).unit() else {
             return;
         };
         let along = (p - a).dot(e);
-        let foot = a + e * along;
-        // A foot beyond the segment stands on its extension.
+        let support = a + e * along;
+        // A support beyond the segment stands on its extension.
         let near = a + e * along.clamp(0.0, a.distance(b));
-        let extension = Span::new(near, foot);
-        ink.figure(Layer::Construction, extension.placement)
+        let extension = Segment::new(near, support);
+        canvas
+            .figure(Layer::Construction, extension.placement)
             .path(Class::Construction, Path::along_x(0.0, extension.length));
-        let span = Span::new(p, foot);
-        let head = ink.size(9.0).min(0.4 * span.length);
+        let segment = Segment::new(p, support);
+        let head = canvas.size(9.0).min(0.4 * segment.length);
         let x_axis = Vector::new(1.0, 0.0);
-        ink.figure(Layer::Mark, span.placement)
+        canvas
+            .figure(Layer::Mark, segment.placement)
             .path(
                 Class::Mark,
-                Path::along_x(0.5 * head, (span.length - 0.5 * head).max(0.5 * head)),
+                Path::along_x(0.5 * head, (segment.length - 0.5 * head).max(0.5 * head)),
             )
             .path(Class::Arrow, arrow_head(Point::ORIGIN, -x_axis, head))
-            .path(Class::Arrow, arrow_head(Point::new(span.length, 0.0), x_axis, head));
+            .path(Class::Arrow, arrow_head(Point::new(segment.length, 0.0), x_axis, head));
     }
 }

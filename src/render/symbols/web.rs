@@ -1,10 +1,10 @@
 //! The area within three rods, which hold one another rigid.
 
-use super::Draw;
-use super::bar::Span;
+use super::bar::Segment;
+use super::draw::Draw;
 use super::plate::polygon_from;
 use crate::constraint::PointIdx;
-use crate::render::canvas::Ink;
+use crate::render::canvas::Canvas;
 use crate::render::figure::Layer;
 use crate::render::style::Class;
 
@@ -20,10 +20,10 @@ impl Draw for Web {
         self.points.to_vec()
     }
 
-    fn draw(&self, ink: &mut Ink) {
+    fn draw(&self, canvas: &mut Canvas) {
         let [a, b, _] = self.points;
-        let placement = Span::between(ink, a, b).placement;
-        let outline = polygon_from(ink, &placement, &self.points);
-        ink.figure(Layer::Plate, placement).path(Class::Web, outline);
+        let placement = Segment::between(canvas, a, b).placement;
+        let outline = polygon_from(canvas, &placement, &self.points);
+        canvas.figure(Layer::Plate, placement).path(Class::Web, outline);
     }
 }
