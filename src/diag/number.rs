@@ -1,5 +1,4 @@
-//! How every number is written: the shortest text that reads back to the same bits, and what is
-//! left of it in talk.
+//! How numbers are written: exactly, to so many digits, or to so many decimals.
 
 /// Writes `value` in the fewest digits that read back to the same bits.
 ///
@@ -38,6 +37,41 @@ pub fn format_digits(value: f64, n_digits: usize) -> String {
 /// A number for talk: three digits say enough.
 pub fn format_rounded(value: f64) -> String {
     format_digits(value, 3)
+}
+
+/// Writes `value` with an exponent and so many significant digits, trailing zeros included, so
+/// that a column of them lines up; zero is `0`.
+///
+/// ```
+/// use linkwork::diag::format_exponent;
+///
+/// assert_eq!(format_exponent(0.0012, 3), "1.20e-3");
+/// ```
+pub fn format_exponent(value: f64, n_digits: usize) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.*e}", n_digits - 1) }
+}
+
+/// Appends `value` with at most `n_decimals` digits after the point, without trailing zeros
+/// and never as `-0`: how pictures write px and degrees.
+pub fn push_decimals(text: &mut String, value: f64, n_decimals: usize) {
+    use std::fmt::Write;
+    let start = text.len();
+    // Writing to a string cannot fail.
+    let _ = write!(text, "{value:.n_decimals$}");
+    if n_decimals > 0 {
+        let kept = text.trim_end_matches('0').trim_end_matches('.').len();
+        text.truncate(kept);
+    }
+    if &text[start..] == "-0" {
+        text.replace_range(start.., "0");
+    }
+}
+
+/// `value` with at most `n_decimals` digits after the point; see [`push_decimals`].
+pub fn format_decimals(value: f64, n_decimals: usize) -> String {
+    let mut text = String::new();
+    push_decimals(&mut text, value, n_decimals);
+    text
 }
 
 /// A count for a message: nobody counts the zeros of a large round one.
@@ -96,6 +130,28 @@ mod tests {
             push_integer(&mut text, value);
             assert_eq!(text, format!("p{value}"));
         }
+    }
+
+    #[test]
+    fn decimals_are_short_and_without_minus_zero() {
+        let check = |value: f64, n_decimals: usize, wanted: &str| {
+            assert_eq!(format_decimals(value, n_decimals), wanted);
+        };
+        check(0.1 + 0.2, 2, "0.3");
+        check(-0.001, 2, "0");
+        check(-0.0, 2, "0");
+        check(100.0, 2, "100");
+        check(100.0, 0, "100");
+        check(-12.345, 1, "-12.3");
+        check(0.005, 2, "0.01");
+        check(1e6, 2, "1000000");
+    }
+
+    #[test]
+    fn zeros_of_the_text_before_stay() {
+        let mut text = String::from("10 ");
+        push_decimals(&mut text, 0.0, 2);
+        assert_eq!(text, "10 0");
     }
 
     #[test]

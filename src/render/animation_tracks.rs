@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::figure::{Figure, Key, Layer, Outline, Placement, Shape};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes, track, visibility};
-use super::number::push_rounded;
+use crate::diag::push_decimals;
 
 /// How far anything may be drawn from where it is, px: less than can be seen in motion.
 const TOLERANCE: f64 = 0.06;
@@ -199,7 +199,7 @@ fn numbers(row: &[f64]) -> String {
         if k > 0 {
             text.push(' ');
         }
-        push_rounded(&mut text, value, PLACES);
+        push_decimals(&mut text, value, PLACES);
     }
     text
 }

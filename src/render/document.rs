@@ -9,9 +9,9 @@ use svg::node::element::{Element, Style};
 
 use super::figure::{Figure, Outline, Shape};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
-use super::number::rounded;
 use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
+use crate::diag::format_decimals;
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -52,7 +52,7 @@ impl Group {
 pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = page.size();
     let height = height + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
-    let (width, height) = (rounded(width, PLACES), rounded(height, PLACES));
+    let (width, height) = (format_decimals(width, PLACES), format_decimals(height, PLACES));
 
     let mut root = Element::new("svg");
     root.assign("xmlns", "http://www.w3.org/2000/svg");
@@ -84,7 +84,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     for group in groups {
         let mut element = Element::new("g");
         if group.opacity < 1.0 {
-            element.assign("opacity", rounded(group.opacity, 3));
+            element.assign("opacity", format_decimals(group.opacity, 3));
         }
         append_tracks(&mut element, group.motion.as_ref(), None);
         for (figure, motion) in &group.figures {
@@ -110,7 +110,7 @@ fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element
         group.assign("transform", transform);
     }
     if figure.is_off {
-        group.assign("opacity", rounded(OFF, PLACES));
+        group.assign("opacity", format_decimals(OFF, PLACES));
     }
     if let Some(note) = figure.note.as_deref().filter(|note| !note.is_empty()) {
         group.append(with_text("title", note));
@@ -126,8 +126,8 @@ fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element
 
 fn transform(figure: &Figure) -> String {
     let at = figure.placement.at;
-    let (x, y) = (rounded(at.x, PLACES), rounded(at.y, PLACES));
-    let turn = rounded(figure.placement.turn, DEGREE_PLACES);
+    let (x, y) = (format_decimals(at.x, PLACES), format_decimals(at.y, PLACES));
+    let turn = format_decimals(figure.placement.turn, DEGREE_PLACES);
     let mut text = String::new();
     if (x.as_str(), y.as_str()) != ("0", "0") {
         text = format!("translate({x} {y})");
@@ -140,6 +140,10 @@ fn transform(figure: &Figure) -> String {
 }
 
 fn shape_element(shape: &Shape) -> Element {
+    debug_assert!(
+        shape.outline.numbers().iter().all(|number| number.is_finite()),
+        "a picture is made of finite numbers"
+    );
     let mut element = match &shape.outline {
         Outline::Path(path) => {
             let mut element = Element::new("path");
@@ -149,7 +153,7 @@ fn shape_element(shape: &Shape) -> Element {
         Outline::GrowingPath { path, length } => {
             let mut element = Element::new("path");
             element.assign("d", path.write(path.numbers(), PLACES));
-            let length = rounded(*length, PLACES);
+            let length = format_decimals(*length, PLACES);
             element.assign("stroke-dasharray", length.clone());
             element.assign("pathLength", length);
             element
@@ -157,7 +161,7 @@ fn shape_element(shape: &Shape) -> Element {
         Outline::Circle { centre, radius } => {
             let mut element = Element::new("circle");
             for (name, value) in [("cx", centre.x), ("cy", centre.y), ("r", *radius)] {
-                let value = rounded(value, PLACES);
+                let value = format_decimals(value, PLACES);
                 if name == "r" || value != "0" {
                     element.assign(name, value);
                 }
@@ -166,8 +170,8 @@ fn shape_element(shape: &Shape) -> Element {
         }
         Outline::Text { at, text } => {
             let mut element = with_text("text", text);
-            element.assign("x", rounded(at.x, PLACES));
-            element.assign("y", rounded(at.y, PLACES));
+            element.assign("x", format_decimals(at.x, PLACES));
+            element.assign("y", format_decimals(at.y, PLACES));
             element
         }
     };
@@ -205,10 +209,10 @@ fn track_element(track: &AttributeTrack, duration: f64) -> Element {
     }
     element.assign("values", track.values.join(";"));
     if !track.times.is_empty() {
-        let times: Vec<String> = track.times.iter().map(|&t| rounded(t, 5)).collect();
+        let times: Vec<String> = track.times.iter().map(|&t| format_decimals(t, 5)).collect();
         element.assign("keyTimes", times.join(";"));
     }
-    element.assign("dur", format!("{}s", rounded(duration, 3)));
+    element.assign("dur", format!("{}s", format_decimals(duration, 3)));
     element.assign("repeatCount", "indefinite");
     element
 }

@@ -2,9 +2,10 @@
 
 use super::canvas::Canvas;
 use super::figure::{Key, Layer, Placement};
+use super::labels::text_width;
 use super::page::{LEGEND_HEIGHT, Page};
 use super::path::Path;
-use super::style::{BASE_LINE, CAPTION, Class, text_width};
+use super::style::{BASE_LINE, CAPTION, Class};
 use super::trace::Curve;
 use crate::constraint::Point;
 use crate::diag::format_number;

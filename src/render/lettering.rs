@@ -1,9 +1,8 @@
 //! Where the names of points stand: beside them, on nothing else.
 
-use std::f64::consts::TAU;
-
 use super::canvas::{Canvas, Lettering};
-use super::occupancy::{Area, OVER_PART, Occupancy};
+use super::labels::{Area, cheapest, direction, directions, text_width};
+use super::occupancy::{OVER_PART, Occupancy};
 use super::page::Page;
 use super::scene::{DrawnPose, Scene};
 use super::style::{self, JOINT};
@@ -16,8 +15,6 @@ const MANY: usize = 30;
 const TOO_MANY: usize = 80;
 /// How far a name's box may stand off its joint, px, in order of preference.
 const DISTANCES: [f64; 4] = [3.5, 7.0, 13.0, 22.0];
-/// Directions that are tried, to the upper right first.
-const N_DIRECTIONS: u32 = 16;
 
 /// Finds a place for each name that suits all of these scenes at once: in a motion a name
 /// keeps its place beside its point.
@@ -34,19 +31,18 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
         scenes.iter().map(|scene| (occupancy_of(scene, page), &scene.pose)).collect();
     for joint in names {
         let letter = style::letter(page.mark());
-        let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.48 * letter);
-        let found = candidates(half, page.mark())
-            .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)))
-            .min_by_key(|(cost, _)| *cost);
-        let Some((cost, offset)) = found else { continue };
+        let half = Vector::new(0.5 * text_width(&joint.name) * letter, 0.48 * letter);
+        let costs = candidates(half, page.mark())
+            .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)));
+        let Some((cost, offset)) = cheapest(costs) else { continue };
         // Letters half hidden by symbols say nothing.
         let n_cells = half.x * half.y;
-        if f64::from(cost) > 0.35 * f64::from(OVER_PART) * n_cells * pages.len() as f64 {
+        if cost > 0.35 * f64::from(OVER_PART) * n_cells * pages.len() as f64 {
             continue;
         }
         for (occupancy, pose) in &mut pages {
             let middle = page.px(pose.at[joint.point as usize]) + offset;
-            occupancy.add_area(Area { middle, half: half + Vector::new(2.0, 2.0) });
+            occupancy.add_area(Area::around(middle, half + Vector::new(2.0, 2.0)));
         }
         placed.insert(joint.point, offset);
     }
@@ -84,9 +80,9 @@ fn occupancy_of(scene: &Scene, page: &Page) -> Occupancy {
 /// Places for a box of half size `half` around a joint, from the joint.
 fn candidates(half: Vector, mark: f64) -> impl Iterator<Item = Vector> {
     // Upper right, then turning away from it on both sides; page angles go clockwise.
-    let directions = (0..N_DIRECTIONS).map(|k| {
+    let directions = directions().map(|k| {
         let step = f64::from(k.div_ceil(2)) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        (step - 2.0) * TAU / f64::from(N_DIRECTIONS)
+        direction(step - 2.0)
     });
     DISTANCES.into_iter().flat_map(move |distance| {
         let radius = JOINT * mark + distance;
@@ -110,11 +106,11 @@ fn cost(
     half: Vector,
     page: &Page,
     offset: Vector,
-) -> Option<u32> {
+) -> Option<f64> {
     let mut sum = 0;
     for (occupancy, pose) in pages {
         let at: Point = page.px(pose.at[point as usize]);
-        sum += occupancy.cost(Area { middle: at + offset, half })?;
+        sum += occupancy.cost(Area::around(at + offset, half))?;
     }
-    Some(sum)
+    Some(f64::from(sum))
 }

@@ -23,9 +23,9 @@ mod trace;
 // From there to figures on a page.
 mod canvas;
 mod figure;
+mod labels;
 mod legend;
 mod lettering;
-mod number;
 mod occupancy;
 mod page;
 mod path;
@@ -47,7 +47,6 @@ mod trace_animation;
 
 pub use animation::Animation;
 pub use document::Options;
-pub use number::rounded;
 pub use scene::Scene;
 pub use still::{svg, svg_with_view};
 pub use view::View;

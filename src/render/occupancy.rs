@@ -1,6 +1,7 @@
 //! What of a page is covered: a coarse raster that tells where a name can stand.
 
 use super::figure::{Figure, Layer, Outline};
+use super::labels::Area;
 use super::page::Page;
 use crate::constraint::{Point, Vector};
 
@@ -20,15 +21,6 @@ pub struct Occupancy {
     n_columns: usize,
     n_rows: usize,
     cells: Vec<u8>,
-}
-
-/// A rectangle of the page, px.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Area {
-    /// Its middle.
-    pub middle: Point,
-    /// Half its size.
-    pub half: Vector,
 }
 
 impl Occupancy {
@@ -71,7 +63,7 @@ impl Occupancy {
 
     /// How much letters in an area would disturb; none if it is not all on the page.
     pub fn cost(&self, area: Area) -> Option<u32> {
-        let (lo, hi) = (area.middle - area.half, area.middle + area.half);
+        let Area { lo, hi } = area;
         let (width, height) = (self.n_columns as f64 * CELL, self.n_rows as f64 * CELL);
         if lo.x < 0.0 || lo.y < 0.0 || hi.x > width || hi.y > height {
             return None;
@@ -89,7 +81,7 @@ impl Occupancy {
         }
         for k in 0..=n as u32 {
             let middle = a + (b - a) * (f64::from(k) / n);
-            self.fill(Area { middle, half: Vector::new(half, half) }, weight);
+            self.fill(Area::around(middle, Vector::new(half, half)), weight);
         }
     }
 
@@ -100,7 +92,7 @@ impl Occupancy {
     }
 
     fn each_cell(&self, area: Area, mut visit: impl FnMut(usize)) {
-        let (lo, hi) = (area.middle - area.half, area.middle + area.half);
+        let Area { lo, hi } = area;
         let range = |lo: f64, hi: f64, n: usize| {
             let from = (lo / CELL).floor().max(0.0) as usize;
             from..((hi / CELL).floor() + 1.0).clamp(0.0, n as f64) as usize

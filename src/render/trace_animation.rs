@@ -3,10 +3,10 @@
 use super::canvas::{Canvas, Lettering};
 use super::figure::{Figure, Outline};
 use super::keyframes::{AnimatedAttribute, Keyframes, track};
-use super::number::rounded;
 use super::page::Page;
 use super::style::{Class, colour_number};
 use super::trace::Curve;
+use crate::diag::format_decimals;
 
 /// How far the end of the path may be from its point, px.
 const TOLERANCE: f64 = 0.3;
@@ -34,7 +34,7 @@ pub fn follow(
     let left: Vec<f64> =
         n_samples.iter().map(|&n| length - n.checked_sub(1).map_or(0.0, |k| lengths[k])).collect();
     let change = AnimatedAttribute::Shape(0, "stroke-dashoffset");
-    let write = |row: &[f64]| rounded(row[0], 2);
+    let write = |row: &[f64]| format_decimals(row[0], 2);
     let Some(track) = track(change, times, &left, 1, TOLERANCE, write) else {
         return vec![(whole, None)];
     };

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::report::{Measure, Row, Study};
-use crate::diag::{format_digits, format_number, format_seconds};
+use crate::diag::{format_digits, format_exponent, format_number, format_seconds};
 
 /// The table, a line a row; the efficient ones have a star.
 pub fn table(study: &Study) -> Vec<String> {
@@ -12,7 +12,8 @@ pub fn table(study: &Study) -> Vec<String> {
         "method", "setting", "time a frame", "+-", "residual", "position", "missed"
     )];
     for row in &study.rows {
-        let position = row.position_error.map_or_else(|| "-".to_owned(), error_text);
+        let position =
+            row.position_error.map_or_else(|| "-".to_owned(), |error| format_exponent(error, 2));
         lines.push(format!(
             "{} {:<11} {:>7} {:>12} {:>6} {:>10} {position:>10} {:>8}",
             if row.is_efficient { '*' } else { ' ' },
@@ -20,7 +21,7 @@ pub fn table(study: &Study) -> Vec<String> {
             row.rung.setting(),
             format_seconds(row.seconds_per_frame),
             format!("{:.0} %", 100.0 * row.spread),
-            error_text(row.residual),
+            format_exponent(row.residual, 2),
             row.n_failed,
         ));
     }
@@ -28,17 +29,12 @@ pub fn table(study: &Study) -> Vec<String> {
         "* efficient: no other setting is both faster and better by {}{}",
         study.measure.words(),
         if study.measure == Measure::Position {
-            format!("; errors below {} are rounding", error_text(study.floor))
+            format!("; errors below {} are rounding", format_exponent(study.floor, 2))
         } else {
             String::new()
         }
     ));
     lines
-}
-
-/// An error, two digits.
-fn error_text(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
 /// The rows as CSV, with a line of names.
@@ -56,7 +52,7 @@ pub fn csv(study: &Study) -> String {
             row.rung.method.word(),
             row.settings.iterations,
             format_number(row.settings.tolerance),
-            format_number(three_digits(row.seconds_per_frame)),
+            format_digits(row.seconds_per_frame, 3),
             format_digits(row.spread, 2),
             row.n_rounds,
             format_number(row.residual),
@@ -79,7 +75,7 @@ pub fn json(study: &Study) -> String {
             row.rung.method.word(),
             row.settings.iterations,
             format_number(row.settings.tolerance),
-            format_number(three_digits(row.seconds_per_frame)),
+            format_digits(row.seconds_per_frame, 3),
             format_number(row.residual),
             row.n_failed,
             row.is_efficient
@@ -87,9 +83,4 @@ pub fn json(study: &Study) -> String {
     };
     let objects: Vec<String> = study.rows.iter().map(object).collect();
     if objects.is_empty() { "[]".to_owned() } else { format!("[\n{}\n]", objects.join(",\n")) }
-}
-
-/// A time is not known any better.
-fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }

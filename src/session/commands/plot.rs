@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::diag::Diagnostic;
 use crate::lang::ast::{Expr, PlotPart, Text};
-use crate::render::chart::{Axis, Chart, Mark, Series, Unit};
+use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
 
@@ -41,11 +41,12 @@ impl Execution<'_> {
                 PlotPart::Y(text) => chart.y.label = text.value.to_string(),
             }
         }
-        let mark = |(k, &y): (usize, &f64)| Mark { x: k as f64, y, label: None, is_notable: false };
+        let datum =
+            |(k, &y): (usize, &f64)| Datum { x: k as f64, y, label: None, is_notable: false };
         let line = |(look, (name, values)): (usize, &(Arc<str>, Vec<f64>))| Series {
             name: name.to_string(),
             look,
-            marks: values.iter().enumerate().map(mark).collect(),
+            data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
         self.outbox.push((file, chart.svg().into_bytes(), path.span));
@@ -53,6 +54,6 @@ impl Execution<'_> {
     }
 }
 
-fn axis(label: &str, is_log: bool) -> Axis {
-    Axis { label: label.to_owned(), is_log, unit: Unit::None }
+fn axis(label: &str, is_log: bool) -> ChartAxis {
+    ChartAxis { label: label.to_owned(), is_log, unit: AxisUnit::None }
 }
