@@ -3,14 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::same::{are_same_places, are_same_states};
+use super::same::{States, are_same_places, are_same_states};
 use super::trace::Tail;
-use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
+use super::{Clock, ConstraintId, Ghost, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 use crate::diag::Diagnostic;
-
-/// By constraint, the numbers that running changes of it.
-pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
 
 /// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.
 /// One of these takes a whole run back, however many frames it had. Copies share what is large.
@@ -38,6 +35,11 @@ impl Motion {
 }
 
 impl World {
+    /// The traces and ghosts as they are, for a motion to go back to.
+    fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
+        (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
+    }
+
     /// All that running changes, as it is now.
     pub fn motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
@@ -117,7 +119,7 @@ impl World {
             ghosts: motion.ghosts.swap(&mut self.ghosts),
         };
         self.touched.all = true;
-        self.live.note_change();
+        self.dependencies.note_change();
         old
     }
 
@@ -155,8 +157,8 @@ impl World {
         self.clock.tick();
         self.refresh()?;
         let dt = self.clock.dt;
-        for k in 0..self.live.motors().len() {
-            let id = self.live.motors()[k];
+        for k in 0..self.dependencies.motors().len() {
+            let id = self.dependencies.motors()[k];
             if self.constraint_state_mut(id).advance(dt) {
                 self.touched.values.push(id);
             }
@@ -174,12 +176,6 @@ impl World {
         }
     }
 
-    /// The edit that keeps a ghost of the mechanism as it stands.
-    pub fn expose(&self) -> Edit {
-        let at = self.points.ids().map(|id| (id, self.points.at(id))).collect();
-        Edit::Ghost(Some(Box::new(Ghost { at })))
-    }
-
     /// What `reset` brings back to a constraint that is made while the clock is running.
     pub(super) fn note_start_state(&mut self, id: ConstraintId) {
         if self.clock.frame > 0
@@ -191,11 +187,6 @@ impl World {
         }
     }
 
-    /// The edit that makes `reset` bring back a constraint as if it had been this at the start.
-    pub fn begin_with(&self, id: ConstraintId, constraint: &Constraint) -> Edit {
-        Edit::StartState(id, whole_state(constraint).map(Vec::into_boxed_slice))
-    }
-
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
@@ -204,7 +195,7 @@ impl World {
 
 /// The state of a constraint, then how wheels meshed for it and their ratio: `reset` undoes
 /// what a gear change or switching on made of the mesh.
-fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
+pub(super) fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
     let mut whole = constraint.state()?;
     whole.extend(constraint.captured());
     whole.extend(constraint.get(Field::Ratio));

@@ -37,7 +37,7 @@ impl Change {
     fn n_bytes(&self) -> usize {
         let inside = match self {
             Self::World(Edit::Motion(motion)) => motion.n_bytes(),
-            Self::World(Edit::Make(made)) => made.n_bytes(),
+            Self::World(Edit::RestoreBatch(records)) => records.n_bytes(),
             Self::World(Edit::Constraint(_, Some(_))) => size_of::<crate::world::Record>(),
             _ => 0,
         };
