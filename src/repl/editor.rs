@@ -8,6 +8,9 @@ use rustyline::{CompletionType, Config, Context, Editor, Helper, Highlighter, Hi
 use crate::lang::is_incomplete;
 use crate::session::{Completion, Session};
 
+/// Lines of history kept; the editor reads all of them when it starts.
+const MOST_LINES: usize = 10_000;
+
 /// The editor of the prompt.
 pub type LineEditor = Editor<Prompt, FileHistory>;
 
@@ -55,7 +58,7 @@ impl Completer for Prompt {
 pub fn open() -> rustyline::Result<LineEditor> {
     let config = Config::builder()
         .auto_add_history(false)
-        .max_history_size(super::history::MOST_LINES)?
+        .max_history_size(MOST_LINES)?
         .completion_type(CompletionType::List)
         .build();
     let mut editor = Editor::with_config(config)?;

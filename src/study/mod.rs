@@ -7,9 +7,11 @@
 
 mod advice;
 mod course;
+mod host;
 mod measure;
 mod picture;
 mod reference;
+mod reference_run;
 mod report;
 mod sample;
 mod setting_ladder;
@@ -17,9 +19,10 @@ mod table;
 
 pub use advice::{Advice, Wish};
 pub use course::{Course, Hand, Leg, move_by};
-pub use measure::{Outside, study};
+pub use host::StudyHost;
+pub use measure::study;
 pub use picture::picture;
-pub use reference::freedoms;
-pub use report::{Cut, Measure, Row, Study, Why};
+pub use reference_run::freedoms;
+pub use report::{Cut, ErrorMeasure, RungResult, Study, Why};
 pub use setting_ladder::{Rung, Step, ladder};
 pub use table::{csv, json, table};

@@ -1,6 +1,6 @@
 //! A study as a picture: error against time a frame, one line a method.
 
-use super::report::{Row, Study};
+use super::report::{RungResult, Study};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::solve::Method;
 
@@ -8,7 +8,7 @@ use crate::solve::Method;
 pub fn picture(study: &Study, title: &str) -> String {
     // No logarithm shows an error of 0; what is below the floor is rounding anyway.
     let floor = study.floor.max(1e-16);
-    let datum = |row: &Row| Datum {
+    let datum = |row: &RungResult| Datum {
         x: row.seconds_per_frame,
         y: row.error(study.measure).max(floor),
         label: Some(row.rung.setting()),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::report::{Measure, Row, Study};
+use super::report::{ErrorMeasure, RungResult, Study};
 use crate::diag::{format_digits, format_exponent, format_number, format_seconds};
 
 /// The table, a line a row; the efficient ones have a star.
@@ -28,7 +28,7 @@ pub fn table(study: &Study) -> Vec<String> {
     lines.push(format!(
         "* efficient: no other setting is both faster and better by {}{}",
         study.measure.words(),
-        if study.measure == Measure::Position {
+        if study.measure == ErrorMeasure::Position {
             format!("; errors below {} are rounding", format_exponent(study.floor, 2))
         } else {
             String::new()
@@ -66,7 +66,7 @@ pub fn csv(study: &Study) -> String {
 /// The rows as a JSON list of objects. All their texts are words of the language, which need
 /// no escaping, and all numbers are finite.
 pub fn json(study: &Study) -> String {
-    let object = |row: &Row| {
+    let object = |row: &RungResult| {
         let position = row.position_error.map_or_else(|| "null".to_owned(), format_number);
         format!(
             "  {{\"method\": \"{}\", \"iterations\": {}, \"tolerance\": {}, \

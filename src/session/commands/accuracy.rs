@@ -7,7 +7,7 @@ use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
 use crate::session::resolve::unbind::NOWHERE;
 use crate::study::{
-    Advice, Course, Outside, Row, Study, Wish, csv, json, ladder, picture, study, table,
+    Advice, Course, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture, study, table,
 };
 
 /// How long a study takes at most, roughly, seconds: longer and nobody would ask.
@@ -61,13 +61,13 @@ impl Execution<'_> {
         }
         let course = self.course(n_frames);
         let host = &self.host;
-        let outside = Outside {
+        let host = StudyHost {
             now: &|| host.seconds(),
             stop: &|| host.is_interrupted(),
             progress: &|share| host.progress(share),
             seconds: SECONDS,
         };
-        study(&course, &ladder(), &outside)
+        study(&course, &ladder(), &host)
     }
 
     /// The motion to study.
@@ -130,7 +130,7 @@ impl Execution<'_> {
     }
 
     fn advise(&mut self, study: &Study, wish: Wish) {
-        let describe = |row: &Row| {
+        let describe = |row: &RungResult| {
             format!(
                 "{} {}, {} a frame",
                 study.measure.words(),
