@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use super::snapshot::Memory;
+use super::memory::Memory;
 use super::{Island, Member};
 use crate::constraint::ConstraintKind;
 use crate::linalg::DisjointSets;

@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::dispatch::{Cause, Task, check};
 use super::island::Island;
+use super::island::memory::Memory;
 use super::island::partition::{Home, Partition};
-use super::island::snapshot::Memory;
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
