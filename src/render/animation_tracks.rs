@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::figure::{Figure, Key, Layer, Outline, Placement, Shape};
+use super::figure::{Figure, FigureShape, Key, Layer, Outline, Placement};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes, track, visibility};
 use crate::diag::push_decimals;
 
@@ -80,7 +80,7 @@ fn is_like(a: &Figure, b: &Figure) -> bool {
 }
 
 /// Whether two figures of one make look the same in their own coordinates.
-fn is_near(a: &[Shape], b: &[Shape]) -> bool {
+fn is_near(a: &[FigureShape], b: &[FigureShape]) -> bool {
     a.iter().zip(b).all(|(s, t)| {
         let (p, q) = (s.outline.numbers(), t.outline.numbers());
         p.iter().zip(&q).all(|(x, y)| (x - y).abs() <= TOLERANCE)

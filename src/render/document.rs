@@ -7,7 +7,7 @@ use svg::Node;
 use svg::node::Text;
 use svg::node::element::{Element, Style};
 
-use super::figure::{Figure, Outline, Shape};
+use super::figure::{Figure, FigureShape, Outline};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
 use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
@@ -139,7 +139,7 @@ fn transform(figure: &Figure) -> String {
     text
 }
 
-fn shape_element(shape: &Shape) -> Element {
+fn shape_element(shape: &FigureShape) -> Element {
     debug_assert!(
         shape.outline.numbers().iter().all(|number| number.is_finite()),
         "a picture is made of finite numbers"

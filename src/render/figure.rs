@@ -67,7 +67,7 @@ pub struct Figure {
     /// Where its own origin lies on the page, and how it is turned.
     pub placement: Placement,
     /// What it is made of, in its own coordinates.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<FigureShape>,
 }
 
 impl Figure {
@@ -89,19 +89,19 @@ impl Figure {
 
     /// Adds a line or an area.
     pub fn path(&mut self, class: Class, path: Path) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Path(path) });
+        self.shapes.push(FigureShape { class, outline: Outline::Path(path) });
         self
     }
 
     /// Adds a circle.
     pub fn circle(&mut self, class: Class, centre: Point, radius: f64) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Circle { centre, radius } });
+        self.shapes.push(FigureShape { class, outline: Outline::Circle { centre, radius } });
         self
     }
 
     /// Adds a text that stands on `at`.
     pub fn text(&mut self, class: Class, at: Point, text: Arc<str>) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Text { at, text } });
+        self.shapes.push(FigureShape { class, outline: Outline::Text { at, text } });
         self
     }
 }
@@ -134,7 +134,7 @@ impl Placement {
 
 /// One outline in one style.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub struct FigureShape {
     /// How it looks.
     pub class: Class,
     /// Its form.

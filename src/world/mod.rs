@@ -48,7 +48,7 @@ pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 pub use motion::Motion;
 pub use name::Word;
-pub use names::Names;
+pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
 pub use state::World;

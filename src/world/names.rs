@@ -5,9 +5,9 @@ use crate::diag::push_integer;
 
 /// Who has which name. The texts lie with those who have them.
 #[derive(Debug, Clone, Copy)]
-pub struct Names<'a>(&'a World);
+pub struct Namespace<'a>(&'a World);
 
-impl<'a> Names<'a> {
+impl<'a> Namespace<'a> {
     /// What has this name.
     pub fn get(self, name: &str) -> Option<Entity> {
         self.0.index.find(name, |entity| self.0.word_of(entity).as_bytes() == name.as_bytes())
@@ -46,8 +46,8 @@ impl<'a> Names<'a> {
 
 impl World {
     /// Who has which name.
-    pub const fn names(&self) -> Names<'_> {
-        Names(self)
+    pub const fn names(&self) -> Namespace<'_> {
+        Namespace(self)
     }
 
     /// The first of `{stem}1`, `{stem}2`, ... that is free. A function of what is taken now,

@@ -1,12 +1,12 @@
 //! Labels beside their places, none on another and few on lines.
 
-use super::sheet::{Anchor, Lettering, Sheet, Stroke, polyline};
+use super::sheet::{Anchor, Sheet, Stroke, TextStyle, polyline};
 use crate::constraint::{Point, Vector};
 use crate::render::labels::{Area, cheapest, direction, directions, even_width};
 
 /// What is written, and how.
 #[derive(Debug, Clone, Copy)]
-pub struct Label<'a> {
+pub struct ChartLabel<'a> {
     /// The words.
     pub text: &'a str,
     /// Size of letters, px.
@@ -73,7 +73,7 @@ impl LabelPlacer {
 
     /// Writes a label beside `at` where it covers no other and no mark, and as little of lines
     /// as possible; not at all where there is no such place.
-    pub fn place(&mut self, at: Point, label: Label, sheet: &mut Sheet) {
+    pub fn place(&mut self, at: Point, label: ChartLabel, sheet: &mut Sheet) {
         let Some((cost, area)) = cheapest(self.candidates(at, label)) else { return };
         if !label.must && cost > MOST_COST {
             return;
@@ -85,13 +85,12 @@ impl LabelPlacer {
             sheet.line(&polyline(&[at, nearest]), stroke);
         }
         let base_line = area.middle() + Vector::new(0.0, 0.36 * label.size);
-        let lettering =
-            Lettering { size: label.size, anchor: Anchor::Middle, colour: label.colour };
-        sheet.write_over_lines(base_line, label.text, label.is_bold, lettering);
+        let style = TextStyle { size: label.size, anchor: Anchor::Middle, colour: label.colour };
+        sheet.write_over_lines(base_line, label.text, label.is_bold, style);
     }
 
     /// The areas where a label can stand, each with its cost.
-    fn candidates(&self, at: Point, label: Label) -> impl Iterator<Item = (f64, Area)> {
+    fn candidates(&self, at: Point, label: ChartLabel) -> impl Iterator<Item = (f64, Area)> {
         let half = Vector::new(0.5 * even_width(label.text, label.size), 0.5 * label.size);
         let distances: &[f64] = if label.must { &FARTHER } else { &CLOSE };
         let places = distances.iter().flat_map(|&d| directions().map(move |k| (d, k)));

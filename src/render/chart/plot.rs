@@ -2,9 +2,9 @@
 
 use super::axis::{Scale, Tick};
 use super::data::{Chart, Datum, Series};
-use super::label_placer::{Label, LabelPlacer, Preference};
+use super::label_placer::{ChartLabel, LabelPlacer, Preference};
 use super::series_look::SeriesLook;
-use super::sheet::{Anchor, Lettering, Sheet, Stroke, number};
+use super::sheet::{Anchor, Sheet, Stroke, TextStyle, number};
 use crate::constraint::Point;
 use crate::render::labels::{Area, even_width};
 
@@ -28,12 +28,12 @@ const MARK_GAP: f64 = 26.0;
 /// The line through the efficient places: broad and pale, beneath the others.
 const FRONTIER: Stroke = Stroke { colour: "#c9c9c9", width: 9.0, is_round: false, dash: "" };
 /// Words around the data.
-const WORDS: Lettering = Lettering { size: TEXT, anchor: Anchor::Middle, colour: "#222" };
+const WORDS: TextStyle = TextStyle { size: TEXT, anchor: Anchor::Middle, colour: "#222" };
 /// Words of the legend.
-const NAMES: Lettering = Lettering { anchor: Anchor::Start, ..WORDS };
+const NAMES: TextStyle = TextStyle { anchor: Anchor::Start, ..WORDS };
 /// Words above and below the chart.
-const REMARKS: Lettering = Lettering { size: SMALL, anchor: Anchor::Start, colour: "#555" };
-const HEADING: Lettering = Lettering { size: TITLE, anchor: Anchor::Start, colour: "#111" };
+const REMARKS: TextStyle = TextStyle { size: SMALL, anchor: Anchor::Start, colour: "#555" };
+const HEADING: TextStyle = TextStyle { size: TITLE, anchor: Anchor::Start, colour: "#111" };
 
 impl Chart {
     /// The chart as an SVG document.
@@ -90,7 +90,7 @@ fn draw_labels(lines: &[Line], sheet: &mut Sheet) {
             for (place, datum) in line.marked().filter(|(_, datum)| datum.is_notable == is_notable)
             {
                 let Some(text) = &datum.label else { continue };
-                let label = Label {
+                let label = ChartLabel {
                     text,
                     size: if is_notable { SMALL } else { TINY },
                     is_bold: is_notable,
@@ -105,7 +105,7 @@ fn draw_labels(lines: &[Line], sheet: &mut Sheet) {
     beside_marks(&mut placer, sheet, true);
     for line in lines {
         if let Some(&end) = line.stretches.last().and_then(|stretch| stretch.last()) {
-            let label = Label {
+            let label = ChartLabel {
                 text: line.name,
                 size: TEXT,
                 is_bold: true,
@@ -192,7 +192,7 @@ impl Plot {
         for tick in &y_ticks {
             if let Some(label) = &tick.label {
                 let at = Point::new(LEFT - 8.0, tick.at + 4.5);
-                sheet.write_markup(at, label, Lettering { anchor: Anchor::End, ..WORDS });
+                sheet.write_markup(at, label, TextStyle { anchor: Anchor::End, ..WORDS });
             }
         }
         let below = Point::new(0.5 * (LEFT + BODY), FLOOR + 40.0);

@@ -31,7 +31,7 @@ pub struct Stroke<'a> {
 
 /// How words are written.
 #[derive(Debug, Clone, Copy)]
-pub struct Lettering<'a> {
+pub struct TextStyle<'a> {
     /// Size of letters, px.
     pub size: f64,
     /// Which end of the words the place is.
@@ -141,41 +141,35 @@ impl Sheet {
     }
 
     /// Writes words, if there are any.
-    pub fn write(&mut self, at: Point, words: &str, lettering: Lettering) {
+    pub fn write(&mut self, at: Point, words: &str, style: TextStyle) {
         if !words.is_empty() {
-            self.write_markup(at, &escaped(words), lettering);
+            self.write_markup(at, &escaped(words), style);
         }
     }
 
     /// Writes bold words, if there are any.
-    pub fn write_bold(&mut self, at: Point, words: &str, lettering: Lettering) {
+    pub fn write_bold(&mut self, at: Point, words: &str, style: TextStyle) {
         if !words.is_empty() {
             let words = format!("<tspan font-weight=\"bold\">{}</tspan>", escaped(words));
-            self.write_markup(at, &words, lettering);
+            self.write_markup(at, &words, style);
         }
     }
 
     /// Writes words with a rim of paper that keeps lines off the letters.
-    pub fn write_over_lines(
-        &mut self,
-        at: Point,
-        words: &str,
-        is_bold: bool,
-        lettering: Lettering,
-    ) {
+    pub fn write_over_lines(&mut self, at: Point, words: &str, is_bold: bool, style: TextStyle) {
         let weight = if is_bold { " font-weight=\"bold\"" } else { "" };
         let words = format!(
             "<tspan{weight} stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\" \
              paint-order=\"stroke\">{}</tspan>",
             escaped(words)
         );
-        self.write_markup(at, &words, lettering);
+        self.write_markup(at, &words, style);
     }
 
     /// Writes what is SVG already.
-    pub fn write_markup(&mut self, at: Point, words: &str, lettering: Lettering) {
-        let (x, y, size) = (number(at.x), number(at.y), lettering.size);
-        let (anchor, colour) = (lettering.anchor.word(), lettering.colour);
+    pub fn write_markup(&mut self, at: Point, words: &str, style: TextStyle) {
+        let (x, y, size) = (number(at.x), number(at.y), style.size);
+        let (anchor, colour) = (style.anchor.word(), style.colour);
         self.push(format_args!(
             "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
              fill=\"{colour}\">{words}</text>"
@@ -183,9 +177,9 @@ impl Sheet {
     }
 
     /// Writes words upwards, their middle at a place.
-    pub fn write_upwards(&mut self, at: Point, words: &str, lettering: Lettering) {
-        let (x, y, size) = (number(at.x), number(at.y), lettering.size);
-        let (colour, words) = (lettering.colour, escaped(words));
+    pub fn write_upwards(&mut self, at: Point, words: &str, style: TextStyle) {
+        let (x, y, size) = (number(at.x), number(at.y), style.size);
+        let (colour, words) = (style.colour, escaped(words));
         self.push(format_args!(
             "<text transform=\"translate({x} {y}) rotate(-90)\" font-size=\"{size}\" \
              text-anchor=\"middle\" fill=\"{colour}\">{words}</text>"
