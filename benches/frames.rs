@@ -37,19 +37,21 @@ fn statements(session: &mut Session, text: &str) -> Vec<Statement> {
 
 fn execute(session: &mut Session, text: &str) {
     for statement in statements(session, text) {
-        session.execute(&statement).expect("a statement that works");
+        session.execute(&statement, &mut Nowhere).expect("a statement that works");
     }
 }
 
 /// A session that has carried out all of a script but its last statement.
 fn set_up(script: &str, n: Option<usize>) -> Session {
-    let mut session = Session::new(Box::new(Nowhere));
+    let mut session = Session::new();
     if let Some(n) = n {
         session.override_parameter("n", n as f64);
     }
     let all = statements(&mut session, script);
     let (_, setup) = all.split_last().expect("a script");
-    setup.iter().for_each(|s| _ = session.execute(s).expect("a statement that works"));
+    setup
+        .iter()
+        .for_each(|s| _ = session.execute(s, &mut Nowhere).expect("a statement that works"));
     session
 }
 
@@ -191,7 +193,7 @@ fn statement(c: &mut Criterion) {
             b.iter_custom(|times| {
                 (0..times)
                     .map(|_| {
-                        let mut session = Session::new(Box::new(Nowhere));
+                        let mut session = Session::new();
                         execute(&mut session, "point p[0] = (0, 0)");
                         timed(&mut session, &text)
                     })
@@ -202,9 +204,7 @@ fn statement(c: &mut Criterion) {
     group.throughput(Throughput::Elements(n));
     let lines = (0..n).map(|i| format!("point q[{i}] = ({i}, 0)\n")).collect::<Vec<_>>().concat();
     group.bench_function("point on a line of its own", |b| {
-        b.iter_custom(|times| {
-            (0..times).map(|_| timed(&mut Session::new(Box::new(Nowhere)), &lines)).sum()
-        });
+        b.iter_custom(|times| (0..times).map(|_| timed(&mut Session::new(), &lines)).sum());
     });
     group.finish();
 }

@@ -1,17 +1,13 @@
 //! The command line: arguments, exit statuses, files, signals.
 
-mod accuracy;
 mod args;
-mod check;
-mod effects;
+mod examine;
 mod files;
 pub(crate) mod interrupt;
 pub(crate) mod output;
 mod process_host;
 mod progress;
-mod quiet;
 mod run;
-pub(crate) mod transcript;
 
 use std::process::ExitCode;
 
@@ -21,9 +17,9 @@ pub fn run() -> ExitCode {
     interrupt::listen();
     let status = match args.command {
         Some(args::Command::Run(batch)) => run::batch(&batch),
-        Some(args::Command::Accuracy(wish)) => accuracy::accuracy(&wish),
-        Some(args::Command::Check(examination)) => check::script(&examination),
-        Some(args::Command::Effects(examination)) => effects::script(&examination),
+        Some(args::Command::Accuracy(wish)) => examine::accuracy(&wish),
+        Some(args::Command::Check(examination)) => examine::check(&examination),
+        Some(args::Command::Effects(examination)) => examine::effects(&examination),
         None => run::session(&args.session),
     };
     output::flush();

@@ -8,7 +8,7 @@ use super::args::Outside;
 use super::progress::Bar;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::Host;
+use crate::session::{Host, contained};
 
 /// The process as a session sees it.
 pub struct Process {
@@ -51,20 +51,17 @@ impl Host for Process {
         interrupt::is_asked()
     }
 
+    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        let path = if self.allows_any_path { path.to_path_buf() } else { contained(path)? };
+        Ok(self.out.join(path))
+    }
+
     fn read(&mut self, path: &Path) -> io::Result<String> {
         files::read(path)
     }
 
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        files::write(&self.written(path), bytes)
-    }
-
-    fn written(&self, path: &Path) -> PathBuf {
-        self.out.join(path)
-    }
-
-    fn allows_any_path(&self) -> bool {
-        self.allows_any_path
+        files::write(path, bytes)
     }
 
     fn progress(&self, share: f64) {

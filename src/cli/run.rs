@@ -7,11 +7,10 @@ use std::process::ExitCode;
 
 use super::args::{Batch, Outside};
 use super::process_host::Process;
-use super::transcript::{Outcome, Typed};
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
 use crate::lang::is_incomplete;
-use crate::session::{Flow, Host, Session, reason};
+use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +49,7 @@ pub fn batch(batch: &Batch) -> Status {
     let mut unused: Option<BTreeSet<String>> = None;
     for (k, file) in batch.files.iter().enumerate() {
         let mut session = begin(&batch.outside);
-        let status = script(file, &mut session);
+        let status = script(file, &mut session, &mut Process::new(&batch.outside));
         if status != Status::Fine {
             return status;
         }
@@ -70,7 +69,7 @@ pub fn batch(batch: &Batch) -> Status {
 }
 
 /// Runs one script, `-` from standard input, and says what went wrong.
-pub fn script(file: &Path, session: &mut Session) -> Status {
+pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> Status {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
     let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };
@@ -85,23 +84,11 @@ pub fn script(file: &Path, session: &mut Session) -> Status {
     };
     let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
     let source = session.add_source(&name, &text, Some(folder));
-    let result = session.execute_all(source).and_then(|flow| {
-        session.finish()?;
-        Ok(flow)
-    });
-    match result {
-        Ok(Flow::Stopped) => Status::Interrupted,
-        Ok(_) => Status::Fine,
-        Err(problem) => {
-            output::show(&problem, session.sources());
-            // What was recorded up to here is not lost.
-            if let Err(second) = session.finish()
-                && second != problem
-            {
-                output::show(&second, session.sources());
-            }
-            Status::of(&problem)
-        }
+    let Outcome { flow, failure } = session.run_script(source, host);
+    match (failure, flow) {
+        (Some(problem), _) => Status::of(&problem),
+        (None, Flow::Stopped) => Status::Interrupted,
+        (None, _) => Status::Fine,
     }
 }
 
@@ -118,7 +105,7 @@ pub(super) fn begin(outside: &Outside) -> Session {
         let crew = rayon::ThreadPoolBuilder::new().num_threads(n.into());
         let _ = crew.build_global();
     }
-    let mut session = Session::new(Box::new(Process::new(outside)));
+    let mut session = Session::new();
     for (name, value) in &outside.set {
         session.override_parameter(name, *value);
     }
@@ -128,13 +115,14 @@ pub(super) fn begin(outside: &Outside) -> Session {
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
 pub fn session(outside: &Outside) -> Status {
     let mut session = begin(outside);
+    let mut process = Process::new(outside);
     let status = if io::stdin().is_terminal() {
-        crate::repl::converse(&mut session);
+        crate::repl::converse(&mut session, &mut process);
         Status::Fine
     } else {
-        typed_ahead(&mut session)
+        typed_ahead(&mut session, &mut process)
     };
-    match session.finish() {
+    match session.finish(&mut process) {
         Ok(()) => status,
         Err(problem) => {
             output::show(&problem, session.sources());
@@ -149,8 +137,8 @@ const LINES_WATCHED: usize = 64;
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
-fn typed_ahead(session: &mut Session) -> Status {
-    let mut typed = Typed::new("<stdin>");
+fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> Status {
+    let mut transcript = Transcript::new("<stdin>");
     let mut status = Status::Fine;
     let mut piece = String::new();
     let mut n_lines = 0;
@@ -175,11 +163,12 @@ fn typed_ahead(session: &mut Session) -> Status {
         if !is_end && (!is_due || is_incomplete(&piece)) {
             continue;
         }
-        let Outcome { flow, failure } = typed.obey(session, &piece);
+        let Outcome { flow, failure } = transcript.enter(&piece, session, host);
+        output::flush();
         piece.clear();
         n_lines = 0;
         if status == Status::Fine {
-            status = failure.unwrap_or(Status::Fine);
+            status = failure.as_ref().map_or(Status::Fine, Status::of);
         }
         match flow {
             Flow::On if is_end => return status,

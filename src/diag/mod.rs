@@ -4,13 +4,18 @@
 //! mechanisms or of the language.
 
 mod diagnostic;
+mod list;
 mod nearest;
 mod number;
 mod render;
 mod source;
 
 pub use diagnostic::{Diagnostic, Kind, Label, Severity};
-pub use nearest::nearest;
-pub use number::{format_number, push_integer};
+pub use list::{listed, listed_first, listed_ways};
+pub use nearest::{nearest, suggest};
+pub use number::{
+    format_count, format_decimals, format_degrees, format_digits, format_exponent, format_number,
+    format_rounded, format_seconds, push_decimals, push_integer,
+};
 pub use render::{Paint, render};
 pub use source::{Place, Source, SourceId, Sources, Span};

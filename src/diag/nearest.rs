@@ -1,5 +1,7 @@
 //! The nearest of many names: what a misspelt word was probably meant to be.
 
+use super::Diagnostic;
+
 /// The candidate nearest to `word`, if one is near enough to be worth suggesting.
 ///
 /// Nearness is the optimal string alignment distance (insert, delete, replace, swap of
@@ -33,6 +35,18 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         }
     }
     best.map(|(_, candidate)| candidate)
+}
+
+/// A problem with the candidate nearest to `word` as help, if one is near enough.
+pub fn suggest<'a>(
+    problem: Diagnostic,
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Diagnostic {
+    match nearest(word, candidates) {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem,
+    }
 }
 
 /// Longer words are not compared: the time grows with the square of the length.

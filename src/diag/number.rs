@@ -1,4 +1,4 @@
-//! How every number is written: the shortest text that reads back to the same bits.
+//! How numbers are written: exactly, to so many digits, or to so many decimals.
 
 /// Writes `value` in the fewest digits that read back to the same bits.
 ///
@@ -20,6 +20,80 @@ pub fn format_number(value: f64) -> String {
     } else {
         format!("{value:e}")
     }
+}
+
+/// A number rounded to so many digits, of which there is at least one.
+///
+/// ```
+/// use linkwork::diag::format_digits;
+///
+/// assert_eq!(format_digits(0.123456, 5), "0.12346");
+/// ```
+pub fn format_digits(value: f64, n_digits: usize) -> String {
+    let text = format!("{value:.*e}", n_digits - 1);
+    format_number(text.parse().unwrap_or(value))
+}
+
+/// A number for talk: three digits say enough.
+pub fn format_rounded(value: f64) -> String {
+    format_digits(value, 3)
+}
+
+/// Writes `value` with an exponent and so many significant digits, trailing zeros included, so
+/// that a column of them lines up; zero is `0`.
+///
+/// ```
+/// use linkwork::diag::format_exponent;
+///
+/// assert_eq!(format_exponent(0.0012, 3), "1.20e-3");
+/// ```
+pub fn format_exponent(value: f64, n_digits: usize) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.*e}", n_digits - 1) }
+}
+
+/// Appends `value` with at most `n_decimals` digits after the point, without trailing zeros
+/// and never as `-0`: how pictures write px and degrees.
+pub fn push_decimals(text: &mut String, value: f64, n_decimals: usize) {
+    use std::fmt::Write;
+    let start = text.len();
+    // Writing to a string cannot fail.
+    let _ = write!(text, "{value:.n_decimals$}");
+    if n_decimals > 0 {
+        let kept = text.trim_end_matches('0').trim_end_matches('.').len();
+        text.truncate(kept);
+    }
+    if &text[start..] == "-0" {
+        text.replace_range(start.., "0");
+    }
+}
+
+/// `value` with at most `n_decimals` digits after the point; see [`push_decimals`].
+pub fn format_decimals(value: f64, n_decimals: usize) -> String {
+    let mut text = String::new();
+    push_decimals(&mut text, value, n_decimals);
+    text
+}
+
+/// A count for a message: nobody counts the zeros of a large round one.
+pub fn format_count(value: f64) -> String {
+    if value.abs() >= 1e6 { format!("{value:e}") } else { format_number(value) }
+}
+
+/// An angle, given in radians, in degrees with its unit, to 1e-9.
+pub fn format_degrees(radians: f64) -> String {
+    let rounded = (radians.to_degrees() * 1e9).round() / 1e9;
+    // Adding 0 makes a 0 of -0.
+    format!("{} deg", format_number(rounded + 0.0))
+}
+
+/// A time with its unit, three digits: `1.25 us`.
+pub fn format_seconds(seconds: f64) -> String {
+    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
+    let (scale, unit) =
+        units.into_iter().find(|(scale, _)| seconds >= *scale).unwrap_or((1e-9, "ns"));
+    let value = seconds / scale;
+    let n_places = if value >= 100.0 { 0 } else { usize::from(value < 10.0) + 1 };
+    format!("{value:.n_places$} {unit}")
 }
 
 /// Adds a whole number to a text, in a fraction of the time that the general formatting takes:
@@ -56,6 +130,51 @@ mod tests {
             push_integer(&mut text, value);
             assert_eq!(text, format!("p{value}"));
         }
+    }
+
+    #[test]
+    fn decimals_are_short_and_without_minus_zero() {
+        let check = |value: f64, n_decimals: usize, wanted: &str| {
+            assert_eq!(format_decimals(value, n_decimals), wanted);
+        };
+        check(0.1 + 0.2, 2, "0.3");
+        check(-0.001, 2, "0");
+        check(-0.0, 2, "0");
+        check(100.0, 2, "100");
+        check(100.0, 0, "100");
+        check(-12.345, 1, "-12.3");
+        check(0.005, 2, "0.01");
+        check(1e6, 2, "1000000");
+    }
+
+    #[test]
+    fn zeros_of_the_text_before_stay() {
+        let mut text = String::from("10 ");
+        push_decimals(&mut text, 0.0, 2);
+        assert_eq!(text, "10 0");
+    }
+
+    #[test]
+    fn times_have_three_digits_and_a_unit() {
+        let check = |seconds: f64, wanted: &str| assert_eq!(format_seconds(seconds), wanted);
+        check(1.25, "1.25 s");
+        check(0.0123, "12.3 ms");
+        check(4.2e-6, "4.20 us");
+        check(3.21e-7, "321 ns");
+        check(0.0, "0.00 ns");
+    }
+
+    #[test]
+    fn angles_are_degrees_without_a_sign_of_zero() {
+        let check = |radians: f64, wanted: &str| assert_eq!(format_degrees(radians), wanted);
+        check(std::f64::consts::FRAC_PI_2, "90 deg");
+        check(-0.0, "0 deg");
+        check(-1e-12, "0 deg");
+    }
+
+    #[test]
+    fn large_counts_have_an_exponent() {
+        assert_eq!([format_count(1e9), format_count(720.0)], ["1e9", "720"]);
     }
 
     #[test]

@@ -68,7 +68,7 @@ impl NormalMatrix {
     /// The matrix of `n_points` points that nothing acts on yet, stored as suits its pattern;
     /// each of `rows` lists the points of a row of J, each point once.
     pub fn new<'a>(n_points: usize, rows: impl Iterator<Item = &'a [u32]> + Clone) -> Self {
-        let analysis = Analysis::new(&Graph::new(n_points, rows.clone()));
+        let analysis = SymbolicAnalysis::new(&Graph::new(n_points, rows.clone()));
         let storage = analysis.suitable_storage();
         Self::stored(storage, analysis, rows)
     }
@@ -79,16 +79,16 @@ impl NormalMatrix {
         n_points: usize,
         rows: impl Iterator<Item = &'a [u32]> + Clone,
     ) -> Self {
-        let analysis = Analysis::new(&Graph::new(n_points, rows.clone()));
+        let analysis = SymbolicAnalysis::new(&Graph::new(n_points, rows.clone()));
         Self::stored(storage, analysis, rows)
     }
 
     fn stored<'a>(
         storage: Storage,
-        analysis: Analysis,
+        analysis: SymbolicAnalysis,
         rows: impl Iterator<Item = &'a [u32]>,
     ) -> Self {
-        let Analysis { order, lower, columns } = analysis;
+        let SymbolicAnalysis { order, lower, columns } = analysis;
         let ordered = vec![0.0; 2 * order.len()];
         let factor = match storage {
             Storage::Sparse => Factor::Sparse(Sparse::new(columns)),
@@ -177,13 +177,13 @@ impl NormalMatrix {
 const FRONTS_PAY: usize = 20;
 
 /// An elimination order that follows its own tree, the lower triangle, and the fill in it.
-struct Analysis {
+struct SymbolicAnalysis {
     order: Vec<u32>,
     lower: Lists,
     columns: Lists,
 }
 
-impl Analysis {
+impl SymbolicAnalysis {
     fn new(graph: &Graph) -> Self {
         let order = order::minimum_degree(graph);
         let parent = elimination::tree(&lower_triangle(graph, &order));

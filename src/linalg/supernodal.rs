@@ -432,7 +432,7 @@ impl Extent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::{Analysis, Graph};
+    use crate::linalg::{Graph, SymbolicAnalysis};
 
     #[test]
     fn wider_vectors_give_the_same_bits() {
@@ -444,7 +444,7 @@ mod tests {
             })
             .collect();
         let points = rows.iter().map(<[u32; 4]>::as_slice);
-        let analysis = Analysis::new(&Graph::new((n * n) as usize, points.clone()));
+        let analysis = SymbolicAnalysis::new(&Graph::new((n * n) as usize, points.clone()));
         let mut normal = Normal::new(&analysis.lower, &analysis.order, points);
         for row_idx in 0..rows.len() {
             let values: [f64; 8] =

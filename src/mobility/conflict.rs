@@ -1,7 +1,7 @@
 //! Which constraints contradict each other, and what would settle it.
 
 use super::dependence::{Dependence, dependences};
-use super::scene::{Rows, Scene, UnitRow};
+use super::scene::{Scene, UnitRow, UnitRows};
 use super::settle::can_hold_alone;
 
 /// Constraints that cannot all hold.
@@ -41,7 +41,7 @@ const MOST_TRIED: usize = 200;
 /// At a best fit the residuals are a stress that the rows bear among themselves. Each
 /// dependent row with those it depends on is a smallest set that can bear one, so to first
 /// order it contradicts itself if its residuals do work on that stress.
-pub fn conflicts(scene: &Scene, island: &Rows, tolerance: f64) -> Vec<Conflict> {
+pub fn conflicts(scene: &Scene, island: &UnitRows, tolerance: f64) -> Vec<Conflict> {
     let mut apart: Vec<Conflict> = Vec::new();
     for set in contradictions(island, tolerance) {
         let is_apart =
@@ -57,7 +57,7 @@ pub fn conflicts(scene: &Scene, island: &Rows, tolerance: f64) -> Vec<Conflict> 
 /// The smallest set of constraints found that `constraint` contradicts at the best fit, if any.
 pub fn conflict_with(scene: &Scene, constraint: usize, tolerance: f64) -> Option<Conflict> {
     let (rows, _) = scene.rows(tolerance);
-    let has_it = |island: &Rows| island.rows.iter().any(|row| row.source.0 == constraint);
+    let has_it = |island: &UnitRows| island.rows.iter().any(|row| row.source.0 == constraint);
     let mut island = rows.islands().into_iter().find(has_it)?;
     // Taken last, it depends on the others if it can.
     island.rows.sort_by_key(|row| (row.source.0 == constraint, row.source));
@@ -92,7 +92,7 @@ fn smallest(scene: &Scene, mut set: Vec<usize>, kept: Option<usize>, tolerance: 
 
 /// The constraints of dependent rows whose residuals do work on their stress, small sets
 /// first, and among equals the worst.
-fn contradictions(island: &Rows, tolerance: f64) -> Vec<Vec<usize>> {
+fn contradictions(island: &UnitRows, tolerance: f64) -> Vec<Vec<usize>> {
     if island.worst() <= tolerance {
         return Vec::new();
     }
@@ -111,7 +111,7 @@ fn contradictions(island: &Rows, tolerance: f64) -> Vec<Vec<usize>> {
     found.iter().map(constraints).collect()
 }
 
-fn conflict(island: &Rows, constraints: Vec<usize>) -> Conflict {
+fn conflict(island: &UnitRows, constraints: Vec<usize>) -> Conflict {
     let rows = island.filtered(|row| constraints.binary_search(&row.source.0).is_ok());
     let stresses = dependences(&rows, AT_BEST_FIT);
     let misfit = |dependence: &&Dependence| dependence.misfit(&rows.rows).abs();

@@ -1,7 +1,7 @@
 //! Which rows say nothing that earlier ones do not say already, and which those are.
 
 use super::projector::Projector;
-use super::scene::{Rows, UnitRow};
+use super::scene::{UnitRow, UnitRows};
 use crate::linalg::RowBasis;
 
 /// A row that is a sum of multiples of earlier, independent ones.
@@ -33,7 +33,7 @@ impl Dependence {
 ///
 /// Each is explained by rows close by if it can be, else by independent rows anywhere. Either
 /// way the stresses of all span all stresses, as each has a row that only later ones share.
-pub fn dependences(island: &Rows, tolerance: f64) -> Vec<Dependence> {
+pub fn dependences(island: &UnitRows, tolerance: f64) -> Vec<Dependence> {
     let (independent, dependent) = independent(island.points.len(), &island.rows, tolerance);
     let neighbourhood = Neighbourhood::new(island);
     let mut everywhere = None;
@@ -62,13 +62,13 @@ fn independent(n_points: usize, rows: &[UnitRow], tolerance: f64) -> (Vec<usize>
 
 /// Rows as sums of multiples of independent ones.
 struct Explainer<'a> {
-    island: &'a Rows,
+    island: &'a UnitRows,
     basis: &'a [usize],
     projector: Projector,
 }
 
 impl<'a> Explainer<'a> {
-    fn new(island: &'a Rows, basis: &'a [usize]) -> Self {
+    fn new(island: &'a UnitRows, basis: &'a [usize]) -> Self {
         let rows = basis.iter().map(|&k| island.rows[k].clone()).collect();
         Self { island, basis, projector: Projector::new(island.points.len(), rows) }
     }
@@ -84,7 +84,7 @@ impl<'a> Explainer<'a> {
 
 /// Which rows are near which: in a net that is where a dependence is short.
 struct Neighbourhood<'a> {
-    island: &'a Rows,
+    island: &'a UnitRows,
     /// The rows that hold each point.
     at: Vec<Vec<usize>>,
 }
@@ -93,7 +93,7 @@ struct Neighbourhood<'a> {
 const NEAR: usize = 32;
 
 impl<'a> Neighbourhood<'a> {
-    fn new(island: &'a Rows) -> Self {
+    fn new(island: &'a UnitRows) -> Self {
         let mut at = vec![Vec::new(); island.points.len()];
         for (k, row) in island.rows.iter().enumerate() {
             for &p in row.points() {
@@ -120,7 +120,7 @@ impl<'a> Neighbourhood<'a> {
             let mut inside: Vec<usize> = at.copied().filter(is_inside).collect();
             inside.sort_unstable();
             inside.dedup();
-            let near = Rows {
+            let near = UnitRows {
                 points: points.clone(),
                 rows: inside
                     .iter()

@@ -1,7 +1,7 @@
 //! Where a single point can still go, and what keeps it from going elsewhere.
 
 use super::projector::Projector;
-use super::scene::{Rows, Scene, UnitRow};
+use super::scene::{Scene, UnitRow, UnitRows};
 use crate::constraint::{PointIdx, Vector};
 
 /// What is left of the two freedoms of a point, at first order.
@@ -30,7 +30,7 @@ const NO_SHARE: f64 = 1e-5;
 /// How the point can move with everything that must move with it.
 pub fn freedom(scene: &Scene, point: PointIdx) -> Freedom {
     let (rows, _) = scene.rows(0.0);
-    let holds = |island: &Rows| island.points.binary_search(&point).is_ok();
+    let holds = |island: &UnitRows| island.points.binary_search(&point).is_ok();
     let Some(island) = rows.islands().into_iter().find(holds) else {
         return Freedom { directions: Directions::None, held_by: Vec::new() };
     };
@@ -59,7 +59,7 @@ pub fn freedom(scene: &Scene, point: PointIdx) -> Freedom {
 }
 
 /// The constraints whose forces hold the point against a push in the blocked directions.
-fn holders(island: &Rows, place: usize, blocked: &[Vector]) -> Vec<usize> {
+fn holders(island: &UnitRows, place: usize, blocked: &[Vector]) -> Vec<usize> {
     let mut projector = Projector::of(island);
     let mut strength: Vec<(f64, usize)> = Vec::new();
     for direction in blocked {

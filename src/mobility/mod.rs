@@ -26,7 +26,7 @@ pub use scene::Scene;
 
 use dependence::dependences;
 use projector::Projector;
-use scene::Rows;
+use scene::UnitRows;
 
 /// What there is to say about a scene at a pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,7 +127,7 @@ pub fn analyse(scene: &Scene, tolerance: f64) -> Analysis {
 }
 
 impl Analysis {
-    fn add(&mut self, scene: &Scene, island: &Rows, tolerance: f64) {
+    fn add(&mut self, scene: &Scene, island: &UnitRows, tolerance: f64) {
         let mut projector = Projector::of(island);
         let n_free = projector.nullity();
         let n_redundant = (island.rows.len() + n_free).saturating_sub(island.n_unknowns());

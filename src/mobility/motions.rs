@@ -1,7 +1,7 @@
 //! The motions that change no row.
 
 use super::projector::Projector;
-use super::scene::{Rows, Scene};
+use super::scene::{Scene, UnitRows};
 use crate::constraint::{PointIdx, Vector};
 use nalgebra::DVector;
 
@@ -13,7 +13,7 @@ use nalgebra::DVector;
 /// a motor along it changes its sign, the motor is at a dead point.
 pub fn motion_of(scene: &Scene, point: PointIdx) -> Option<Vec<Vector>> {
     let (rows, _) = scene.rows(0.0);
-    let holds = |island: &Rows| island.points.binary_search(&point).is_ok();
+    let holds = |island: &UnitRows| island.points.binary_search(&point).is_ok();
     let island = rows.islands().into_iter().find(holds)?;
     let mut projector = Projector::of(&island);
     if projector.nullity() != 1 {

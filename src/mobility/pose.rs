@@ -3,7 +3,7 @@
 use super::dependence::Dependence;
 use super::motions::{Random, motions};
 use super::projector::Projector;
-use super::scene::{Rows, Scene};
+use super::scene::{Scene, UnitRows};
 use crate::constraint::{ConstraintKind, Kind, Point, Vector};
 use nalgebra::{DMatrix, DVector};
 
@@ -32,7 +32,7 @@ const MOST_MOTIONS: usize = 24;
 /// `v^T (sum_a y_a hess f_a) v = 0` (Connelly and Whiteley, "Second-order rigidity and prestress
 /// stability for tensegrity frameworks", SIAM J. Discrete Math. 9, 1996). If some stress makes
 /// this form definite, nothing moves; if all forms vanish, everything does.
-pub fn classify(scene: &Scene, island: &Rows, dependences: &[Dependence]) -> Pose {
+pub fn classify(scene: &Scene, island: &UnitRows, dependences: &[Dependence]) -> Pose {
     let mut projector = Projector::of(island);
     let n_motions = projector.nullity();
     if dependences.is_empty() || n_motions == 0 || is_generic(scene, island, n_motions) {
@@ -53,7 +53,7 @@ pub fn classify(scene: &Scene, island: &Rows, dependences: &[Dependence]) -> Pos
 
 /// Whether there are as many motions at a pose chosen at random nearby, where coincident
 /// points and the like are left together.
-fn is_generic(scene: &Scene, island: &Rows, n_motions: usize) -> bool {
+fn is_generic(scene: &Scene, island: &UnitRows, n_motions: usize) -> bool {
     let straight = island.filtered(|row| {
         matches!(
             scene.constraints[row.source.0].kind(),
@@ -77,7 +77,7 @@ fn is_generic(scene: &Scene, island: &Rows, n_motions: usize) -> bool {
 }
 
 /// The largest distance of a point of the island from their middle.
-fn extent(scene: &Scene, island: &Rows) -> f64 {
+fn extent(scene: &Scene, island: &UnitRows) -> f64 {
     let constraints = island.rows.chunk_by(|a, b| a.source.0 == b.source.0);
     let points = || {
         let held =
@@ -94,7 +94,7 @@ fn extent(scene: &Scene, island: &Rows) -> f64 {
 /// with, over the given motions.
 fn forms(
     scene: &Scene,
-    island: &Rows,
+    island: &UnitRows,
     dependences: &[Dependence],
     motions: &[DVector<f64>],
 ) -> Vec<DMatrix<f64>> {

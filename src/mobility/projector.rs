@@ -1,6 +1,6 @@
 //! Projections onto motions that change no row, and onto what rows can bear among themselves.
 
-use super::scene::{Rows, UnitRow};
+use super::scene::{UnitRow, UnitRows};
 use crate::linalg::NormalMatrix;
 
 /// Eigenvalues of J^T J below this count as 0: singular values below 1e-5.
@@ -29,7 +29,7 @@ impl Projector {
     }
 
     /// For the rows of an island.
-    pub fn of(island: &Rows) -> Self {
+    pub fn of(island: &UnitRows) -> Self {
         Self::new(island.points.len(), island.rows.clone())
     }
 

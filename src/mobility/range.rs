@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::scene::Scene;
-use super::travel::{Mechanism, Node};
+use super::travel::{Mechanism, Waypoint};
 use crate::constraint::{Constraint, Point};
 
 /// What ends the way of a motor in one direction.
@@ -169,7 +169,7 @@ enum Arrival {
 struct Tour<'a> {
     mechanism: Mechanism<'a>,
     home: Vec<Point>,
-    node: Node,
+    waypoint: Waypoint,
     way: f64,
     /// The step to be tried next.
     h: f64,
@@ -180,15 +180,15 @@ struct Tour<'a> {
 }
 
 impl<'a> Tour<'a> {
-    fn new(mechanism: Mechanism<'a>, first: Node, way: f64) -> Self {
-        let mut node = first;
-        let k = if node.pace() == 0.0 { way } else { way * node.pace().signum() };
-        node.tangent.iter_mut().for_each(|t| *t *= k);
+    fn new(mechanism: Mechanism<'a>, first: Waypoint, way: f64) -> Self {
+        let mut waypoint = first;
+        let k = if waypoint.pace() == 0.0 { way } else { way * waypoint.pace().signum() };
+        waypoint.tangent.iter_mut().for_each(|t| *t *= k);
         Self {
             h: 0.01 * mechanism.size,
-            home: node.stand.x.clone(),
+            home: waypoint.stand.x.clone(),
             mechanism,
-            node,
+            waypoint,
             way,
             trail: Vec::new(),
             n_turns: 0,
@@ -200,11 +200,11 @@ impl<'a> Tour<'a> {
     fn go(&mut self, most: f64) -> Arrival {
         let size = self.mechanism.size;
         for _ in 0..MOST_STEPS {
-            if self.node.stand.turn * self.way > most {
-                return Arrival::End(End::Endless(self.node.stand.turn));
+            if self.waypoint.stand.turn * self.way > most {
+                return Arrival::End(End::Endless(self.waypoint.stand.turn));
             }
             let is_leap = self.note_change_point();
-            let pace = self.node.pace().abs() / size;
+            let pace = self.waypoint.pace().abs() / size;
             let h = if is_leap { LEAP * size } else { self.h.min(LONGEST_TURN / pace.max(1e-3)) };
             let Some(next) = self.try_step(h, is_leap) else {
                 self.h = 0.5 * h;
@@ -225,7 +225,7 @@ impl<'a> Tour<'a> {
             if let Some(home) = self.passes_home(h, &next) {
                 return home;
             }
-            self.trail.push((self.node.stand.turn, self.node.regularity));
+            self.trail.push((self.waypoint.stand.turn, self.waypoint.regularity));
             if is_leap {
                 self.trail.clear();
                 self.h = LEAP * size;
@@ -233,23 +233,23 @@ impl<'a> Tour<'a> {
                 self.h = (1.5 * h).min(self.distance_to_crossing(&next, h));
             }
             self.mechanism.accept(&next.stand);
-            self.node = next;
+            self.waypoint = next;
         }
         self.lost()
     }
 
-    /// The node a step on, if it is safe to say that it lies on the same motion.
-    fn try_step(&mut self, h: f64, is_leap: bool) -> Option<Node> {
-        let (next, correction) = self.mechanism.step(&self.node, h)?;
+    /// The waypoint a step on, if it is safe to say that it lies on the same motion.
+    fn try_step(&mut self, h: f64, is_leap: bool) -> Option<Waypoint> {
+        let (next, correction) = self.mechanism.step(&self.waypoint, h)?;
         if is_leap {
             return Some(next);
         }
-        if next.n_freedoms < self.node.n_freedoms && self.trail.is_empty() {
+        if next.n_freedoms < self.waypoint.n_freedoms && self.trail.is_empty() {
             // It began at a change point, and any way on is as good.
-            self.change_points.push(self.node.stand.turn);
+            self.change_points.push(self.waypoint.stand.turn);
             return Some(next);
         }
-        let along: f64 = next.tangent.iter().zip(&self.node.tangent).map(|(a, b)| a * b).sum();
+        let along: f64 = next.tangent.iter().zip(&self.waypoint.tangent).map(|(a, b)| a * b).sum();
         let is_straight = along * along > 1.0 - SHARPEST_BEND * SHARPEST_BEND && along > 0.0;
         // Freedoms besides the motor's turn the motion as they like.
         let is_safe = is_straight || next.n_freedoms > 1;
@@ -261,8 +261,8 @@ impl<'a> Tour<'a> {
     /// Notes a change point that lies right ahead; whether there is one.
     fn note_change_point(&mut self) -> bool {
         let &[.., (turn0, g0), (turn1, g1)] = &self.trail[..] else { return false };
-        let (turn2, g2) = (self.node.stand.turn, self.node.regularity);
-        if g2 >= g1 || g1 >= g0 || g2 > NEARLY_SINGULAR || self.node.n_freedoms > 1 {
+        let (turn2, g2) = (self.waypoint.stand.turn, self.waypoint.regularity);
+        if g2 >= g1 || g1 >= g0 || g2 > NEARLY_SINGULAR || self.waypoint.n_freedoms > 1 {
             return false;
         }
         if (turn2 - turn1).abs() * g2 / (g1 - g2) > CROSSING {
@@ -276,8 +276,8 @@ impl<'a> Tour<'a> {
     }
 
     /// A step that does not pass a crossing that lies ahead.
-    fn distance_to_crossing(&self, next: &Node, h: f64) -> f64 {
-        let (here, there) = (self.node.regularity, next.regularity);
+    fn distance_to_crossing(&self, next: &Waypoint, h: f64) -> f64 {
+        let (here, there) = (self.waypoint.regularity, next.regularity);
         if there >= here {
             return f64::INFINITY;
         }
@@ -286,14 +286,18 @@ impl<'a> Tour<'a> {
 
     /// The turn at which the motion folds back within a step of `h`.
     fn fold(&mut self, h: f64) -> f64 {
-        let h = root(h, self.node.pace(), |h| Some(self.mechanism.step(&self.node, h)?.0.pace()));
-        self.mechanism.step(&self.node, h).map_or(self.node.stand.turn, |(node, _)| node.stand.turn)
+        let h = root(h, self.waypoint.pace(), |h| {
+            Some(self.mechanism.step(&self.waypoint, h)?.0.pace())
+        });
+        self.mechanism
+            .step(&self.waypoint, h)
+            .map_or(self.waypoint.stand.turn, |(waypoint, _)| waypoint.stand.turn)
     }
 
     /// Whether a whole turn ends within this step, and that is the end of the way.
-    fn passes_home(&mut self, h: f64, next: &Node) -> Option<Arrival> {
+    fn passes_home(&mut self, h: f64, next: &Waypoint) -> Option<Arrival> {
         let goal = TAU * f64::from(self.n_turns + 1);
-        let left = |node: &Node| node.stand.turn.abs() - goal;
+        let left = |waypoint: &Waypoint| waypoint.stand.turn.abs() - goal;
         if left(next) < 0.0 {
             return None;
         }
@@ -302,9 +306,9 @@ impl<'a> Tour<'a> {
             // The other freedoms do not come home, but the motor did.
             return Some(Arrival::Home(1));
         }
-        let (mechanism, node) = (&mut self.mechanism, &self.node);
-        let h = root(h, left(node), |h| Some(left(&mechanism.step(node, h)?.0)));
-        let at = mechanism.step(node, h).map_or_else(|| next.clone(), |(node, _)| node);
+        let (mechanism, waypoint) = (&mut self.mechanism, &self.waypoint);
+        let h = root(h, left(waypoint), |h| Some(left(&mechanism.step(waypoint, h)?.0)));
+        let at = mechanism.step(waypoint, h).map_or_else(|| next.clone(), |(waypoint, _)| waypoint);
         let farthest = at.stand.x.iter().zip(&self.home).map(|(a, b)| (*a - *b).norm());
         if farthest.fold(0.0, f64::max) <= SAME * mechanism.size {
             return Some(Arrival::Home(self.n_turns));
@@ -314,11 +318,11 @@ impl<'a> Tour<'a> {
 
     /// What to say where no step is short enough.
     fn stopped(&mut self) -> Arrival {
-        let turn = self.node.stand.turn;
+        let turn = self.waypoint.stand.turn;
         let size = self.mechanism.size;
         // A little beyond, what comes into play is seen.
-        let active = self.mechanism.active_beyond(&self.node, 1e-6 * size);
-        let new = active.into_iter().find(|row| !self.node.active.contains(row));
+        let active = self.mechanism.active_beyond(&self.waypoint, 1e-6 * size);
+        let new = active.into_iter().find(|row| !self.waypoint.active.contains(row));
         match new {
             Some((constraint, _)) => Arrival::End(End::Stop(turn, constraint)),
             None => self.lost(),
@@ -328,8 +332,8 @@ impl<'a> Tour<'a> {
     /// The motion cannot be followed any farther; where several freedoms are left, because it
     /// is not said which of them goes on.
     fn lost(&self) -> Arrival {
-        match self.node.n_freedoms {
-            0 | 1 => Arrival::End(End::Lost(self.node.stand.turn)),
+        match self.waypoint.n_freedoms {
+            0 | 1 => Arrival::End(End::Lost(self.waypoint.stand.turn)),
             n => Arrival::Open(n - 1),
         }
     }

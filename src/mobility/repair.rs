@@ -1,7 +1,7 @@
 //! By how much a single constraint has to change so that all hold, beyond the first order.
 
 use super::scene::Scene;
-use super::settle::Part;
+use super::settle::Subset;
 use crate::constraint::ConstraintKind;
 
 /// How much the constraint to be changed still counts, from round to round: less and less, so
@@ -12,13 +12,13 @@ const COUNTS: [f64; 4] = [0.3, 0.1, 1e-2, 1e-3];
 /// itself included; none if the others do not hold whatever its value. It is the smallest
 /// change near this pose: where the others leave a choice, they go as far as they can.
 pub fn repair(scene: &Scene, constraint: usize, among: &[usize], tolerance: f64) -> Option<f64> {
-    let part = Part::new(*scene, among);
+    let subset = Subset::new(*scene, among);
     let mut x = scene.x.to_vec();
     for counts in COUNTS {
-        x = part.settle(x, (constraint, counts), 0.0).x;
+        x = subset.settle(x, (constraint, counts), 0.0).x;
     }
     // The last bits: what the value is measured on has to be a solution of the others.
-    let reached = part.settle(x, (constraint, 0.0), 1e-3 * tolerance);
+    let reached = subset.settle(x, (constraint, 0.0), 1e-3 * tolerance);
     let change = scene.constraints[constraint].residual(&reached.x);
     (reached.worst <= tolerance && change.is_finite()).then_some(change)
 }

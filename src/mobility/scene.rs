@@ -30,7 +30,7 @@ pub struct UnitRow {
 }
 
 impl UnitRow {
-    /// The points that move, as indices into [`Rows::points`].
+    /// The points that move, as indices into [`UnitRows::points`].
     pub fn points(&self) -> &[u32] {
         &self.points[..self.n_points]
     }
@@ -78,7 +78,7 @@ impl UnitRow {
 
 /// The active rows of points that hang together, over the points that move.
 #[derive(Debug, Clone, Default)]
-pub struct Rows {
+pub struct UnitRows {
     /// The points that move; their displacements divided by the roots of their weights are
     /// the unknowns, (x, y) for each.
     pub points: Vec<PointIdx>,
@@ -86,7 +86,7 @@ pub struct Rows {
     pub rows: Vec<UnitRow>,
 }
 
-impl Rows {
+impl UnitRows {
     /// How many unknowns there are.
     pub fn n_unknowns(&self) -> usize {
         2 * self.points.len()
@@ -140,7 +140,7 @@ impl Rows {
 impl Scene<'_> {
     /// The active rows over all points that move, and the constraints that hold none of them
     /// and yet are off by more than `tolerance`.
-    pub fn rows(&self, tolerance: f64) -> (Rows, Vec<usize>) {
+    pub fn rows(&self, tolerance: f64) -> (UnitRows, Vec<usize>) {
         let moving = self.w.iter().enumerate().filter(|&(_, &w)| w > 0.0);
         let points = moving.map(|(p, _)| p as PointIdx).collect();
         let mut unsatisfiable = Vec::new();
@@ -172,7 +172,7 @@ impl Scene<'_> {
     }
 
     /// The rows of an island as they are at this pose.
-    pub fn rows_like(&self, island: &Rows) -> Rows {
+    pub fn rows_like(&self, island: &UnitRows) -> UnitRows {
         let mut constraints: Vec<_> = island.rows.iter().map(|row| row.source.0).collect();
         constraints.dedup();
         let rows = self.rows_over(island.points.clone(), &constraints);
@@ -181,7 +181,7 @@ impl Scene<'_> {
     }
 
     /// The rows of some constraints, over those points of theirs that move.
-    pub fn rows_over(&self, points: Vec<PointIdx>, constraints: &[usize]) -> Rows {
+    pub fn rows_over(&self, points: Vec<PointIdx>, constraints: &[usize]) -> UnitRows {
         self.rows_and_rest(points, constraints.iter().copied(), &mut |_, _| ())
     }
 
@@ -190,7 +190,7 @@ impl Scene<'_> {
         points: Vec<PointIdx>,
         constraints: impl Iterator<Item = usize>,
         immovable: &mut impl FnMut(usize, &Row),
-    ) -> Rows {
+    ) -> UnitRows {
         let mut place = vec![None; self.x.len()];
         for (k, &p) in points.iter().enumerate() {
             place[p as usize] = Some(k as u32);
@@ -208,7 +208,7 @@ impl Scene<'_> {
                 part += 1;
             });
         }
-        Rows { points, rows }
+        UnitRows { points, rows }
     }
 
     fn unit(&self, row: &Row, place: &[Option<u32>], source: (usize, usize)) -> Option<UnitRow> {
@@ -247,7 +247,7 @@ impl Scene<'_> {
     }
 
     /// The second derivative of each row along a straight motion with unknowns `y`.
-    pub fn curvatures(&self, rows: &Rows, y: &[f64]) -> Vec<f64> {
+    pub fn curvatures(&self, rows: &UnitRows, y: &[f64]) -> Vec<f64> {
         let velocity = self.displacements(&rows.points, y);
         let at = |p: PointIdx| {
             let (x, v) = (self.x[p as usize], velocity[p as usize]);

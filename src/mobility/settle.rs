@@ -1,7 +1,7 @@
 //! Solving a few constraints by themselves, some of them counted less than others.
 
 use super::projector::Projector;
-use super::scene::{Rows, Scene};
+use super::scene::{Scene, UnitRows};
 use crate::constraint::{ConstraintKind, Point, PointIdx};
 
 const N_STEPS: usize = 40;
@@ -13,7 +13,7 @@ const NOWHERE: f64 = 1e-6;
 const NOWHERE_NEARLY: f64 = 1e-15;
 
 /// Some constraints of a scene and the points of theirs that move.
-pub struct Part<'a> {
+pub struct Subset<'a> {
     scene: Scene<'a>,
     constraints: &'a [usize],
     points: Vec<PointIdx>,
@@ -27,7 +27,7 @@ pub struct Reached {
     pub worst: f64,
 }
 
-impl<'a> Part<'a> {
+impl<'a> Subset<'a> {
     /// These constraints of a scene, given by their places in it, ascending.
     pub fn new(scene: Scene<'a>, constraints: &'a [usize]) -> Self {
         let held = constraints.iter().flat_map(|&c| scene.constraints[c].points());
@@ -69,7 +69,7 @@ impl<'a> Part<'a> {
         Reached { x, worst: here.worst() }
     }
 
-    fn rows(&self, x: &[Point], (which, counts): (usize, f64)) -> Rows {
+    fn rows(&self, x: &[Point], (which, counts): (usize, f64)) -> UnitRows {
         let here = Scene { x, ..self.scene };
         let mut rows = here.rows_over(self.points.clone(), self.constraints);
         if counts == 0.0 {
@@ -83,6 +83,6 @@ impl<'a> Part<'a> {
 
 /// Whether these constraints can hold, from this pose, when all others are forgotten.
 pub fn can_hold_alone(scene: &Scene, constraints: &[usize], tolerance: f64) -> bool {
-    let part = Part::new(*scene, constraints);
-    part.settle(scene.x.to_vec(), (usize::MAX, 1.0), tolerance).worst <= tolerance
+    let subset = Subset::new(*scene, constraints);
+    subset.settle(scene.x.to_vec(), (usize::MAX, 1.0), tolerance).worst <= tolerance
 }

@@ -2,7 +2,7 @@
 //! that nothing is special about a pose at which the motor can go no further.
 
 use super::projector::Projector;
-use super::scene::{Rows, Scene};
+use super::scene::{Scene, UnitRows};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point, PointIdx, Vector};
 
 /// Newton steps near a solution double the digits; more than this are none.
@@ -42,7 +42,7 @@ pub struct Stand {
 
 /// A pose on the motion, with the direction in which the motion goes on.
 #[derive(Debug, Clone)]
-pub struct Node {
+pub struct Waypoint {
     /// The pose.
     pub stand: Stand,
     /// The unit tangent over the unknowns: (x, y) of each point, then the turn times the size,
@@ -56,7 +56,7 @@ pub struct Node {
     pub active: Vec<(usize, usize)>,
 }
 
-impl Node {
+impl Waypoint {
     /// How fast the motor turns along the motion, in units of the size.
     pub fn pace(&self) -> f64 {
         self.tangent[self.tangent.len() - 2]
@@ -121,7 +121,7 @@ impl<'a> Mechanism<'a> {
         self.constraints.iter_mut().for_each(|c| c.accept(&stand.x));
     }
 
-    fn rows(&mut self, stand: &Stand) -> Rows {
+    fn rows(&mut self, stand: &Stand) -> UnitRows {
         let motor = &mut self.constraints[self.motor];
         motor.set(Field::Phase, self.phase + stand.turn);
         let (radius, angle) = match motor {
@@ -156,7 +156,7 @@ impl<'a> Mechanism<'a> {
 
     /// Moves a pose onto the motion by the shortest way; gives the rows there and how long
     /// the way was. None if there is no solution within `reach`.
-    fn correct(&mut self, stand: &mut Stand, reach: f64) -> Option<(Rows, f64)> {
+    fn correct(&mut self, stand: &mut Stand, reach: f64) -> Option<(UnitRows, f64)> {
         let mut way = 0.0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
@@ -179,15 +179,15 @@ impl<'a> Mechanism<'a> {
         None
     }
 
-    /// The node at a pose that is a solution nearly; its tangent leans to `direction`, or is
+    /// The waypoint at a pose that is a solution nearly; its tangent leans to `direction`, or is
     /// the one that turns the motor most for its length. None if no solution is within
     /// `reach` or nothing can move there.
-    fn node(
+    fn waypoint(
         &mut self,
         mut stand: Stand,
         direction: Option<&[f64]>,
         reach: f64,
-    ) -> Option<(Node, f64)> {
+    ) -> Option<(Waypoint, f64)> {
         let (rows, way) = self.correct(&mut stand, reach)?;
         let n = rows.n_unknowns();
         let mut projector = Projector::of(&rows);
@@ -227,27 +227,27 @@ impl<'a> Mechanism<'a> {
         let regularity = regularity(&mut projector, &tangent);
         let source = |&(c, part): &(usize, usize)| (self.sources[c], part);
         let active = rows.rows.iter().map(|row| source(&row.source)).collect();
-        Some((Node { stand, tangent, n_freedoms, regularity, active }, way))
+        Some((Waypoint { stand, tangent, n_freedoms, regularity, active }, way))
     }
 
-    /// The node at which following begins.
-    pub fn begin(&mut self, x: &[Point]) -> Option<Node> {
+    /// The waypoint at which following begins.
+    pub fn begin(&mut self, x: &[Point]) -> Option<Waypoint> {
         let stand = Stand { x: x.to_vec(), turn: 0.0 };
         let reach = 1e-3 * self.size;
-        self.node(stand, None, reach).map(|(node, _)| node)
+        self.waypoint(stand, None, reach).map(|(waypoint, _)| waypoint)
     }
 
-    /// The node a way `h` on from a node, with the length of the correction it took.
-    pub fn step(&mut self, from: &Node, h: f64) -> Option<(Node, f64)> {
+    /// The waypoint a way `h` on from a waypoint, with the length of the correction it took.
+    pub fn step(&mut self, from: &Waypoint, h: f64) -> Option<(Waypoint, f64)> {
         let mut stand = from.stand.clone();
         self.displace(&mut stand, h, &from.tangent);
-        self.node(stand, Some(&from.tangent), h.abs() + self.noise())
+        self.waypoint(stand, Some(&from.tangent), h.abs() + self.noise())
     }
 }
 
 impl Mechanism<'_> {
-    /// The rows a way `h` on from a node, solved or not, as places in the scene and parts.
-    pub fn active_beyond(&mut self, from: &Node, h: f64) -> Vec<(usize, usize)> {
+    /// The rows a way `h` on from a waypoint, solved or not, as places in the scene and parts.
+    pub fn active_beyond(&mut self, from: &Waypoint, h: f64) -> Vec<(usize, usize)> {
         let mut stand = from.stand.clone();
         self.displace(&mut stand, h, &from.tangent);
         let rows = self.rows(&stand);

@@ -1,17 +1,17 @@
 //! One picture that moves, made from the scenes of a motion.
 
-use super::animation_tracks::Cast;
-use super::canvas::{Ink, Lettering};
-use super::document::{self, Group};
+use super::animation_tracks::FigureTracks;
+use super::canvas::{Canvas, Lettering};
+use super::document::{self, Group, Options};
 use super::figure::Figure;
-use super::keyframes::{Motion, visibility};
-use super::scene::{Pose, Scene};
+use super::keyframes::{Keyframes, visibility};
+use super::scene::{DrawnPose, Scene};
 use super::trace::Curve;
-use super::view::{Options, View};
+use super::view::View;
 use super::{legend, trace_animation};
-use std::rc::Rc;
+use std::sync::Arc;
 
-/// A picture holds at most so many frames times parts: some ten megabytes. Beyond it frames
+/// A picture holds at most so many frames times symbols: some ten megabytes. Beyond it frames
 /// are left out evenly, and straight lines lead over the gaps.
 const MOST_POSES: usize = 300_000;
 /// The shortest motion shown, seconds: a shorter one is a flicker.
@@ -47,13 +47,13 @@ impl Animation {
         self.leave_out();
         let times = self.times();
         let mut groups = self.ghosts(&times);
-        let mut cast = Cast::default();
+        let mut tracks = FigureTracks::default();
         for (scene, _) in &self.frames {
-            cast.add(self.view.figures(&scene.pose));
+            tracks.add(self.view.figures(&scene.pose));
         }
-        let mut figures = cast.finish(&times, self.duration());
+        let mut figures = tracks.finish(&times, self.duration());
         figures.extend(self.paths(&times));
-        figures.extend(self.strip());
+        figures.extend(self.legend());
         figures.sort_by_key(|(figure, _)| figure.order());
         groups.push(Group { figures, ..Group::of(Vec::new()) });
         document::write(self.view.page(), &groups, &self.options)
@@ -61,8 +61,8 @@ impl Animation {
 
     /// Leaves out as many frames as it takes.
     fn leave_out(&mut self) {
-        let n_parts = self.frames.iter().map(|(scene, _)| scene.pose.parts.len()).max();
-        let n_poses = self.frames.len() * n_parts.unwrap_or(0);
+        let n_symbols = self.frames.iter().map(|(scene, _)| scene.pose.symbols.len()).max();
+        let n_poses = self.frames.len() * n_symbols.unwrap_or(0);
         let stride = n_poses.div_ceil(MOST_POSES).max(1);
         let last = self.frames.len().saturating_sub(1);
         let mut k = 0;
@@ -104,7 +104,7 @@ impl Animation {
 
     /// Every ghost of any frame, while it is there.
     fn ghosts(&self, times: &[f64]) -> Vec<Group> {
-        let mut all: Vec<Rc<Pose>> = Vec::new();
+        let mut all: Vec<Arc<DrawnPose>> = Vec::new();
         let mut is_there: Vec<Vec<bool>> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for ghost in &scene.ghosts {
@@ -120,13 +120,13 @@ impl Animation {
         for (group, is_there) in groups.iter_mut().zip(&is_there) {
             let track = visibility(times, is_there);
             let duration = self.duration();
-            group.motion = track.map(|track| Motion { duration, tracks: vec![track] });
+            group.motion = track.map(|track| Keyframes { duration, tracks: vec![track] });
         }
         groups
     }
 
     /// Every path of any frame, as far as it came.
-    fn paths(&self, times: &[f64]) -> Vec<(Figure, Option<Motion>)> {
+    fn paths(&self, times: &[f64]) -> Vec<(Figure, Option<Keyframes>)> {
         let mut all: Vec<(Curve, Vec<usize>)> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for curve in &scene.curves {
@@ -145,11 +145,11 @@ impl Animation {
         all.iter().flat_map(follow).collect()
     }
 
-    fn strip(&self) -> Vec<(Figure, Option<Motion>)> {
+    fn legend(&self) -> Vec<(Figure, Option<Keyframes>)> {
         let none = Lettering::new();
-        let mut ink = Ink::new(self.view.page(), &[], &none);
+        let mut canvas = Canvas::new(self.view.page(), &[], &none);
         let curves = self.frames.last().map_or(&[][..], |(scene, _)| &scene.curves);
-        legend::draw(&mut ink, curves);
-        ink.finish().into_iter().map(|figure| (figure, None)).collect()
+        legend::draw(&mut canvas, curves);
+        canvas.finish().into_iter().map(|figure| (figure, None)).collect()
     }
 }

@@ -1,10 +1,10 @@
-//! The cast of a moving picture: follows each figure from frame to frame.
+//! The tracks of a moving picture: follows each figure from frame to frame.
 
 use std::collections::BTreeMap;
 
-use super::figure::{Figure, Key, Layer, Outline, Placement, Shape};
-use super::keyframes::{Change, Motion, Track, track, visibility};
-use super::number::push_rounded;
+use super::figure::{Figure, FigureShape, Key, Layer, Outline, Placement};
+use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes, track, visibility};
+use crate::diag::push_decimals;
 
 /// How far anything may be drawn from where it is, px: less than can be seen in motion.
 const TOLERANCE: f64 = 0.06;
@@ -15,7 +15,7 @@ type Identity = (Layer, Key, u16, usize);
 
 /// A figure and how it looked in each frame.
 #[derive(Debug)]
-struct Actor {
+struct TrackedFigure {
     figure: Figure,
     /// By frame: where it was, none where it was not there.
     placements: Vec<Option<Placement>>,
@@ -25,46 +25,47 @@ struct Actor {
 
 /// All figures of a recording, as they come.
 #[derive(Debug, Default)]
-pub struct Cast {
-    actors: BTreeMap<Identity, Actor>,
+pub struct FigureTracks {
+    figures: BTreeMap<Identity, TrackedFigure>,
     n_frames: usize,
 }
 
-impl Cast {
+impl FigureTracks {
     /// Adds the figures of one more frame.
     pub fn add(&mut self, figures: Vec<Figure>) {
         let frame = self.n_frames;
         for figure in figures {
             let (layer, key, part) = figure.order();
             let mut make = 0;
-            while let Some(actor) = self.actors.get(&(layer, key, part, make))
-                && !is_like(&actor.figure, &figure)
+            while let Some(tracked) = self.figures.get(&(layer, key, part, make))
+                && !is_like(&tracked.figure, &figure)
             {
                 make += 1;
             }
-            let actor = self.actors.entry((layer, key, part, make)).or_insert_with(|| Actor {
-                figure: figure.clone(),
-                placements: Vec::new(),
-                forms: BTreeMap::new(),
-            });
-            actor.placements.resize(frame, None);
-            actor.placements.push(Some(figure.placement));
-            if !is_near(&actor.figure.shapes, &figure.shapes) {
+            let tracked =
+                self.figures.entry((layer, key, part, make)).or_insert_with(|| TrackedFigure {
+                    figure: figure.clone(),
+                    placements: Vec::new(),
+                    forms: BTreeMap::new(),
+                });
+            tracked.placements.resize(frame, None);
+            tracked.placements.push(Some(figure.placement));
+            if !is_near(&tracked.figure.shapes, &figure.shapes) {
                 let numbers = figure.shapes.iter().map(|shape| shape.outline.numbers());
-                actor.forms.insert(frame, numbers.collect());
+                tracked.forms.insert(frame, numbers.collect());
             }
         }
         self.n_frames += 1;
     }
 
     /// The figures from the bottom up, each with its motion; `times` from 0 to 1, one a frame.
-    pub fn finish(self, times: &[f64], duration: f64) -> Vec<(Figure, Option<Motion>)> {
-        let moving = |mut actor: Actor| {
-            actor.placements.resize(times.len(), None);
-            let tracks = actor.tracks(times);
-            (actor.figure, (!tracks.is_empty()).then_some(Motion { duration, tracks }))
+    pub fn finish(self, times: &[f64], duration: f64) -> Vec<(Figure, Option<Keyframes>)> {
+        let moving = |mut tracked: TrackedFigure| {
+            tracked.placements.resize(times.len(), None);
+            let tracks = tracked.tracks(times);
+            (tracked.figure, (!tracks.is_empty()).then_some(Keyframes { duration, tracks }))
         };
-        self.actors.into_values().map(moving).collect()
+        self.figures.into_values().map(moving).collect()
     }
 }
 
@@ -79,15 +80,15 @@ fn is_like(a: &Figure, b: &Figure) -> bool {
 }
 
 /// Whether two figures of one make look the same in their own coordinates.
-fn is_near(a: &[Shape], b: &[Shape]) -> bool {
+fn is_near(a: &[FigureShape], b: &[FigureShape]) -> bool {
     a.iter().zip(b).all(|(s, t)| {
         let (p, q) = (s.outline.numbers(), t.outline.numbers());
         p.iter().zip(&q).all(|(x, y)| (x - y).abs() <= TOLERANCE)
     })
 }
 
-impl Actor {
-    fn tracks(&self, times: &[f64]) -> Vec<Track> {
+impl TrackedFigure {
+    fn tracks(&self, times: &[f64]) -> Vec<AttributeTrack> {
         let mut tracks = Vec::new();
         tracks.extend(visibility(
             times,
@@ -95,19 +96,19 @@ impl Actor {
         ));
         let placements = self.placements_throughout();
         let places: Vec<f64> = placements.iter().flat_map(|p| [p.at.x, p.at.y]).collect();
-        let place = track(Change::Place, times, &places, 2, TOLERANCE, numbers);
+        let place = track(AnimatedAttribute::Place, times, &places, 2, TOLERANCE, numbers);
 
         let reach = self.figure.reach();
         let mut turns: Vec<f64> = placements.iter().map(|p| p.turn).collect();
         unwind(&mut turns);
         // A turn moves the far end of the figure.
         let tolerance = libm::atan2(TOLERANCE, reach).to_degrees();
-        let mut turn = track(Change::Turn, times, &turns, 1, tolerance, numbers);
+        let mut turn = track(AnimatedAttribute::Turn, times, &turns, 1, tolerance, numbers);
         if turn.is_none() && turns[0] != 0.0 && place.is_some() {
             // A moving place stands for the whole transform: the turn has to be said again.
             let value = numbers(&turns[..1]);
-            turn = Some(Track {
-                change: Change::Turn,
+            turn = Some(AttributeTrack {
+                change: AnimatedAttribute::Turn,
                 times: Vec::new(),
                 values: vec![value.clone(), value],
             });
@@ -138,7 +139,7 @@ impl Actor {
         throughout.collect()
     }
 
-    fn shape_tracks(&self, times: &[f64]) -> Vec<Track> {
+    fn shape_tracks(&self, times: &[f64]) -> Vec<AttributeTrack> {
         let mut tracks = Vec::new();
         if self.forms.is_empty() {
             return tracks;
@@ -150,9 +151,16 @@ impl Actor {
             let rows: Vec<f64> =
                 (0..times.len()).flat_map(|frame| by_frame(frame).to_vec()).collect();
             match &shape.outline {
-                Outline::Path(path) | Outline::Pen { path, .. } => {
+                Outline::Path(path) | Outline::GrowingPath { path, .. } => {
                     let write = |row: &[f64]| path.write(row, PLACES);
-                    tracks.extend(track(Change::Shape(k, "d"), times, &rows, n, TOLERANCE, write));
+                    tracks.extend(track(
+                        AnimatedAttribute::Shape(k, "d"),
+                        times,
+                        &rows,
+                        n,
+                        TOLERANCE,
+                        write,
+                    ));
                 }
                 Outline::Circle { .. } => {
                     tracks.extend(columns(k, ["cx", "cy", "r"], times, &rows));
@@ -170,10 +178,10 @@ fn columns<const N: usize>(
     attributes: [&'static str; N],
     times: &[f64],
     rows: &[f64],
-) -> impl Iterator<Item = Track> {
+) -> impl Iterator<Item = AttributeTrack> {
     attributes.into_iter().enumerate().filter_map(move |(i, attribute)| {
         let column: Vec<f64> = rows.iter().skip(i).step_by(N).copied().collect();
-        track(Change::Shape(shape, attribute), times, &column, 1, TOLERANCE, numbers)
+        track(AnimatedAttribute::Shape(shape, attribute), times, &column, 1, TOLERANCE, numbers)
     })
 }
 
@@ -191,7 +199,7 @@ fn numbers(row: &[f64]) -> String {
         if k > 0 {
             text.push(' ');
         }
-        push_rounded(&mut text, value, PLACES);
+        push_decimals(&mut text, value, PLACES);
     }
     text
 }

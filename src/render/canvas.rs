@@ -1,7 +1,7 @@
-//! The pen: collects the figures of a picture while its parts are drawn.
+//! The canvas: collects the figures of a picture while its symbols are drawn.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::figure::{Figure, Key, Layer, Placement};
 use super::page::Page;
@@ -11,9 +11,9 @@ use crate::constraint::{Point, PointIdx, Vector};
 /// goes without.
 pub type Lettering = BTreeMap<PointIdx, Vector>;
 
-/// Draws figures for one part after the other.
+/// Takes the figures of one symbol after the other.
 #[derive(Debug)]
-pub struct Ink<'a> {
+pub struct Canvas<'a> {
     /// The page.
     pub page: &'a Page,
     /// Where the points are, by handle.
@@ -24,10 +24,10 @@ pub struct Ink<'a> {
     key: Key,
     n_of_key: u16,
     is_off: bool,
-    note: Option<Rc<str>>,
+    note: Option<Arc<str>>,
 }
 
-impl<'a> Ink<'a> {
+impl<'a> Canvas<'a> {
     /// An empty page.
     pub fn new(page: &'a Page, at: &'a [Point], lettering: &'a Lettering) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl<'a> Ink<'a> {
             at,
             lettering,
             figures: Vec::new(),
-            key: Key::Strip,
+            key: Key::Legend,
             n_of_key: 0,
             is_off: false,
             note: None,
@@ -43,7 +43,7 @@ impl<'a> Ink<'a> {
     }
 
     /// What follows belongs to `key`.
-    pub fn begin(&mut self, key: Key, is_off: bool, note: Option<Rc<str>>) {
+    pub fn begin(&mut self, key: Key, is_off: bool, note: Option<Arc<str>>) {
         if key != self.key {
             self.n_of_key = 0;
         }

@@ -1,12 +1,12 @@
-//! Which parts the constraints and points of a world are drawn as.
+//! Which symbols the constraints and points of a world are drawn as.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::figure::Key;
-use super::parts::{
-    Angle, Arrows, Construction, Cord, Crank, Cross, Dimension, Foot, Form, Gears, Joint, Link,
-    Part, Plate, Rail, Ring, Rod, Sense, Telescope, Ticks, Web,
+use super::symbols::{
+    Angle, Arrows, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link, Plate, Rail,
+    Ring, Rod, Sense, Support, Symbol, SymbolForm, Telescope, Ticks, Web,
 };
 use crate::constraint::{
     Bounds, Constraint, ConstraintKind, Field, Length, Orientation, Point, PointIdx,
@@ -18,26 +18,26 @@ use crate::world::{ConstraintId, Record, World};
 /// without a filling too.
 const MOST_RODS: usize = 400;
 
-/// The parts of a world, in order of creation, points last.
-pub fn parts(world: &World) -> Vec<Part> {
-    let mut plan = Plan::new(world);
+/// The symbols of a world, in order of creation, points last.
+pub fn symbols(world: &World) -> Vec<Symbol> {
+    let mut classifier = Classifier::new(world);
     for (_, record) in world.constraints() {
-        plan.bars(record);
-        plan.segments(record);
+        classifier.bars(record);
+        classifier.segments(record);
     }
     for (id, record) in world.constraints() {
-        plan.constraint(id, record);
+        classifier.constraint(id, record);
     }
-    plan.webs();
-    plan.gears();
-    plan.joints();
-    plan.parts
+    classifier.webs();
+    classifier.gears();
+    classifier.joints();
+    classifier.symbols
 }
 
-struct Plan<'a> {
+struct Classifier<'a> {
     world: &'a World,
     at: &'a [Point],
-    parts: Vec<Part>,
+    symbols: Vec<Symbol>,
     /// What a bar or an edge connects; a mark there needs no line of its own.
     connected: BTreeSet<[PointIdx; 2]>,
     /// Rods that are on, lower end first.
@@ -49,7 +49,7 @@ struct Plan<'a> {
     gears_on: Gears,
     gears_off: Gears,
     /// Whose each mesh is, those that are on and those that are off.
-    meshes: [Vec<(ConstraintId, Rc<str>)>; 2],
+    meshes: [Vec<(ConstraintId, Arc<str>)>; 2],
 }
 
 /// How many strokes mark each of several classes of segments.
@@ -96,12 +96,12 @@ fn points<const N: usize>(constraint: &Constraint) -> [PointIdx; N] {
     constraint.points().try_into().expect("a kind with this many points")
 }
 
-impl<'a> Plan<'a> {
+impl<'a> Classifier<'a> {
     fn new(world: &'a World) -> Self {
         Self {
             world,
             at: world.points().column(),
-            parts: Vec::new(),
+            symbols: Vec::new(),
             connected: BTreeSet::new(),
             rods: BTreeSet::new(),
             driven: BTreeMap::new(),
@@ -208,10 +208,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<Form>) {
-        self.parts.push(Part {
+    fn add(&mut self, id: ConstraintId, record: &Record, form: impl Into<SymbolForm>) {
+        self.symbols.push(Symbol {
             key: Key::Constraint(id),
-            name: Rc::from(&*record.name),
+            name: Arc::from(&*record.name),
             is_off: !record.is_on,
             form: form.into(),
         });
@@ -263,7 +263,7 @@ impl<'a> Plan<'a> {
         } else {
             gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
         }
-        self.meshes[usize::from(!record.is_on)].push((id, Rc::from(&*record.name)));
+        self.meshes[usize::from(!record.is_on)].push((id, Arc::from(&*record.name)));
     }
 
     fn gears(&mut self) {
@@ -271,8 +271,8 @@ impl<'a> Plan<'a> {
         for (k, gears) in gears.into_iter().enumerate() {
             for (mesh, train) in gears.trains() {
                 let (id, name) = self.meshes[k][mesh].clone();
-                let form = Form::Train(train);
-                self.parts.push(Part { key: Key::Constraint(id), name, is_off: k == 1, form });
+                let form = SymbolForm::Train(train);
+                self.symbols.push(Symbol { key: Key::Constraint(id), name, is_off: k == 1, form });
             }
         }
     }
@@ -291,7 +291,7 @@ impl<'a> Plan<'a> {
                 for &c in &higher[k + 1..] {
                     if self.rods.contains(&[b, c]) {
                         let points = [a, b, c];
-                        self.parts.push(Part {
+                        self.symbols.push(Symbol {
                             key: Key::Triangle(points),
                             name: "".into(),
                             is_off: false,
@@ -307,14 +307,14 @@ impl<'a> Plan<'a> {
         let points = self.world.points();
         for id in points.ids() {
             let is_driven = self.driven.contains_key(&id.0);
-            let foot = match (points.is_frozen(id), is_driven) {
-                (false, _) => Foot::Free,
-                (true, false) => Foot::Frozen,
-                (true, true) => Foot::FrozenMotor,
+            let support = match (points.is_frozen(id), is_driven) {
+                (false, _) => Support::Free,
+                (true, false) => Support::Frozen,
+                (true, true) => Support::FrozenMotor,
             };
-            let name: Rc<str> = points.name(id).into();
-            let form = Joint { point: id.0, name: name.clone(), foot, is_driven }.into();
-            self.parts.push(Part { key: Key::Point(id), name, is_off: false, form });
+            let name: Arc<str> = points.name(id).into();
+            let form = Joint { point: id.0, name: name.clone(), support, is_driven }.into();
+            self.symbols.push(Symbol { key: Key::Point(id), name, is_off: false, form });
         }
     }
 }

@@ -7,12 +7,11 @@ use svg::Node;
 use svg::node::Text;
 use svg::node::element::{Element, Style};
 
-use super::figure::{Figure, Outline, Shape};
-use super::keyframes::{Change, Motion, Track};
-use super::number::rounded;
-use super::page::{Page, STRIP};
+use super::figure::{Figure, FigureShape, Outline};
+use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
+use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
-use super::view::Options;
+use crate::diag::format_decimals;
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -21,15 +20,24 @@ const DEGREE_PLACES: usize = 3;
 /// How strongly something that is switched off is drawn.
 const OFF: f64 = 0.3;
 
+/// What a picture says besides the drawing.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The title of the document.
+    pub title: Option<String>,
+    /// What made it and from what: keys and values, kept in the document and not drawn.
+    pub receipt: Vec<(String, String)>,
+}
+
 /// Figures that are shown as one.
 #[derive(Debug, Clone)]
 pub struct Group {
     /// From 0, not there, to 1.
     pub opacity: f64,
     /// How that changes.
-    pub motion: Option<Motion>,
+    pub motion: Option<Keyframes>,
     /// Figures from the bottom up, each with how it moves.
-    pub figures: Vec<(Figure, Option<Motion>)>,
+    pub figures: Vec<(Figure, Option<Keyframes>)>,
 }
 
 impl Group {
@@ -43,8 +51,8 @@ impl Group {
 /// The document of a page.
 pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = page.size();
-    let height = height + if page.is_empty() { 0.0 } else { STRIP };
-    let (width, height) = (rounded(width, PLACES), rounded(height, PLACES));
+    let height = height + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
+    let (width, height) = (format_decimals(width, PLACES), format_decimals(height, PLACES));
 
     let mut root = Element::new("svg");
     root.assign("xmlns", "http://www.w3.org/2000/svg");
@@ -76,7 +84,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     for group in groups {
         let mut element = Element::new("g");
         if group.opacity < 1.0 {
-            element.assign("opacity", rounded(group.opacity, 3));
+            element.assign("opacity", format_decimals(group.opacity, 3));
         }
         append_tracks(&mut element, group.motion.as_ref(), None);
         for (figure, motion) in &group.figures {
@@ -92,7 +100,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
 }
 
 /// A figure; none if there is nothing to it.
-fn figure_element(figure: &Figure, motion: Option<&Motion>) -> Option<Element> {
+fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element> {
     if figure.shapes.is_empty() {
         return None;
     }
@@ -102,7 +110,7 @@ fn figure_element(figure: &Figure, motion: Option<&Motion>) -> Option<Element> {
         group.assign("transform", transform);
     }
     if figure.is_off {
-        group.assign("opacity", rounded(OFF, PLACES));
+        group.assign("opacity", format_decimals(OFF, PLACES));
     }
     if let Some(note) = figure.note.as_deref().filter(|note| !note.is_empty()) {
         group.append(with_text("title", note));
@@ -118,8 +126,8 @@ fn figure_element(figure: &Figure, motion: Option<&Motion>) -> Option<Element> {
 
 fn transform(figure: &Figure) -> String {
     let at = figure.placement.at;
-    let (x, y) = (rounded(at.x, PLACES), rounded(at.y, PLACES));
-    let turn = rounded(figure.placement.turn, DEGREE_PLACES);
+    let (x, y) = (format_decimals(at.x, PLACES), format_decimals(at.y, PLACES));
+    let turn = format_decimals(figure.placement.turn, DEGREE_PLACES);
     let mut text = String::new();
     if (x.as_str(), y.as_str()) != ("0", "0") {
         text = format!("translate({x} {y})");
@@ -131,17 +139,21 @@ fn transform(figure: &Figure) -> String {
     text
 }
 
-fn shape_element(shape: &Shape) -> Element {
+fn shape_element(shape: &FigureShape) -> Element {
+    debug_assert!(
+        shape.outline.numbers().iter().all(|number| number.is_finite()),
+        "a picture is made of finite numbers"
+    );
     let mut element = match &shape.outline {
         Outline::Path(path) => {
             let mut element = Element::new("path");
             element.assign("d", path.write(path.numbers(), PLACES));
             element
         }
-        Outline::Pen { path, length } => {
+        Outline::GrowingPath { path, length } => {
             let mut element = Element::new("path");
             element.assign("d", path.write(path.numbers(), PLACES));
-            let length = rounded(*length, PLACES);
+            let length = format_decimals(*length, PLACES);
             element.assign("stroke-dasharray", length.clone());
             element.assign("pathLength", length);
             element
@@ -149,7 +161,7 @@ fn shape_element(shape: &Shape) -> Element {
         Outline::Circle { centre, radius } => {
             let mut element = Element::new("circle");
             for (name, value) in [("cx", centre.x), ("cy", centre.y), ("r", *radius)] {
-                let value = rounded(value, PLACES);
+                let value = format_decimals(value, PLACES);
                 if name == "r" || value != "0" {
                     element.assign(name, value);
                 }
@@ -158,8 +170,8 @@ fn shape_element(shape: &Shape) -> Element {
         }
         Outline::Text { at, text } => {
             let mut element = with_text("text", text);
-            element.assign("x", rounded(at.x, PLACES));
-            element.assign("y", rounded(at.y, PLACES));
+            element.assign("x", format_decimals(at.x, PLACES));
+            element.assign("y", format_decimals(at.y, PLACES));
             element
         }
     };
@@ -168,7 +180,7 @@ fn shape_element(shape: &Shape) -> Element {
 }
 
 /// Adds those tracks of a motion that act on the figure itself, or on one of its shapes.
-fn append_tracks(element: &mut Element, motion: Option<&Motion>, shape: Option<usize>) {
+fn append_tracks(element: &mut Element, motion: Option<&Keyframes>, shape: Option<usize>) {
     let Some(motion) = motion else { return };
     if shape.is_none() && motion.is_hidden_at_first() {
         element.assign("visibility", "hidden");
@@ -178,29 +190,29 @@ fn append_tracks(element: &mut Element, motion: Option<&Motion>, shape: Option<u
     }
 }
 
-fn track_element(track: &Track, duration: f64) -> Element {
+fn track_element(track: &AttributeTrack, duration: f64) -> Element {
     let (name, attribute) = match track.change {
-        Change::Place | Change::Turn => ("animateTransform", "transform"),
-        Change::Visibility => ("animate", "visibility"),
-        Change::Shape(_, attribute) => ("animate", attribute),
+        AnimatedAttribute::Place | AnimatedAttribute::Turn => ("animateTransform", "transform"),
+        AnimatedAttribute::Visibility => ("animate", "visibility"),
+        AnimatedAttribute::Shape(_, attribute) => ("animate", attribute),
     };
     let mut element = Element::new(name);
     element.assign("attributeName", attribute);
     match track.change {
-        Change::Place => element.assign("type", "translate"),
-        Change::Turn => {
+        AnimatedAttribute::Place => element.assign("type", "translate"),
+        AnimatedAttribute::Turn => {
             element.assign("type", "rotate");
             element.assign("additive", "sum");
         }
-        Change::Visibility => element.assign("calcMode", "discrete"),
-        Change::Shape(..) => {}
+        AnimatedAttribute::Visibility => element.assign("calcMode", "discrete"),
+        AnimatedAttribute::Shape(..) => {}
     }
     element.assign("values", track.values.join(";"));
     if !track.times.is_empty() {
-        let times: Vec<String> = track.times.iter().map(|&t| rounded(t, 5)).collect();
+        let times: Vec<String> = track.times.iter().map(|&t| format_decimals(t, 5)).collect();
         element.assign("keyTimes", times.join(";"));
     }
-    element.assign("dur", format!("{}s", rounded(duration, 3)));
+    element.assign("dur", format!("{}s", format_decimals(duration, 3)));
     element.assign("repeatCount", "indefinite");
     element
 }

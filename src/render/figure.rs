@@ -1,6 +1,6 @@
 //! Figures: the shapes that a picture is made of, in px on the page, y down.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::path::Path;
 use super::style::Class;
@@ -33,13 +33,13 @@ pub enum Layer {
     /// Points.
     Joint,
     /// What stands below the drawing.
-    Strip,
+    Legend,
 }
 
 /// Whose figure it is; the same thing has the same key in every frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Key {
-    /// Part of how a constraint is drawn.
+    /// Symbol of how a constraint is drawn.
     Constraint(ConstraintId),
     /// A rigid triangle of three rods.
     Triangle([u32; 3]),
@@ -48,7 +48,7 @@ pub enum Key {
     /// A path, by its place among the paths.
     Trace(usize),
     /// The scale and the legend.
-    Strip,
+    Legend,
 }
 
 /// A group of shapes that moves as one.
@@ -63,11 +63,11 @@ pub struct Figure {
     /// Whether what it stands for is switched off.
     pub is_off: bool,
     /// What it shows when pointed at.
-    pub note: Option<Rc<str>>,
+    pub note: Option<Arc<str>>,
     /// Where its own origin lies on the page, and how it is turned.
     pub placement: Placement,
     /// What it is made of, in its own coordinates.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<FigureShape>,
 }
 
 impl Figure {
@@ -78,7 +78,7 @@ impl Figure {
 
     /// Whether it shows a thing and not a remark about things.
     pub const fn is_solid(&self) -> bool {
-        !matches!(self.layer, Layer::Construction | Layer::Mark | Layer::Strip)
+        !matches!(self.layer, Layer::Construction | Layer::Mark | Layer::Legend)
     }
 
     /// How far from its origin it reaches, px, roughly.
@@ -89,19 +89,19 @@ impl Figure {
 
     /// Adds a line or an area.
     pub fn path(&mut self, class: Class, path: Path) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Path(path) });
+        self.shapes.push(FigureShape { class, outline: Outline::Path(path) });
         self
     }
 
     /// Adds a circle.
     pub fn circle(&mut self, class: Class, centre: Point, radius: f64) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Circle { centre, radius } });
+        self.shapes.push(FigureShape { class, outline: Outline::Circle { centre, radius } });
         self
     }
 
     /// Adds a text that stands on `at`.
-    pub fn text(&mut self, class: Class, at: Point, text: Rc<str>) -> &mut Self {
-        self.shapes.push(Shape { class, outline: Outline::Text { at, text } });
+    pub fn text(&mut self, class: Class, at: Point, text: Arc<str>) -> &mut Self {
+        self.shapes.push(FigureShape { class, outline: Outline::Text { at, text } });
         self
     }
 }
@@ -134,7 +134,7 @@ impl Placement {
 
 /// One outline in one style.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub struct FigureShape {
     /// How it looks.
     pub class: Class,
     /// Its form.
@@ -153,8 +153,8 @@ pub enum Outline {
     },
     /// Lines and arcs.
     Path(Path),
-    /// A path that a pen draws: as far as it has come, in a motion.
-    Pen {
+    /// A path that grows as its point moves: shown as far as it has come.
+    GrowingPath {
         /// The whole path.
         path: Path,
         /// How long it is.
@@ -165,7 +165,7 @@ pub enum Outline {
         /// Where it stands: the middle of its base line, or the left end of a caption's.
         at: Point,
         /// What it says.
-        text: Rc<str>,
+        text: Arc<str>,
     },
 }
 
@@ -174,7 +174,7 @@ impl Outline {
     pub fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Circle { centre, radius } => vec![centre.x, centre.y, *radius],
-            Self::Path(path) | Self::Pen { path, .. } => path.numbers().to_vec(),
+            Self::Path(path) | Self::GrowingPath { path, .. } => path.numbers().to_vec(),
             Self::Text { at, .. } => vec![at.x, at.y],
         }
     }

@@ -2,18 +2,20 @@
 
 /// How a figure moves.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
+pub struct Keyframes {
     /// Of the whole, seconds.
     pub duration: f64,
     /// What changes.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<AttributeTrack>,
 }
 
-impl Motion {
+impl Keyframes {
     /// Whether the figure is not there in the first frame.
     pub fn is_hidden_at_first(&self) -> bool {
-        let is_hidden = |track: &Track| track.values.first().is_some_and(|v| v == HIDDEN);
-        self.tracks.iter().any(|track| track.change == Change::Visibility && is_hidden(track))
+        let is_hidden = |track: &AttributeTrack| track.values.first().is_some_and(|v| v == HIDDEN);
+        self.tracks
+            .iter()
+            .any(|track| track.change == AnimatedAttribute::Visibility && is_hidden(track))
     }
 }
 
@@ -22,9 +24,9 @@ const HIDDEN: &str = "hidden";
 
 /// How one thing about a figure changes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
+pub struct AttributeTrack {
     /// What it is.
-    pub change: Change,
+    pub change: AnimatedAttribute,
     /// When, as parts of the duration; empty if evenly spaced.
     pub times: Vec<f64>,
     /// What to, as SVG writes it.
@@ -33,7 +35,7 @@ pub struct Track {
 
 /// What a track changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
+pub enum AnimatedAttribute {
     /// Where the figure stands. Goes before its turn.
     Place,
     /// How it is turned, on top of where it stands.
@@ -44,7 +46,7 @@ pub enum Change {
     Shape(usize, &'static str),
 }
 
-impl Change {
+impl AnimatedAttribute {
     /// The shape it is about, if it is not about the whole figure.
     pub const fn shape(self) -> Option<usize> {
         match self {
@@ -56,13 +58,13 @@ impl Change {
 
 /// The track of some numbers a frame; none if they do not change.
 pub fn track(
-    change: Change,
+    change: AnimatedAttribute,
     times: &[f64],
     rows: &[f64],
     n: usize,
     tolerance: f64,
     write: impl Fn(&[f64]) -> String,
-) -> Option<Track> {
+) -> Option<AttributeTrack> {
     let still = |(k, value): (usize, &f64)| (value - rows[k % n]).abs() <= tolerance;
     if rows.iter().enumerate().all(still) {
         return None;
@@ -72,10 +74,10 @@ pub fn track(
     let is_even = is_even(times);
     if is_even && 3 * kept.len() > 2 * times.len() {
         let values = rows.chunks(n).map(write).collect();
-        return Some(Track { change, times: Vec::new(), values });
+        return Some(AttributeTrack { change, times: Vec::new(), values });
     }
     let values = kept.iter().map(|&k| write(&rows[k * n..(k + 1) * n])).collect();
-    Some(Track { change, times: kept.iter().map(|&k| times[k]).collect(), values })
+    Some(AttributeTrack { change, times: kept.iter().map(|&k| times[k]).collect(), values })
 }
 
 fn is_even(times: &[f64]) -> bool {
@@ -84,11 +86,15 @@ fn is_even(times: &[f64]) -> bool {
 }
 
 /// The track of something that comes and goes; none if it is always there.
-pub fn visibility(times: &[f64], is_there: &[bool]) -> Option<Track> {
+pub fn visibility(times: &[f64], is_there: &[bool]) -> Option<AttributeTrack> {
     if is_there.iter().all(|&there| there) {
         return None;
     }
-    let mut track = Track { change: Change::Visibility, times: Vec::new(), values: Vec::new() };
+    let mut track = AttributeTrack {
+        change: AnimatedAttribute::Visibility,
+        times: Vec::new(),
+        values: Vec::new(),
+    };
     for (k, &there) in is_there.iter().enumerate() {
         if k == 0 || there != is_there[k - 1] {
             track.times.push(times[k]);
@@ -167,10 +173,24 @@ mod tests {
         let times = [0.0, 0.5, 1.0];
         let write = |row: &[f64]| format!("{row:?}");
         assert_eq!(
-            track(Change::Place, &times, &[1.0, 2.0, 1.0, 2.01, 1.0, 2.0], 2, 0.06, write),
+            track(
+                AnimatedAttribute::Place,
+                &times,
+                &[1.0, 2.0, 1.0, 2.01, 1.0, 2.0],
+                2,
+                0.06,
+                write
+            ),
             None
         );
-        let moved = track(Change::Place, &times, &[1.0, 2.0, 2.0, 2.0, 3.0, 2.0], 2, 0.06, write);
+        let moved = track(
+            AnimatedAttribute::Place,
+            &times,
+            &[1.0, 2.0, 2.0, 2.0, 3.0, 2.0],
+            2,
+            0.06,
+            write,
+        );
         assert_eq!(moved.map(|t| t.values.join(";")), Some("[1.0, 2.0];[3.0, 2.0]".to_owned()));
     }
 

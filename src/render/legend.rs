@@ -1,10 +1,11 @@
-//! The strip below a drawing: a scale, and which colour is whose path.
+//! The legend below a drawing: a scale, and which colour is whose path.
 
-use super::canvas::Ink;
+use super::canvas::Canvas;
 use super::figure::{Key, Layer, Placement};
-use super::page::{Page, STRIP};
+use super::labels::text_width;
+use super::page::{LEGEND_HEIGHT, Page};
 use super::path::Path;
-use super::style::{BASE_LINE, CAPTION, Class, text_width};
+use super::style::{BASE_LINE, CAPTION, Class};
 use super::trace::Curve;
 use crate::constraint::Point;
 use crate::diag::format_number;
@@ -18,24 +19,24 @@ const SAMPLE: f64 = 22.0;
 /// From a sample to its name, and half of that from one entry to the next, px.
 const GAP: f64 = 7.0;
 
-/// Draws the strip.
-pub fn draw(ink: &mut Ink, curves: &[Curve]) {
-    let page = *ink.page;
+/// Draws the legend.
+pub fn draw(canvas: &mut Canvas, curves: &[Curve]) {
+    let page = *canvas.page;
     if page.is_empty() {
         return;
     }
-    ink.begin(Key::Strip, false, None);
+    canvas.begin(Key::Legend, false, None);
     let (width, height) = page.size();
-    let middle = height + 0.5 * STRIP - 4.0;
-    let free = draw_scale(ink, &page, middle);
+    let middle = height + 0.5 * LEGEND_HEIGHT - 4.0;
+    let free = draw_scale(canvas, &page, middle);
     // One path needs no legend: there is nothing to tell it from.
     if curves.len() > 1 {
-        draw_legend(ink, curves, middle, width - EDGE - free - 3.0 * GAP);
+        draw_legend(canvas, curves, middle, width - EDGE - free - 3.0 * GAP);
     }
 }
 
 /// Draws the scale on the left; gives how far it reaches, px.
-fn draw_scale(ink: &mut Ink, page: &Page, middle: f64) -> f64 {
+fn draw_scale(canvas: &mut Canvas, page: &Page, middle: f64) -> f64 {
     let Some(length) = round_length(LONGEST / page.scale()) else {
         return EDGE;
     };
@@ -46,7 +47,8 @@ fn draw_scale(ink: &mut Ink, page: &Page, middle: f64) -> f64 {
     line.move_to(Point::new(0.5 * px, 0.0)).line_to(Point::new(0.5 * px, -0.6 * tick));
     let text = format_number(length);
     let reach = EDGE + px + GAP + text_width(&text) * CAPTION;
-    ink.figure(Layer::Strip, Placement::at(Point::new(EDGE, middle)))
+    canvas
+        .figure(Layer::Legend, Placement::at(Point::new(EDGE, middle)))
         .path(Class::Scale, line)
         .text(Class::Caption, Point::new(px + GAP, BASE_LINE * CAPTION), text.into());
     reach
@@ -64,7 +66,7 @@ fn round_length(most: f64) -> Option<f64> {
 }
 
 /// Draws as much of the legend as `free` px hold, to the right edge.
-fn draw_legend(ink: &mut Ink, curves: &[Curve], middle: f64, free: f64) {
+fn draw_legend(canvas: &mut Canvas, curves: &[Curve], middle: f64, free: f64) {
     let entry = |name: &str| SAMPLE + GAP + text_width(name) * CAPTION + 2.0 * GAP;
     let more = |n: usize| format!("+{n}");
     let mut n_shown = curves.len();
@@ -76,16 +78,17 @@ fn draw_legend(ink: &mut Ink, curves: &[Curve], middle: f64, free: f64) {
     while n_shown > 0 && total(n_shown) > free {
         n_shown -= 1;
     }
-    let mut x = ink.page.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
+    let mut x = canvas.page.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
     let base_line = BASE_LINE * CAPTION;
     for curve in &curves[..n_shown] {
-        ink.figure(Layer::Strip, Placement::at(Point::new(x, middle)))
+        canvas
+            .figure(Layer::Legend, Placement::at(Point::new(x, middle)))
             .path(curve.class(), Path::along_x(0.0, SAMPLE))
             .text(Class::Caption, Point::new(SAMPLE + GAP, base_line), curve.name.clone());
         x += entry(&curve.name);
     }
     if n_shown < curves.len() {
-        ink.figure(Layer::Strip, Placement::at(Point::new(x, middle))).text(
+        canvas.figure(Layer::Legend, Placement::at(Point::new(x, middle))).text(
             Class::Caption,
             Point::new(0.0, base_line),
             more(curves.len() - n_shown).into(),

@@ -1,13 +1,12 @@
 //! Where the names of points stand: beside them, on nothing else.
 
-use std::f64::consts::TAU;
-
-use super::canvas::{Ink, Lettering};
-use super::occupancy::{Area, Cover, OVER_PART};
+use super::canvas::{Canvas, Lettering};
+use super::labels::{Area, cheapest, direction, directions, text_width};
+use super::occupancy::{OVER_PART, Occupancy};
 use super::page::Page;
-use super::parts::{Form, Joint};
-use super::scene::{Pose, Scene};
+use super::scene::{DrawnPose, Scene};
 use super::style::{self, JOINT};
+use super::symbols::{Joint, SymbolForm};
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// With more points than this, names of instances and rows (`left.P`, `p[3]`) are left out.
@@ -16,8 +15,6 @@ const MANY: usize = 30;
 const TOO_MANY: usize = 80;
 /// How far a name's box may stand off its joint, px, in order of preference.
 const DISTANCES: [f64; 4] = [3.5, 7.0, 13.0, 22.0];
-/// Directions that are tried, to the upper right first.
-const N_DIRECTIONS: u32 = 16;
 
 /// Finds a place for each name that suits all of these scenes at once: in a motion a name
 /// keeps its place beside its point.
@@ -30,23 +27,22 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
     if names.is_empty() {
         return placed;
     }
-    let mut pages: Vec<(Cover, &Pose)> =
-        scenes.iter().map(|scene| (cover(scene, page), &scene.pose)).collect();
+    let mut pages: Vec<(Occupancy, &DrawnPose)> =
+        scenes.iter().map(|scene| (occupancy_of(scene, page), &scene.pose)).collect();
     for joint in names {
         let letter = style::letter(page.mark());
-        let half = Vector::new(0.5 * style::text_width(&joint.name) * letter, 0.48 * letter);
-        let found = candidates(half, page.mark())
-            .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)))
-            .min_by_key(|(cost, _)| *cost);
-        let Some((cost, offset)) = found else { continue };
-        // Letters half hidden by parts say nothing.
+        let half = Vector::new(0.5 * text_width(&joint.name) * letter, 0.48 * letter);
+        let costs = candidates(half, page.mark())
+            .filter_map(|offset| Some((cost(&pages, joint.point, half, page, offset)?, offset)));
+        let Some((cost, offset)) = cheapest(costs) else { continue };
+        // Letters half hidden by symbols say nothing.
         let n_cells = half.x * half.y;
-        if f64::from(cost) > 0.35 * f64::from(OVER_PART) * n_cells * pages.len() as f64 {
+        if cost > 0.35 * f64::from(OVER_PART) * n_cells * pages.len() as f64 {
             continue;
         }
-        for (cover, pose) in &mut pages {
+        for (occupancy, pose) in &mut pages {
             let middle = page.px(pose.at[joint.point as usize]) + offset;
-            cover.add_area(Area { middle, half: half + Vector::new(2.0, 2.0) });
+            occupancy.add_area(Area::around(middle, half + Vector::new(2.0, 2.0)));
         }
         placed.insert(joint.point, offset);
     }
@@ -54,9 +50,9 @@ pub fn place(scenes: &[&Scene], page: &Page) -> Lettering {
 }
 
 /// The joints that get their names.
-fn names(pose: &Pose) -> Vec<&Joint> {
-    let all = pose.parts.iter().filter_map(|part| match &part.form {
-        Form::Joint(joint) => Some(joint),
+fn names(pose: &DrawnPose) -> Vec<&Joint> {
+    let all = pose.symbols.iter().filter_map(|symbol| match &symbol.form {
+        SymbolForm::Joint(joint) => Some(joint),
         _ => None,
     });
     let all: Vec<&Joint> = all.collect();
@@ -69,24 +65,24 @@ fn names(pose: &Pose) -> Vec<&Joint> {
 }
 
 /// What a scene covers of its page.
-fn cover(scene: &Scene, page: &Page) -> Cover {
-    let mut cover = Cover::new(page);
+fn occupancy_of(scene: &Scene, page: &Page) -> Occupancy {
+    let mut occupancy = Occupancy::new(page);
     let none = Lettering::new();
-    let mut ink = Ink::new(page, &scene.pose.at, &none);
-    scene.pose.parts.iter().for_each(|part| part.draw(&mut ink));
+    let mut canvas = Canvas::new(page, &scene.pose.at, &none);
+    scene.pose.symbols.iter().for_each(|symbol| symbol.draw(&mut canvas));
     for curve in &scene.curves {
-        curve.draw(&mut ink);
+        curve.draw(&mut canvas);
     }
-    ink.finish().iter().for_each(|figure| cover.add(figure, page.mark()));
-    cover
+    canvas.finish().iter().for_each(|figure| occupancy.add(figure, page.mark()));
+    occupancy
 }
 
 /// Places for a box of half size `half` around a joint, from the joint.
 fn candidates(half: Vector, mark: f64) -> impl Iterator<Item = Vector> {
     // Upper right, then turning away from it on both sides; page angles go clockwise.
-    let directions = (0..N_DIRECTIONS).map(|k| {
+    let directions = directions().map(|k| {
         let step = f64::from(k.div_ceil(2)) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        (step - 2.0) * TAU / f64::from(N_DIRECTIONS)
+        direction(step - 2.0)
     });
     DISTANCES.into_iter().flat_map(move |distance| {
         let radius = JOINT * mark + distance;
@@ -105,16 +101,16 @@ fn blend(component: f64) -> f64 {
 
 /// How much a name would disturb there, over all pages; none if it leaves one of them.
 fn cost(
-    pages: &[(Cover, &Pose)],
+    pages: &[(Occupancy, &DrawnPose)],
     point: PointIdx,
     half: Vector,
     page: &Page,
     offset: Vector,
-) -> Option<u32> {
+) -> Option<f64> {
     let mut sum = 0;
-    for (cover, pose) in pages {
+    for (occupancy, pose) in pages {
         let at: Point = page.px(pose.at[point as usize]);
-        sum += cover.cost(Area { middle: at + offset, half })?;
+        sum += occupancy.cost(Area::around(at + offset, half))?;
     }
-    Some(sum)
+    Some(f64::from(sum))
 }

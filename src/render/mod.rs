@@ -15,17 +15,17 @@
 
 // From a world to what is to be drawn.
 mod classify;
-mod parts;
 mod samples;
 mod scene;
+mod symbols;
 mod trace;
 
 // From there to figures on a page.
 mod canvas;
 mod figure;
+mod labels;
 mod legend;
 mod lettering;
-mod number;
 mod occupancy;
 mod page;
 mod path;
@@ -35,15 +35,18 @@ mod view;
 // Numbers in lines.
 pub mod chart;
 
+// Figures that stand still, as a document.
+mod document;
+mod still;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
 mod keyframes;
 mod trace_animation;
 
-mod document;
-
 pub use animation::Animation;
-pub use number::rounded;
+pub use document::Options;
 pub use scene::Scene;
-pub use view::{Options, View, svg, svg_with_view};
+pub use still::{svg, svg_with_view};
+pub use view::View;

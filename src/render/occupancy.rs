@@ -1,6 +1,7 @@
 //! What of a page is covered: a coarse raster that tells where a name can stand.
 
 use super::figure::{Figure, Layer, Outline};
+use super::labels::Area;
 use super::page::Page;
 use crate::constraint::{Point, Vector};
 
@@ -11,27 +12,18 @@ const CELL: f64 = 2.0;
 pub const OVER_LINE: u32 = 1;
 /// On a mark, or a line that only carries one.
 const OVER_MARK: u32 = 3;
-/// On a part.
+/// On a symbol.
 pub const OVER_PART: u32 = 8;
 
 /// A page in cells, each with the worst that lies there.
 #[derive(Debug, Clone)]
-pub struct Cover {
+pub struct Occupancy {
     n_columns: usize,
     n_rows: usize,
     cells: Vec<u8>,
 }
 
-/// A rectangle of the page, px.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Area {
-    /// Its middle.
-    pub middle: Point,
-    /// Half its size.
-    pub half: Vector,
-}
-
-impl Cover {
+impl Occupancy {
     /// A page with nothing on it.
     pub fn new(page: &Page) -> Self {
         let (width, height) = page.size();
@@ -52,7 +44,7 @@ impl Cover {
                 self.add_line(figure.placement.place(a), figure.placement.place(b), half, weight);
             };
             match &shape.outline {
-                Outline::Path(path) | Outline::Pen { path, .. } => path.flatten(&mut line),
+                Outline::Path(path) | Outline::GrowingPath { path, .. } => path.flatten(&mut line),
                 Outline::Circle { centre, radius } => {
                     let n = (0.8 * radius).clamp(8.0, 96.0).round();
                     let on =
@@ -71,7 +63,7 @@ impl Cover {
 
     /// How much letters in an area would disturb; none if it is not all on the page.
     pub fn cost(&self, area: Area) -> Option<u32> {
-        let (lo, hi) = (area.middle - area.half, area.middle + area.half);
+        let Area { lo, hi } = area;
         let (width, height) = (self.n_columns as f64 * CELL, self.n_rows as f64 * CELL);
         if lo.x < 0.0 || lo.y < 0.0 || hi.x > width || hi.y > height {
             return None;
@@ -89,7 +81,7 @@ impl Cover {
         }
         for k in 0..=n as u32 {
             let middle = a + (b - a) * (f64::from(k) / n);
-            self.fill(Area { middle, half: Vector::new(half, half) }, weight);
+            self.fill(Area::around(middle, Vector::new(half, half)), weight);
         }
     }
 
@@ -100,7 +92,7 @@ impl Cover {
     }
 
     fn each_cell(&self, area: Area, mut visit: impl FnMut(usize)) {
-        let (lo, hi) = (area.middle - area.half, area.middle + area.half);
+        let Area { lo, hi } = area;
         let range = |lo: f64, hi: f64, n: usize| {
             let from = (lo / CELL).floor().max(0.0) as usize;
             from..((hi / CELL).floor() + 1.0).clamp(0.0, n as f64) as usize

@@ -9,16 +9,16 @@ const SHORT_SIDE: f64 = 200.0;
 /// Free space around the mechanism, px: room for ground triangles, motors and names, which
 /// have a size on the page and none in the plane.
 pub const MARGIN: f64 = 48.0;
-/// The strip below the drawing with the scale and the legend, px.
-pub const STRIP: f64 = 34.0;
+/// The height of the legend below the drawing, its scale included, px.
+pub const LEGEND_HEIGHT: f64 = 34.0;
 
 /// The smallest box around what was put into it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Extent {
+pub struct BoundingBox {
     corners: Option<(Point, Point)>,
 }
 
-impl Extent {
+impl BoundingBox {
     /// Grows to hold a point.
     pub fn include(&mut self, p: Point) {
         let (lo, hi) = self.corners.unwrap_or((p, p));
@@ -47,7 +47,7 @@ pub struct Page {
     scale: f64,
     /// What lies in the middle of the drawing.
     centre: Point,
-    /// Size of the page without the strip, px.
+    /// Size of the page without the legend, px.
     width: f64,
     height: f64,
     /// How large marks and strokes are drawn; 1 where there is room.
@@ -56,9 +56,9 @@ pub struct Page {
 }
 
 impl Page {
-    /// The page that shows all of `extent`, as large as the page allows.
-    pub fn fit(extent: &Extent) -> Self {
-        let (lo, hi) = extent.corners.unwrap_or((Point::ORIGIN, Point::ORIGIN));
+    /// The page that shows all of `bounds`, as large as the page allows.
+    pub fn fit(bounds: &BoundingBox) -> Self {
+        let (lo, hi) = bounds.corners.unwrap_or((Point::ORIGIN, Point::ORIGIN));
         // Halved before they are combined: the corners may be as far apart as f64 reaches.
         let centre = Point::new(0.5 * lo.x + 0.5 * hi.x, 0.5 * lo.y + 0.5 * hi.y);
         let (half_x, half_y) = (0.5 * hi.x - 0.5 * lo.x, 0.5 * hi.y - 0.5 * lo.y);
@@ -73,7 +73,7 @@ impl Page {
             width: side(half_x),
             height: side(half_y),
             mark: 1.0,
-            is_empty: extent.corners.is_none(),
+            is_empty: bounds.corners.is_none(),
         }
     }
 
@@ -108,7 +108,7 @@ impl Page {
         self.mark
     }
 
-    /// Size of the drawing without the strip below it, px.
+    /// Size of the drawing without the legend below it, px.
     pub const fn size(&self) -> (f64, f64) {
         (self.width, self.height)
     }
@@ -124,11 +124,11 @@ mod tests {
     use super::*;
 
     fn page_of(points: &[(f64, f64)]) -> Page {
-        let mut extent = Extent::default();
+        let mut bounds = BoundingBox::default();
         for &(x, y) in points {
-            extent.include(Point::new(x, y));
+            bounds.include(Point::new(x, y));
         }
-        Page::fit(&extent)
+        Page::fit(&bounds)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Paths: lines and arcs, in px, and how SVG writes them.
 
-use super::number::push_rounded;
 use crate::constraint::{Point, Vector};
+use crate::diag::push_decimals;
 
 /// Lines and arcs; arcs lie around the origin.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -161,9 +161,9 @@ impl Path {
                 Verb::Close => text.push('Z'),
                 Verb::Arc { is_large, is_clockwise } => {
                     text.push('A');
-                    push_rounded(&mut text, now[0], n_decimals);
+                    push_decimals(&mut text, now[0], n_decimals);
                     text.push(' ');
-                    push_rounded(&mut text, now[0], n_decimals);
+                    push_decimals(&mut text, now[0], n_decimals);
                     text.push_str(if is_large { " 0 1" } else { " 0 0" });
                     text.push_str(if is_clockwise { " 1 " } else { " 0 " });
                 }
@@ -173,7 +173,7 @@ impl Path {
                 if k > 0 {
                     text.push(' ');
                 }
-                push_rounded(&mut text, value, n_decimals);
+                push_decimals(&mut text, value, n_decimals);
             }
             last = Some(verb);
         }

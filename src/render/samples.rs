@@ -1,7 +1,6 @@
 //! The samples of a path, shared between the frames of a recording.
 
-use std::cell::{Ref, RefCell};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::world::Sample;
 
@@ -9,14 +8,14 @@ use crate::world::Sample;
 /// take the room of one.
 #[derive(Debug, Clone)]
 pub struct Samples {
-    list: Rc<RefCell<Vec<Sample>>>,
+    list: Arc<Mutex<Vec<Sample>>>,
     n: usize,
 }
 
 impl Samples {
     /// A list of its own.
     pub fn new(samples: &[Sample]) -> Self {
-        Self { n: samples.len(), list: Rc::new(RefCell::new(samples.to_vec())) }
+        Self { n: samples.len(), list: Arc::new(Mutex::new(samples.to_vec())) }
     }
 
     /// These samples and what `samples` has beyond them; none unless it begins with these.
@@ -25,10 +24,10 @@ impl Samples {
         if samples.len() < self.n {
             return None;
         }
-        if self.n > 0 && self.list.borrow()[self.n - 1] != samples[self.n - 1] {
+        let mut list = self.list();
+        if self.n > 0 && list[self.n - 1] != samples[self.n - 1] {
             return None;
         }
-        let mut list = self.list.borrow_mut();
         // Another scene may have grown the same list in another way.
         let n_known = list.len().min(samples.len());
         if list[self.n..n_known] != samples[self.n..n_known] {
@@ -43,9 +42,20 @@ impl Samples {
         self.n
     }
 
-    /// The samples, in order of time.
-    pub fn get(&self) -> Ref<'_, [Sample]> {
-        Ref::map(self.list.borrow(), |list| &list[..self.n])
+    /// One of them, by its place in order of time.
+    pub fn at(&self, k: usize) -> Sample {
+        self.list()[k]
+    }
+
+    /// Looks at all of them, in order of time. Nothing else may be asked of samples meanwhile:
+    /// the list may be theirs, too.
+    pub fn read<T>(&self, look: impl FnOnce(&[Sample]) -> T) -> T {
+        look(&self.list()[..self.n])
+    }
+
+    fn list(&self) -> MutexGuard<'_, Vec<Sample>> {
+        // A list only ever grows: whoever panicked, it is whole.
+        self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -62,12 +72,12 @@ mod tests {
     fn growing_shares_and_another_past_does_not() {
         let one = Samples::new(&samples(&[1.0, 2.0]));
         let two = one.grown(&samples(&[1.0, 2.0, 3.0])).expect("it begins with these");
-        assert!(Rc::ptr_eq(&two.list, &one.list));
-        assert_eq!((one.get().len(), two.get().len()), (2, 3));
+        assert!(Arc::ptr_eq(&two.list, &one.list));
+        assert_eq!((one.len(), two.len()), (2, 3));
         assert!(one.grown(&samples(&[1.0, 5.0, 6.0])).is_none());
         assert!(one.grown(&samples(&[1.0])).is_none());
         // The list went on with 3 already: a path that went on otherwise needs its own.
         assert!(one.grown(&samples(&[1.0, 2.0, 9.0])).is_none());
-        assert_eq!(*one.get(), samples(&[1.0, 2.0])[..]);
+        one.read(|one| assert_eq!(*one, samples(&[1.0, 2.0])[..]));
     }
 }

@@ -1,10 +1,10 @@
-//! A scene: the parts of a mechanism, where its points are, and what they left behind.
+//! A scene: the symbols of a mechanism, where its points are, and what they left behind.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::classify;
-use super::page::Extent;
-use super::parts::{Form, Part};
+use super::page::BoundingBox;
+use super::symbols::{Symbol, SymbolForm};
 use super::trace::Curve;
 use crate::constraint::Point;
 use crate::world::{Ghost, World};
@@ -14,25 +14,25 @@ use crate::world::{Ghost, World};
 /// A copy is cheap: what does not change is shared.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    pub(super) pose: Pose,
+    pub(super) pose: DrawnPose,
     /// The same at other times, the oldest first.
-    pub(super) ghosts: Vec<Rc<Pose>>,
+    pub(super) ghosts: Vec<Arc<DrawnPose>>,
     pub(super) curves: Vec<Curve>,
 }
 
-/// Parts and where the points are that they hang on.
+/// Symbols and where the points are that they hang on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pose {
+pub struct DrawnPose {
     /// What is drawn.
-    pub parts: Rc<[Part]>,
+    pub symbols: Arc<[Symbol]>,
     /// Positions by handle; those of points that do not live mean nothing.
-    pub at: Rc<[Point]>,
+    pub at: Arc<[Point]>,
 }
 
 impl Scene {
     /// The scene of a world as it stands.
     pub fn new(world: &World) -> Self {
-        let pose = Pose::of(world);
+        let pose = DrawnPose::of(world);
         let ghosts = world.ghosts().iter().map(|ghost| pose.exposed(ghost, world)).collect();
         let curves = world.traces().iter().enumerate();
         let curves = curves.map(|(k, trace)| Curve::of(k, trace, world)).collect();
@@ -43,9 +43,9 @@ impl Scene {
     /// change: frames of a recording made this way take the room of their positions.
     #[must_use]
     pub fn next(&self, world: &World) -> Self {
-        let mut pose = Pose::of(world);
-        if pose.parts == self.pose.parts {
-            pose.parts = self.pose.parts.clone();
+        let mut pose = DrawnPose::of(world);
+        if pose.symbols == self.pose.symbols {
+            pose.symbols = self.pose.symbols.clone();
         }
         let n_same = self.n_same_ghosts(world);
         let mut ghosts = self.ghosts[..n_same].to_vec();
@@ -68,55 +68,55 @@ impl Scene {
     }
 
     /// Grows the box to hold ghosts and paths, those that `later` holds too excepted.
-    pub(super) fn extend_by_past(&self, later: Option<&Self>, extent: &mut Extent) {
+    pub(super) fn extend_by_past(&self, later: Option<&Self>, bounds: &mut BoundingBox) {
         for (k, ghost) in self.ghosts.iter().enumerate() {
             let same = later.and_then(|scene| scene.ghosts.get(k));
             if same.is_none_or(|other| other != ghost) {
-                ghost.extend(extent);
+                ghost.extend(bounds);
             }
         }
         for (k, curve) in self.curves.iter().enumerate() {
             let same = later.and_then(|scene| scene.curves.get(k));
             if same.is_none_or(|other| !curve.is_continued_by(other)) {
-                curve.extend(extent);
+                curve.extend(bounds);
             }
         }
     }
 }
 
-impl Pose {
+impl DrawnPose {
     /// A world as it stands.
     fn of(world: &World) -> Self {
-        Self { parts: classify::parts(world).into(), at: world.points().column().into() }
+        Self { symbols: classify::symbols(world).into(), at: world.points().column().into() }
     }
 
-    /// The same parts where they were, without those that had not all their points then, and
+    /// The same symbols where they were, without those that had not all their points then, and
     /// without those that cannot have been elsewhere.
-    fn exposed(&self, ghost: &Ghost, world: &World) -> Rc<Self> {
+    fn exposed(&self, ghost: &Ghost, world: &World) -> Arc<Self> {
         let mut at = vec![None; self.at.len()];
         for (id, place) in &ghost.at {
             if let Some(slot) = at.get_mut(id.idx()) {
                 *slot = Some(*place);
             }
         }
-        let is_seen = |part: &&Part| {
-            let points = part.points();
+        let is_seen = |symbol: &&Symbol| {
+            let points = symbol.points();
             let is_whole = points.iter().all(|&p| at[p as usize].is_some());
             let can_move =
                 points.iter().any(|&p| !world.points().is_frozen(crate::world::PointId(p)));
-            is_whole && can_move && !matches!(part.form, Form::Construction(_))
+            is_whole && can_move && !matches!(symbol.form, SymbolForm::Construction(_))
         };
-        let parts = self.parts.iter().filter(is_seen).cloned().collect();
-        Rc::new(Self { parts, at: at.into_iter().map(Option::unwrap_or_default).collect() })
+        let symbols = self.symbols.iter().filter(is_seen).cloned().collect();
+        Arc::new(Self { symbols, at: at.into_iter().map(Option::unwrap_or_default).collect() })
     }
 
     /// Grows the box to hold it.
-    pub fn extend(&self, extent: &mut Extent) {
-        self.parts.iter().for_each(|part| part.extend(&self.at, extent));
+    pub fn extend(&self, bounds: &mut BoundingBox) {
+        self.symbols.iter().for_each(|symbol| symbol.extend(&self.at, bounds));
     }
 
     /// The length of each bar, world units.
     pub fn bar_lengths(&self) -> impl Iterator<Item = f64> {
-        self.parts.iter().filter_map(|part| part.bar_length(&self.at))
+        self.symbols.iter().filter_map(|symbol| symbol.bar_length(&self.at))
     }
 }

@@ -1,6 +1,6 @@
-//! How everything looks: colours, widths of strokes and sizes of marks, all in one table.
+//! The legend below a drawing: a scale, and which colour is whose path.
 
-use super::number::push_rounded;
+use crate::diag::push_decimals;
 
 /// The page.
 pub const PAPER: &str = "#fdfdfb";
@@ -100,7 +100,7 @@ pub enum Class {
     Construction,
     /// A name.
     Name,
-    /// Text in the strip below the drawing.
+    /// Text in the legend below the drawing.
     Caption,
     /// The line of the scale.
     Scale,
@@ -110,7 +110,7 @@ pub enum Class {
     Fine(u8),
     /// A path where frames missed their tolerance.
     Missed(u8),
-    /// A path drawn lightly, to be traced over by a moving pen.
+    /// A path drawn lightly, to be drawn over as its point moves.
     Faint(u8),
 }
 
@@ -233,20 +233,20 @@ impl Class {
             text.push_str(look.stroke);
             text.push_str(";stroke-width:");
             // Below half a pixel a line is a shade of grey.
-            push_rounded(&mut text, (look.width * mark).max(0.5), 2);
+            push_decimals(&mut text, (look.width * mark).max(0.5), 2);
         }
         for (k, &dash) in look.dash.iter().enumerate() {
             text.push_str(if k == 0 { ";stroke-dasharray:" } else { " " });
-            push_rounded(&mut text, dash * mark, 2);
+            push_decimals(&mut text, dash * mark, 2);
         }
         if look.opacity < 1.0 {
             text.push_str(";opacity:");
-            push_rounded(&mut text, look.opacity, 2);
+            push_decimals(&mut text, look.opacity, 2);
         }
         match self {
             Self::Name => {
                 text.push_str(";paint-order:stroke;font-style:italic;font-size:");
-                push_rounded(&mut text, letter(mark), 1);
+                push_decimals(&mut text, letter(mark), 1);
                 text.push_str("px");
             }
             Self::RingWheel => text.push_str(";fill-rule:evenodd"),
@@ -274,16 +274,4 @@ pub fn sheet(classes: &std::collections::BTreeSet<Class>, mark: f64) -> String {
         text.push('\n');
     }
     text
-}
-
-/// About how wide a text is, in sizes of its letters: the widths of Helvetica, rounded up.
-pub fn text_width(text: &str) -> f64 {
-    text.chars()
-        .map(|c| match c {
-            'i' | 'j' | 'l' | '\'' | '.' | '[' | ']' | 'I' | 'f' | 't' | 'r' => 0.34,
-            'm' | 'w' | 'M' | 'W' => 0.92,
-            'A'..='Z' => 0.72,
-            _ => 0.57,
-        })
-        .sum()
 }

@@ -1,10 +1,10 @@
 //! Curves: the paths that points left behind, thinned to what a page can show.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
-use super::canvas::Ink;
+use super::canvas::Canvas;
 use super::figure::{Figure, Key, Layer};
-use super::page::{Extent, Page};
+use super::page::{BoundingBox, Page};
 use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
@@ -25,7 +25,7 @@ pub struct Curve {
     /// Whose it is.
     pub point: PointId,
     /// The point's name.
-    pub name: Rc<str>,
+    pub name: Arc<str>,
     /// Where the point was.
     pub samples: Samples,
 }
@@ -50,12 +50,12 @@ impl Curve {
         let n = self.samples.len();
         self.point == other.point
             && n <= other.samples.len()
-            && (n == 0 || self.samples.get()[n - 1] == other.samples.get()[n - 1])
+            && (n == 0 || self.samples.at(n - 1) == other.samples.at(n - 1))
     }
 
     /// Grows the box to hold it.
-    pub fn extend(&self, extent: &mut Extent) {
-        self.samples.get().iter().for_each(|sample| extent.include(sample.at));
+    pub fn extend(&self, bounds: &mut BoundingBox) {
+        self.samples.read(|all| all.iter().for_each(|sample| bounds.include(sample.at)));
     }
 
     /// The class it has in a legend.
@@ -64,13 +64,13 @@ impl Curve {
     }
 
     /// Draws it; the figure is empty while there are fewer than two samples.
-    pub fn draw<'i>(&self, ink: &'i mut Ink) -> &'i mut Figure {
-        let paths = self.paths(ink.page);
+    pub fn draw<'c>(&self, canvas: &'c mut Canvas) -> &'c mut Figure {
+        let paths = self.paths(canvas.page);
         let colour = colour_number(self.idx);
         let is_long = paths[0].length() > LONG;
         let met = if is_long { Class::Fine(colour) } else { Class::Trace(colour) };
-        ink.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
-        let figure = ink.figure(Layer::Trace, super::figure::Placement::default());
+        canvas.begin(Key::Trace(self.idx), false, Some(self.name.clone()));
+        let figure = canvas.figure(Layer::Trace, super::figure::Placement::default());
         for (class, points) in [met, Class::Missed(colour)].into_iter().zip(paths) {
             if !points.is_empty() {
                 figure.path(class, points);
@@ -82,11 +82,13 @@ impl Curve {
     /// The stretches that met their tolerance, and those that did not.
     fn paths(&self, page: &Page) -> [Path; 2] {
         let mut paths = [Path::default(), Path::default()];
-        for run in runs(&self.samples.get()) {
-            let is_missed = run[1].missed;
-            let points: Vec<Point> = run.iter().map(|sample| page.px(sample.at)).collect();
-            paths[usize::from(is_missed)].append(Path::polyline(thin(&points, TOLERANCE)));
-        }
+        self.samples.read(|samples| {
+            for run in runs(samples) {
+                let is_missed = run[1].missed;
+                let points: Vec<Point> = run.iter().map(|sample| page.px(sample.at)).collect();
+                paths[usize::from(is_missed)].append(Path::polyline(thin(&points, TOLERANCE)));
+            }
+        });
         paths
     }
 }

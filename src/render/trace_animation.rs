@@ -1,14 +1,14 @@
 //! A path in a moving picture: it lies there lightly and is drawn over as its point moves.
 
-use super::canvas::{Ink, Lettering};
+use super::canvas::{Canvas, Lettering};
 use super::figure::{Figure, Outline};
-use super::keyframes::{Change, Motion, track};
-use super::number::rounded;
+use super::keyframes::{AnimatedAttribute, Keyframes, track};
 use super::page::Page;
 use super::style::{Class, colour_number};
 use super::trace::Curve;
+use crate::diag::format_decimals;
 
-/// How far the pen may be from its point, px.
+/// How far the end of the path may be from its point, px.
 const TOLERANCE: f64 = 0.3;
 
 /// The figures of a path of which there were `n_samples` in each frame.
@@ -18,10 +18,10 @@ pub fn follow(
     n_samples: &[usize],
     times: &[f64],
     duration: f64,
-) -> Vec<(Figure, Option<Motion>)> {
+) -> Vec<(Figure, Option<Keyframes>)> {
     let none = Lettering::new();
-    let mut ink = Ink::new(page, &[], &none);
-    let whole = curve.draw(&mut ink).clone();
+    let mut canvas = Canvas::new(page, &[], &none);
+    let whole = curve.draw(&mut canvas).clone();
     let lengths = lengths(curve, page);
     let length = lengths.last().copied().unwrap_or(0.0);
     // A dash pattern begins anew at each stretch: only a path of one lends itself to it.
@@ -33,16 +33,16 @@ pub fn follow(
     };
     let left: Vec<f64> =
         n_samples.iter().map(|&n| length - n.checked_sub(1).map_or(0.0, |k| lengths[k])).collect();
-    let change = Change::Shape(0, "stroke-dashoffset");
-    let write = |row: &[f64]| rounded(row[0], 2);
+    let change = AnimatedAttribute::Shape(0, "stroke-dashoffset");
+    let write = |row: &[f64]| format_decimals(row[0], 2);
     let Some(track) = track(change, times, &left, 1, TOLERANCE, write) else {
         return vec![(whole, None)];
     };
     let (mut faint, mut drawn) = (whole.clone(), whole.clone());
     faint.shapes[0].class = Class::Faint(colour_number(curve.idx));
-    drawn.shapes[0].outline = Outline::Pen { path: path.clone(), length };
+    drawn.shapes[0].outline = Outline::GrowingPath { path: path.clone(), length };
     drawn.part += 1;
-    vec![(faint, None), (drawn, Some(Motion { duration, tracks: vec![track] }))]
+    vec![(faint, None), (drawn, Some(Keyframes { duration, tracks: vec![track] }))]
 }
 
 /// How long the path is up to each of its samples, px.
@@ -54,5 +54,5 @@ fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
         length += last.replace(here).map_or(0.0, |before| here.distance(before));
         length
     };
-    curve.samples.get().iter().map(|sample| sample.at).map(up_to).collect()
+    curve.samples.read(|samples| samples.iter().map(|sample| sample.at).map(up_to).collect())
 }

@@ -1,15 +1,15 @@
 //! The line editor: what it asks while a line is typed.
 
-use std::collections::BTreeSet;
-
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::history::FileHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{CompletionType, Config, Context, Editor, Helper, Highlighter, Hinter};
 
-use super::complete::{MOST_NAMES, candidates};
 use crate::lang::is_incomplete;
-use crate::session::Session;
+use crate::session::{Completion, Session};
+
+/// Lines of history kept; the editor reads all of them when it starts.
+const MOST_LINES: usize = 10_000;
 
 /// The editor of the prompt.
 pub type LineEditor = Editor<Prompt, FileHistory>;
@@ -18,9 +18,7 @@ pub type LineEditor = Editor<Prompt, FileHistory>;
 #[derive(Helper, Highlighter, Hinter)]
 pub struct Prompt {
     files: FilenameCompleter,
-    /// The names of the world at this revision.
-    names: BTreeSet<String>,
-    revision: u64,
+    completion: Completion,
 }
 
 impl Validator for Prompt {
@@ -47,7 +45,7 @@ impl Completer for Prompt {
         if this_line.matches('"').count() % 2 == 1 {
             return self.files.complete(line, pos, ctx);
         }
-        let (start, found) = candidates(before, &self.names);
+        let (start, found) = self.completion.candidates(before);
         let pairs = found.into_iter().map(|it| Pair { display: it.clone(), replacement: it });
         Ok((start, pairs.collect()))
     }
@@ -60,24 +58,18 @@ impl Completer for Prompt {
 pub fn open() -> rustyline::Result<LineEditor> {
     let config = Config::builder()
         .auto_add_history(false)
-        .max_history_size(super::history::MOST_LINES)?
+        .max_history_size(MOST_LINES)?
         .completion_type(CompletionType::List)
         .build();
     let mut editor = Editor::with_config(config)?;
     let files = FilenameCompleter::new();
-    editor.set_helper(Some(Prompt { files, names: BTreeSet::new(), revision: 0 }));
+    editor.set_helper(Some(Prompt { files, completion: Completion::default() }));
     Ok(editor)
 }
 
 /// Tells the editor what there is in the session before a line is typed.
 pub fn prepare(editor: &mut LineEditor, session: &Session) {
-    let world = session.world();
-    if let Some(prompt) = editor.helper_mut()
-        && prompt.revision != world.revision()
-    {
-        prompt.revision = world.revision();
-        let names = world.names();
-        let all = names.instances().chain(names.iter().map(|(name, _)| name));
-        prompt.names = all.take(MOST_NAMES).map(str::to_owned).collect();
+    if let Some(prompt) = editor.helper_mut() {
+        prompt.completion.refresh(session.world());
     }
 }

@@ -4,9 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::editor::LineEditor;
 
-/// Lines kept; a line editor reads all of them when it starts.
-pub const MOST_LINES: usize = 10_000;
-
 /// Where the history is kept across sessions.
 pub fn file() -> Option<PathBuf> {
     let state = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);

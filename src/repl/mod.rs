@@ -1,17 +1,16 @@
 //! The prompt: reads statements line by line, with history, completion and continuation lines.
 
-mod complete;
 mod editor;
 mod history;
 
 use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
-use crate::cli::transcript::Typed;
-use crate::session::{Flow, Session};
+use crate::cli::output;
+use crate::session::{Flow, Host, Session, Transcript};
 
 /// Talks with the user until they leave.
-pub fn converse(session: &mut Session) {
+pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut editor = match editor::open() {
         Ok(editor) => editor,
         Err(e) => {
@@ -22,14 +21,16 @@ pub fn converse(session: &mut Session) {
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
     println!("linkwork {}; `help` for help, Ctrl-D to leave", env!("CARGO_PKG_VERSION"));
-    let mut typed = Typed::new("<prompt>");
+    let mut transcript = Transcript::new("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
         match editor.readline("> ") {
             Ok(line) => {
                 history::keep(&mut editor, &line, history.as_deref());
                 interrupt::forget();
-                if typed.obey(session, &line).flow == Flow::Quit {
+                let outcome = transcript.enter(&line, session, host);
+                output::flush();
+                if outcome.flow == Flow::Quit {
                     return;
                 }
             }

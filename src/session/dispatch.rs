@@ -1,19 +1,22 @@
 //! Which command does what.
 
-use super::{Flow, Session};
+use super::execution::{Execution, Flow};
+use super::quotas::MOST_STATEMENTS;
+use super::state::State;
+use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Command, Expr, Statement};
 
-impl Session {
+impl Execution<'_> {
     /// Carries out a statement as part of the command under way.
     pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements += 1;
-        if self.n_statements > super::quotas::MOST_STATEMENTS {
+        if self.n_statements > MOST_STATEMENTS {
             return Err(Diagnostic::error("this command never seems to end")
                 .at(statement.span, "20 million statements were carried out")
                 .help("split it into several commands"));
         }
-        let flow = self.carry_out(statement).map_err(|problem| {
+        let flow = self.perform(statement).map_err(|problem| {
             // What fails elsewhere, in a live expression, was reached from here.
             let is_elsewhere = problem.place().is_some_and(|place| !statement.span.holds(place));
             if is_elsewhere && problem.via.is_empty() {
@@ -29,7 +32,7 @@ impl Session {
         Ok(flow)
     }
 
-    fn carry_out(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
+    fn perform(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let span = statement.span;
         match &statement.command {
             Command::Let(bindings) => self.let_parameters(bindings)?,
@@ -45,8 +48,8 @@ impl Session {
             Command::Change { name, parts } => self.change_thing(name, parts)?,
             Command::Settings(which) => self.show_settings(which.as_ref())?,
             Command::Set { setting, value, targets } => self.set(setting, value, targets)?,
-            Command::Undo(n) => self.undo_or_redo(n.as_ref(), span, true)?,
-            Command::Redo(n) => self.undo_or_redo(n.as_ref(), span, false)?,
+            Command::Undo(n) => self.walk(n.as_ref(), span, &UNDO)?,
+            Command::Redo(n) => self.walk(n.as_ref(), span, &REDO)?,
             Command::Reset => self.reset()?,
             Command::Clear => self.clear(),
             Command::Step { frames, promise } => return self.step(frames.as_ref(), promise, span),
@@ -91,50 +94,22 @@ impl Session {
         Ok(Flow::On)
     }
 
-    /// A whole number of at least `least`.
-    pub(super) fn count(
-        &mut self,
-        expr: &Expr,
-        least: f64,
-        most: f64,
-        of: &str,
-    ) -> Result<u64, Diagnostic> {
-        let value = self.number(expr)?;
-        let n = value.round();
-        if (n - value).abs() > 1e-9 * value.abs().max(1.0) {
-            return Err(Diagnostic::error(format!("expected a whole number of {of}"))
-                .at(expr.span, format!("this is {}", crate::diag::format_number(value))));
+    /// Goes back or forth in the history.
+    fn walk(&mut self, n: Option<&Expr>, span: Span, way: &Walk) -> Result<(), Diagnostic> {
+        self.must_stand_alone(way.word, span)?;
+        let n = n.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e6, "commands"))?;
+        let mut n_done = 0;
+        while n_done < n
+            && let Some(label) = (way.step)(self.history, self.state)
+        {
+            self.note((way.told)(&label));
+            n_done += 1;
         }
-        if n < least || n > most {
-            let number = crate::diag::format_number;
-            return Err(Diagnostic::error(format!(
-                "expected {} to {} {of}",
-                number(least),
-                format_count(most)
-            ))
-            .at(expr.span, format!("this is {}", format_count(value))));
+        if n_done == 0 {
+            return Err(Diagnostic::error(format!("nothing to {}", way.word)).at(span, ""));
         }
-        Ok(n as u64)
-    }
-
-    fn undo_or_redo(
-        &mut self,
-        n: Option<&Expr>,
-        span: Span,
-        is_undo: bool,
-    ) -> Result<(), Diagnostic> {
-        let word = if is_undo { "undo" } else { "redo" };
-        self.must_stand_alone(word, span)?;
-        let n = n.map_or(Ok(1), |n| self.count(n, 1.0, 1e6, "commands"))? as usize;
-        let done = if is_undo { self.undo(n) } else { self.redo(n) };
-        if done == 0 {
-            return Err(Diagnostic::error(format!("nothing to {word}")).at(span, ""));
-        }
-        if done < n {
-            self.note(format!(
-                "only {done} commands could be {}",
-                if is_undo { "taken back" } else { "done again" }
-            ));
+        if n_done < n {
+            self.note(format!("only {n_done} commands could be {}", way.done));
         }
         Ok(())
     }
@@ -149,7 +124,24 @@ impl Session {
     }
 }
 
-/// A count for a message: nobody counts the zeros of a large round one.
-pub(super) fn format_count(value: f64) -> String {
-    if value.abs() >= 1e6 { format!("{value:e}") } else { crate::diag::format_number(value) }
+/// A way through the history, and how it is told.
+struct Walk {
+    word: &'static str,
+    step: fn(&mut History, &mut State) -> Option<String>,
+    told: fn(&str) -> String,
+    done: &'static str,
 }
+
+const UNDO: Walk = Walk {
+    word: "undo",
+    step: History::undo,
+    told: |label| format!("undid `{label}`"),
+    done: "taken back",
+};
+
+const REDO: Walk = Walk {
+    word: "redo",
+    step: History::redo,
+    told: |label| format!("did `{label}` again"),
+    done: "done again",
+};

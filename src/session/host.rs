@@ -1,7 +1,7 @@
 //! What a session needs of the world outside: somewhere to print, files, a clock, a way to stop it.
 
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use crate::diag::{Diagnostic, Sources};
 
@@ -24,32 +24,58 @@ pub trait Host {
         false
     }
 
+    /// Where a file that a script names is written, and found again; by default under its own
+    /// name, as [`contained`] gives it.
+    ///
+    /// # Errors
+    /// [`PermissionDenied`](io::ErrorKind::PermissionDenied) where scripts may not write.
+    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        contained(path)
+    }
+
     /// Reads a text.
     ///
     /// # Errors
     /// Where there is none, or it cannot be read.
     fn read(&mut self, path: &Path) -> io::Result<String>;
 
-    /// Writes a file whole or not at all, below the output folder if the path is relative;
+    /// Writes a file whole or not at all, at a place that [`resolve`](Self::resolve) gave;
     /// makes the folders it needs.
     ///
     /// # Errors
     /// Where it cannot be written.
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
-    /// The path under which a written file is found again.
-    fn written(&self, path: &Path) -> std::path::PathBuf;
-
-    /// Whether the user allowed paths outside the output folder.
-    fn allows_any_path(&self) -> bool {
-        false
-    }
-
     /// Told how much of a long piece of work is done, from 0 to 1.
     fn progress(&self, _share: f64) {}
 
     /// Seconds of wall time since some fixed moment; for promises and receipts only.
     fn seconds(&self) -> f64;
+}
+
+/// A relative path that stays below the folder it starts from, without its idle dots.
+///
+/// # Errors
+/// [`PermissionDenied`](io::ErrorKind::PermissionDenied) where it leads elsewhere.
+///
+/// ```
+/// use std::path::Path;
+/// use linkwork::session::contained;
+///
+/// assert_eq!(contained(Path::new("./out/a.svg")).unwrap(), Path::new("out/a.svg"));
+/// assert!(contained(Path::new("../a.svg")).is_err());
+/// assert!(contained(Path::new("/a.svg")).is_err());
+/// ```
+pub fn contained(path: &Path) -> io::Result<PathBuf> {
+    let mut inside = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::Normal(name) => inside.push(name),
+            Component::CurDir => {}
+            _ => return Err(io::Error::from(io::ErrorKind::PermissionDenied)),
+        }
+    }
+    Ok(inside)
 }
 
 /// Why a file could not be read or written, in a few words.
@@ -85,10 +111,6 @@ impl Host for Nowhere {
 
     fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
         Ok(())
-    }
-
-    fn written(&self, path: &Path) -> std::path::PathBuf {
-        path.to_path_buf()
     }
 
     fn seconds(&self) -> f64 {

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
-use super::Session;
-use super::commands::run::format_rounded;
 use super::commands::settings::SETTINGS;
-use crate::diag::format_number;
+use super::resolve::unbind::Unbind;
+use super::state::State;
+use super::summary::Summary;
+use crate::diag::{format_number, format_rounded};
 use crate::render::Options;
 
 /// The hash FNV-1a of 64 bits (G. Fowler, L. C. Noll, P. Vo).
@@ -15,7 +16,7 @@ fn fnv_1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
-impl Session {
+impl State {
     /// A hash of the scene: the same for the same settings, points at the start, parameters
     /// and constraints, however far it has run.
     pub fn scene_hash(&self) -> u64 {
@@ -39,12 +40,16 @@ impl Session {
             );
         }
         for id in self.parameters_in_order() {
-            let _ = writeln!(text, "{}", self.parameter_text(id));
+            let _ = writeln!(text, "{}", Unbind::of(&self.world).parameter_text(id));
         }
         for (_, record) in self.world.constraints() {
             let rho = record.rho().map(format_number).unwrap_or_default();
-            let _ =
-                writeln!(text, "{} on {} rho {rho}", self.constraint_text(record), record.is_on);
+            let _ = writeln!(
+                text,
+                "{} on {} rho {rho}",
+                Unbind::of(&self.world).constraint_text(record),
+                record.is_on
+            );
         }
         fnv_1a(text.as_bytes())
     }
@@ -56,9 +61,8 @@ impl Session {
         violations.fold(0.0, f64::max) / self.solver.size()
     }
 
-    /// What pictures of the present scene carry along.
-    pub(super) fn picture_options(&self) -> Options {
-        let run = self.run.as_ref().or(self.last_run.as_ref());
+    /// What pictures of the present scene carry along, if this was the last run.
+    pub(super) fn picture_options(&self, run: Option<&Summary>) -> Options {
         let tolerance = run.map_or(self.preferences.solve.tolerance, |run| run.tolerance);
         let residual = run.map_or_else(|| self.residual_now(), |run| run.worst_residual);
         let receipt = [

@@ -1,10 +1,10 @@
 //! A copy of the world at rest, for questions that must not touch the world itself.
 
-use super::Session;
-use super::commands::run::format_rounded;
+use super::state::State;
 use crate::constraint::{Constraint, ConstraintKind as _, Kind};
+use crate::diag::format_rounded;
 use crate::mobility::Scene;
-use crate::solve::{Budget, Report, Solver};
+use crate::solve::{Budget, Report, Settings, Solver};
 use crate::world::{ConstraintId, Entity, PointId, World};
 
 /// A settled copy of the world, as the analysis takes it.
@@ -16,6 +16,7 @@ pub(super) struct Settled {
     /// tolerance: what is told apart is sound from contradictory, not exact from nearly so.
     pub slack: f64,
     size: f64,
+    settings: Settings,
 }
 
 /// The constraints of a world that are switched on, and the inverse masses of its points.
@@ -47,6 +48,20 @@ impl Parts {
 }
 
 impl Settled {
+    /// A world brought to rest.
+    pub fn new(mut world: World, settings: &Settings) -> Self {
+        let mut solver = Solver::new();
+        let report = solver.settle(&mut world, settings, &Budget::default());
+        let size = solver.size();
+        let slack = settings.tolerance.max(1e-9) * size;
+        Self { parts: Parts::of(&world), world, report, slack, size, settings: *settings }
+    }
+
+    /// Another world brought to rest by the same settings.
+    pub fn with_world(&self, world: World) -> Self {
+        Self::new(world, &self.settings)
+    }
+
     pub fn with<T>(&self, ask: impl FnOnce(&Scene) -> T) -> T {
         self.parts.with(self.world.points().column(), ask)
     }
@@ -82,42 +97,9 @@ impl Settled {
     }
 }
 
-impl Session {
+impl State {
     /// The world at rest at the present time.
     pub(super) fn settled(&self) -> Settled {
-        self.settled_of(self.world.clone())
-    }
-
-    /// A world brought to rest.
-    pub(super) fn settled_of(&self, mut world: World) -> Settled {
-        let mut solver = Solver::new();
-        let report = solver.settle(&mut world, &self.preferences.solve, &Budget::default());
-        let size = solver.size();
-        let slack = self.preferences.solve.tolerance.max(1e-9) * size;
-        Settled { parts: Parts::of(&world), world, report, slack, size }
-    }
-}
-
-/// More names than this in one sentence are counted.
-const MOST_NAMES: usize = 8;
-
-/// The first of many names as a list in words: `a, b, c and 20 more`.
-pub(super) fn listed_first(names: &[String]) -> String {
-    if names.len() <= MOST_NAMES + 1 {
-        return listed(names, "and");
-    }
-    let (first, others) = names.split_at(MOST_NAMES);
-    format!("{} and {} more", first.join(", "), others.len())
-}
-
-/// Names as a list in words: `a`, `a and b`, `a, b and c`.
-pub(super) fn listed<S: AsRef<str>>(names: &[S], last: &str) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.as_ref().to_owned(),
-        [first @ .., end] => {
-            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
-            format!("{} {last} {}", first.join(", "), end.as_ref())
-        }
+        Settled::new(self.world.clone(), &self.preferences.solve)
     }
 }

@@ -24,7 +24,7 @@ mod method;
 
 pub use cost::{Effect, is_inequality, is_wheel};
 pub use dead_point::Halt;
-pub use island::snapshot::Memory;
+pub use island::memory::Memory;
 pub use report::{Budget, Counters, Report, Status};
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;

@@ -1,6 +1,6 @@
 //! The one setting to use, given what is wanted.
 
-use super::report::{Row, Study};
+use super::report::{RungResult, Study};
 
 /// What is wanted of a setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,19 +24,20 @@ impl Study {
     /// The setting that grants a wish: the fastest of those that are accurate enough, or the
     /// most accurate of those that are fast enough, and of equals the fastest.
     pub fn advice(&self, wish: Wish) -> Advice {
-        let error = |row: &Row| row.error(self.measure).max(self.floor);
+        let error = |row: &RungResult| row.error(self.measure).max(self.floor);
         let is_accurate =
-            |row: &Row| wish.within.is_none_or(|most| row.error(self.measure) <= most);
-        let is_fast = |row: &Row| wish.in_time.is_none_or(|most| row.seconds_per_frame <= most);
-        let by_time = |row: &Row| (row.seconds_per_frame, error(row));
-        let by_error = |row: &Row| (error(row), row.seconds_per_frame);
-        let best = |may: &dyn Fn(&Row) -> bool, key: &dyn Fn(&Row) -> (f64, f64)| {
+            |row: &RungResult| wish.within.is_none_or(|most| row.error(self.measure) <= most);
+        let is_fast =
+            |row: &RungResult| wish.in_time.is_none_or(|most| row.seconds_per_frame <= most);
+        let by_time = |row: &RungResult| (row.seconds_per_frame, error(row));
+        let by_error = |row: &RungResult| (error(row), row.seconds_per_frame);
+        let best = |may: &dyn Fn(&RungResult) -> bool, key: &dyn Fn(&RungResult) -> (f64, f64)| {
             let rows = self.rows.iter().enumerate().filter(|(_, row)| may(row));
             let rows = rows.map(|(k, row)| (k, key(row)));
             rows.min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
                 .map(|(k, _)| k)
         };
-        let grants = |row: &Row| is_accurate(row) && is_fast(row);
+        let grants = |row: &RungResult| is_accurate(row) && is_fast(row);
         let found =
             if wish.within.is_some() { best(&grants, &by_time) } else { best(&grants, &by_error) };
         match (found, wish.within) {

@@ -47,6 +47,13 @@ impl Hand {
     }
 }
 
+/// Moves points to where hands have them after `share` of their ways.
+pub fn move_by(hands: &[Hand], share: f64, world: &mut World) {
+    for hand in hands {
+        world.apply(Edit::Move(hand.point, hand.at(share)));
+    }
+}
+
 impl Course {
     /// The course of `world` from now on: time passes and nothing else happens.
     pub fn ahead(world: &World, memory: Memory, settings: Settings, n_frames: u64) -> Self {
@@ -172,17 +179,16 @@ impl<'a> Replay<'a> {
     /// A live expression that has no value then.
     pub fn frame(&mut self, settings: &Settings, budget: &Budget) -> Result<Report, Diagnostic> {
         let leg = self.course.legs.get(self.leg);
+        let hands = self.hands();
         let mut all: Option<Report> = None;
         for part in 1..=self.n_parts {
-            if let Some(leg) = leg {
-                let n_parts = f64::from(self.n_parts);
-                let done = self.n_done as f64 + f64::from(part) / n_parts;
-                for hand in &leg.hands {
-                    let to = hand.at(done / leg.n_frames as f64);
-                    self.world.apply(Edit::Move(hand.point, to));
-                }
-            }
-            let report = self.solver.step(&mut self.world, settings, budget)?;
+            let share = leg.map_or(0.0, |leg| {
+                let done = self.n_done as f64 + f64::from(part) / f64::from(self.n_parts);
+                done / leg.n_frames as f64
+            });
+            let report = self.solver.step(&mut self.world, settings, budget, |world| {
+                move_by(hands, share, world);
+            })?;
             let worst = all.get_or_insert(report);
             worst.status = worst.status.max(report.status);
             worst.residual = worst.residual.max(report.residual);

@@ -1,30 +1,13 @@
 //! The study itself: reference, one look at every rung, then rounds of timings.
 
 use super::course::Course;
-use super::reference::{self, Found, Reference};
-use super::report::{Cut, Measure, Row, Study, Why};
+use super::host::StudyHost;
+use super::reference::Reference;
+use super::reference_run::{self, FoundReference};
+use super::report::{Cut, ErrorMeasure, RungResult, Study, Why};
 use super::sample::Subject;
 use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
-
-/// What a study needs of the world outside.
-pub struct Outside<'a> {
-    /// Seconds since some fixed moment.
-    pub now: &'a dyn Fn() -> f64,
-    /// Whether to come to an end with what there is.
-    pub stop: &'a dyn Fn() -> bool,
-    /// Told how much is done, from 0 to 1.
-    pub progress: &'a dyn Fn(f64),
-    /// How long it may take, roughly, seconds.
-    pub seconds: f64,
-}
-
-impl Outside<'_> {
-    /// Why a run that is over is over.
-    pub(super) fn why_over(&self) -> Why {
-        if (self.stop)() { Why::Stopped } else { Why::TooSlow }
-    }
-}
 
 /// Rounds of timings a rung gets at least, unless time runs out.
 const LEAST_ROUNDS: usize = 5;
@@ -42,10 +25,10 @@ const LOOKED: f64 = 0.4;
 ///
 /// # Errors
 /// A live expression that has no value in the reference run.
-pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Study, Diagnostic> {
-    let begun = (outside.now)();
-    (outside.progress)(0.0);
-    let mut found = reference::of_motion(course, outside, REFERENCE_SHARE * outside.seconds)?;
+pub fn study(course: &Course, ladder: &[Rung], host: &StudyHost) -> Result<Study, Diagnostic> {
+    let begun = (host.now)();
+    (host.progress)(0.0);
+    let mut found = reference_run::of_motion(course, host, REFERENCE_SHARE * host.seconds)?;
     let mut notes = std::mem::take(&mut found.notes);
     let start;
     let mut subject = Subject { course, is_still: false, n_frames: found.n_frames };
@@ -58,15 +41,15 @@ pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Stud
         );
         start = course.at_the_start();
         subject = Subject { course: &start, is_still: true, n_frames: 1 };
-        found = reference::of_pose(&subject, outside)?;
+        found = reference_run::of_pose(&subject, host)?;
         notes.append(&mut found.notes);
     }
-    let Found { reference, .. } = found;
+    let FoundReference { reference, .. } = found;
     let mut study = Study {
         rows: Vec::new(),
         cuts: Vec::new(),
         notes,
-        measure: if reference.is_some() { Measure::Position } else { Measure::Residual },
+        measure: if reference.is_some() { ErrorMeasure::Position } else { ErrorMeasure::Residual },
         n_frames: subject.n_frames,
         is_still: subject.is_still,
         is_stopped: false,
@@ -74,8 +57,8 @@ pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Stud
         floor: reference.as_ref().map_or(f64::EPSILON, |reference| reference.error),
     };
     if subject.n_frames > 0 {
-        look(&subject, ladder, reference.as_ref(), outside, &mut study);
-        time(&subject, outside, begun, &mut study)?;
+        look(&subject, ladder, reference.as_ref(), host, &mut study);
+        time(&subject, host, begun, &mut study)?;
     }
     if study.rows.iter().all(|row| row.residual == 0.0) && study.is_still {
         study
@@ -83,9 +66,9 @@ pub fn study(course: &Course, ladder: &[Rung], outside: &Outside) -> Result<Stud
             .push("the pose satisfies everything as it is: there is nothing to solve".into());
     }
     study.mark_efficient();
-    study.is_stopped = (outside.stop)();
-    study.seconds = (outside.now)() - begun;
-    (outside.progress)(1.0);
+    study.is_stopped = (host.stop)();
+    study.seconds = (host.now)() - begun;
+    (host.progress)(1.0);
     Ok(study)
 }
 
@@ -94,25 +77,25 @@ fn look(
     subject: &Subject,
     ladder: &[Rung],
     reference: Option<&Reference>,
-    outside: &Outside,
+    host: &StudyHost,
     study: &mut Study,
 ) {
     for (k, &rung) in ladder.iter().enumerate() {
-        (outside.progress)(LOOKED * k as f64 / ladder.len() as f64);
+        (host.progress)(LOOKED * k as f64 / ladder.len() as f64);
         let is_after = |cut: &Cut| {
             cut.why == Why::TooSlow
                 && cut.rung.method == rung.method
                 && matches!(rung.step, Step::Iterations(_))
         };
-        let outcome = if (outside.stop)() {
+        let outcome = if (host.stop)() {
             Err(Why::Stopped)
         } else if study.cuts.iter().any(is_after) {
             Err(Why::TooSlow)
         } else {
-            subject.look(rung, reference, outside, RUNG_SHARE * outside.seconds)
+            subject.look(rung, reference, host, RUNG_SHARE * host.seconds)
         };
         match outcome {
-            Ok(outcome) => study.rows.push(Row {
+            Ok(outcome) => study.rows.push(RungResult {
                 rung,
                 settings: rung.settings(&subject.course.settings),
                 seconds_per_frame: outcome.seconds,
@@ -132,12 +115,12 @@ fn look(
 /// does falls on all of them; a rung whose median is stable rests.
 fn time(
     subject: &Subject,
-    outside: &Outside,
+    host: &StudyHost,
     begun: f64,
     study: &mut Study,
 ) -> Result<(), Diagnostic> {
     let mut samples: Vec<Vec<f64>> = vec![Vec::new(); study.rows.len()];
-    let is_over = || (outside.stop)() || (outside.now)() - begun > outside.seconds;
+    let is_over = || (host.stop)() || (host.now)() - begun > host.seconds;
     'rounds: for _ in 0..MOST_ROUNDS {
         let mut is_stable = true;
         for (row, samples) in study.rows.iter().zip(&mut samples) {
@@ -148,9 +131,9 @@ fn time(
                 break 'rounds;
             }
             is_stable = false;
-            samples.push(subject.time(row.rung, outside)?);
-            let by_time = ((outside.now)() - begun) / outside.seconds;
-            (outside.progress)((LOOKED + (1.0 - LOOKED) * by_time).min(1.0));
+            samples.push(subject.time(row.rung, host)?);
+            let by_time = ((host.now)() - begun) / host.seconds;
+            (host.progress)((LOOKED + (1.0 - LOOKED) * by_time).min(1.0));
         }
         if is_stable {
             break;

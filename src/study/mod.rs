@@ -7,19 +7,22 @@
 
 mod advice;
 mod course;
+mod host;
 mod measure;
 mod picture;
 mod reference;
+mod reference_run;
 mod report;
 mod sample;
 mod setting_ladder;
 mod table;
 
 pub use advice::{Advice, Wish};
-pub use course::{Course, Hand, Leg};
-pub use measure::{Outside, study};
+pub use course::{Course, Hand, Leg, move_by};
+pub use host::StudyHost;
+pub use measure::study;
 pub use picture::picture;
-pub use reference::freedoms;
-pub use report::{Cut, Measure, Row, Study, Why};
+pub use reference_run::freedoms;
+pub use report::{Cut, ErrorMeasure, RungResult, Study, Why};
 pub use setting_ladder::{Rung, Step, ladder};
-pub use table::{csv, format_seconds, json, table};
+pub use table::{csv, json, table};

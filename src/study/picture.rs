@@ -1,14 +1,14 @@
 //! A study as a picture: error against time a frame, one line a method.
 
-use super::report::{Row, Study};
-use crate::render::chart::{Axis, Chart, Mark, Series, Unit};
+use super::report::{RungResult, Study};
+use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::solve::Method;
 
 /// The picture, as SVG; `title` stands above it.
 pub fn picture(study: &Study, title: &str) -> String {
     // No logarithm shows an error of 0; what is below the floor is rounding anyway.
     let floor = study.floor.max(1e-16);
-    let mark = |row: &Row| Mark {
+    let datum = |row: &RungResult| Datum {
         x: row.seconds_per_frame,
         y: row.error(study.measure).max(floor),
         label: Some(row.rung.setting()),
@@ -16,18 +16,18 @@ pub fn picture(study: &Study, title: &str) -> String {
     };
     let line = |(k, method): (usize, Method)| {
         let rows = study.rows.iter().filter(|row| row.rung.method == method);
-        Series { name: method.word().to_owned(), look: k, marks: rows.map(mark).collect() }
+        Series { name: method.word().to_owned(), look: k, data: rows.map(datum).collect() }
     };
     let series: Vec<Series> = Method::ALL.into_iter().enumerate().map(line).collect();
-    let series = series.into_iter().filter(|series| !series.marks.is_empty()).collect();
-    let frontier = study.frontier().into_iter().map(|row| (mark(row).x, mark(row).y)).collect();
+    let series = series.into_iter().filter(|series| !series.data.is_empty()).collect();
+    let frontier = study.frontier().into_iter().map(|row| (datum(row).x, datum(row).y)).collect();
     let error = format!("{}, relative to the scene's size", study.measure.words());
     let time = if study.is_still { "time for the solve" } else { "time a frame" };
     Chart {
         title: title.to_owned(),
         subtitle: study.summary(),
-        x: Axis { label: time.to_owned(), is_log: true, unit: Unit::Seconds },
-        y: Axis { label: error, is_log: true, unit: Unit::None },
+        x: ChartAxis { label: time.to_owned(), is_log: true, unit: AxisUnit::Seconds },
+        y: ChartAxis { label: error, is_log: true, unit: AxisUnit::None },
         series,
         frontier,
         note: format!(

@@ -1,20 +1,20 @@
 //! What a study found.
 
-use super::reference::rounded;
 use super::setting_ladder::Rung;
+use crate::diag::format_digits;
 use crate::solve::Settings;
 
 /// What came of a study.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// A row for each rung that was run whole, in the order of the ladder.
-    pub rows: Vec<Row>,
+    pub rows: Vec<RungResult>,
     /// The rungs that were not.
     pub cuts: Vec<Cut>,
     /// What is shown and what is not, in words.
     pub notes: Vec<String>,
     /// What the errors of the rows are.
-    pub measure: Measure,
+    pub measure: ErrorMeasure,
     /// Frames of the motion; 1 for a pose.
     pub n_frames: u64,
     /// Whether a pose was solved, there being no motion.
@@ -29,14 +29,14 @@ pub struct Study {
 
 /// By what error rows are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
+pub enum ErrorMeasure {
     /// The position error: there is a reference.
     Position,
     /// The largest residual, for want of a reference.
     Residual,
 }
 
-impl Measure {
+impl ErrorMeasure {
     /// What it is called.
     pub const fn words(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Measure {
 
 /// What one setting costs and gives.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct RungResult {
     /// The method and its setting.
     pub rung: Rung,
     /// All settings it was run with.
@@ -69,12 +69,12 @@ pub struct Row {
     pub is_efficient: bool,
 }
 
-impl Row {
+impl RungResult {
     /// The error by which it is compared.
-    pub fn error(&self, measure: Measure) -> f64 {
+    pub fn error(&self, measure: ErrorMeasure) -> f64 {
         match measure {
-            Measure::Position => self.position_error.unwrap_or(f64::INFINITY),
-            Measure::Residual => self.residual,
+            ErrorMeasure::Position => self.position_error.unwrap_or(f64::INFINITY),
+            ErrorMeasure::Residual => self.residual,
         }
     }
 }
@@ -117,7 +117,7 @@ impl Study {
     /// Marks the rows that none is better than.
     pub(super) fn mark_efficient(&mut self) {
         let (measure, floor) = (self.measure, self.floor);
-        let place = |row: &Row| (row.seconds_per_frame, row.error(measure).max(floor));
+        let place = |row: &RungResult| (row.seconds_per_frame, row.error(measure).max(floor));
         let places: Vec<(f64, f64)> = self.rows.iter().map(place).collect();
         for (k, row) in self.rows.iter_mut().enumerate() {
             row.is_efficient = !is_beaten(&places, k);
@@ -125,8 +125,8 @@ impl Study {
     }
 
     /// The efficient rows, the fastest first.
-    pub fn frontier(&self) -> Vec<&Row> {
-        let mut rows: Vec<&Row> = self.rows.iter().filter(|row| row.is_efficient).collect();
+    pub fn frontier(&self) -> Vec<&RungResult> {
+        let mut rows: Vec<&RungResult> = self.rows.iter().filter(|row| row.is_efficient).collect();
         rows.sort_by(|a, b| a.seconds_per_frame.total_cmp(&b.seconds_per_frame));
         rows
     }
@@ -155,14 +155,18 @@ impl Study {
         let mut spreads: Vec<f64> = self.rows.iter().map(|row| row.spread).collect();
         spreads.sort_by(f64::total_cmp);
         let spread = spreads.get(spreads.len() / 2).copied().unwrap_or(0.0);
-        let good = format!("times good to about {} %", rounded(100.0 * spread));
+        let good = format!("times good to about {} %", format_digits(100.0 * spread, 2));
         let times = match (least, most) {
             (Some(1), Some(1)) => "each timed once".to_owned(),
             (Some(a), Some(b)) if a == b => format!("{a} rounds, {good}"),
             (Some(a), Some(b)) => format!("{a} to {b} rounds, {good}"),
             _ => "none timed".to_owned(),
         };
-        format!("{what}, {} settings, {times}, {} s in all", self.rows.len(), rounded(self.seconds))
+        format!(
+            "{what}, {} settings, {times}, {} s in all",
+            self.rows.len(),
+            format_digits(self.seconds, 2)
+        )
     }
 }
 

@@ -1,7 +1,7 @@
 //! One run of one rung: what it comes to, and how long it takes.
 
 use super::course::{Course, Replay};
-use super::measure::Outside;
+use super::host::StudyHost;
 use super::reference::Reference;
 use super::report::Why;
 use super::setting_ladder::{Rung, Step};
@@ -26,7 +26,7 @@ pub(super) struct Subject<'a> {
 }
 
 /// What a run came to.
-pub(super) struct Outcome {
+pub(super) struct RunOutcome {
     /// Seconds a frame, the median.
     pub seconds: f64,
     /// The largest residual of a frame.
@@ -43,20 +43,20 @@ impl Subject<'_> {
         &self,
         rung: Rung,
         reference: Option<&Reference>,
-        outside: &Outside,
+        host: &StudyHost,
         seconds: f64,
-    ) -> Result<Outcome, Why> {
+    ) -> Result<RunOutcome, Why> {
         let settings = rung.settings(&self.course.settings);
-        let begun = (outside.now)();
-        let is_over = || (outside.stop)() || (outside.now)() - begun > seconds;
+        let begun = (host.now)();
+        let is_over = || (host.stop)() || (host.now)() - begun > seconds;
         let budget = Budget { tolerance: None, stop: Some(&is_over) };
-        let mut outcome = Outcome {
+        let mut outcome = RunOutcome {
             seconds: 0.0,
             residual: 0.0,
             position_error: reference.map(|_| 0.0),
             n_failed: 0,
         };
-        let take = |outcome: &mut Outcome, world: &World, report: &Report, k: usize| {
+        let take = |outcome: &mut RunOutcome, world: &World, report: &Report, k: usize| {
             outcome.residual = outcome.residual.max(report.residual);
             outcome.n_failed += u64::from(report.status != Status::Converged);
             let error = reference.map(|reference| reference.error_of(world, k));
@@ -70,10 +70,10 @@ impl Subject<'_> {
         let no_value = |problem: Diagnostic| Why::NoValue(problem.message.to_string());
         if self.is_still {
             let (world, report, seconds) =
-                self.solve(&settings, rung.step, &budget, outside).map_err(no_value)?;
+                self.solve(&settings, rung.step, &budget, host).map_err(no_value)?;
             outcome.seconds = seconds;
             if is_over() {
-                return Err(outside.why_over());
+                return Err(host.why_over());
             }
             return if take(&mut outcome, &world, &report, 0) {
                 Ok(outcome)
@@ -84,11 +84,11 @@ impl Subject<'_> {
         let mut replay = Replay::new(self.course, 1);
         let mut times = Vec::with_capacity(self.n_frames as usize);
         for k in 0..self.n_frames {
-            let before = (outside.now)();
+            let before = (host.now)();
             let report = replay.frame(&settings, &budget).map_err(no_value)?;
-            times.push((outside.now)() - before);
+            times.push((host.now)() - before);
             if is_over() {
-                return Err(outside.why_over());
+                return Err(host.why_over());
             }
             if !take(&mut outcome, &replay.world, &report, k as usize) {
                 return Err(Why::Blown);
@@ -100,25 +100,25 @@ impl Subject<'_> {
 
     /// Runs a rung by the clock alone; gives the median of the times of its frames, seconds. A
     /// mean would tell of what else the machine was doing: that falls on few frames, but hard.
-    pub fn time(&self, rung: Rung, outside: &Outside) -> Result<f64, Diagnostic> {
+    pub fn time(&self, rung: Rung, host: &StudyHost) -> Result<f64, Diagnostic> {
         let settings = rung.settings(&self.course.settings);
-        let overhead = overhead(outside);
+        let overhead = overhead(host);
         let mut times;
         if self.is_still {
             times = Vec::with_capacity(MOST_SOLVES);
             let mut sum = 0.0;
             while sum < LEAST_SECONDS && times.len() < MOST_SOLVES {
-                let seconds = self.solve(&settings, rung.step, &Budget::default(), outside)?.2;
+                let seconds = self.solve(&settings, rung.step, &Budget::default(), host)?.2;
                 times.push(seconds);
                 sum += seconds;
             }
         } else {
             times = Vec::with_capacity(self.n_frames as usize);
             let mut replay = Replay::new(self.course, 1);
-            let mut before = (outside.now)();
+            let mut before = (host.now)();
             for _ in 0..self.n_frames {
                 replay.frame(&settings, &Budget::default())?;
-                let now = (outside.now)();
+                let now = (host.now)();
                 times.push(now - before);
                 before = now;
             }
@@ -130,11 +130,11 @@ impl Subject<'_> {
     pub fn solve_pose(
         &self,
         settings: &Settings,
-        outside: &Outside,
+        host: &StudyHost,
     ) -> Result<(World, Report), Diagnostic> {
-        let budget = Budget { tolerance: None, stop: Some(outside.stop) };
+        let budget = Budget { tolerance: None, stop: Some(host.stop) };
         let (world, report, _) =
-            self.solve(settings, Step::Tolerance(settings.tolerance), &budget, outside)?;
+            self.solve(settings, Step::Tolerance(settings.tolerance), &budget, host)?;
         Ok((world, report))
     }
 
@@ -143,7 +143,7 @@ impl Subject<'_> {
         settings: &Settings,
         step: Step,
         budget: &Budget,
-        outside: &Outside,
+        host: &StudyHost,
     ) -> Result<(World, Report, f64), Diagnostic> {
         let mut world = self.course.world().clone();
         let is_measured = world.is_measured();
@@ -155,7 +155,7 @@ impl Subject<'_> {
         let at_once = || true;
         let nothing = Budget { tolerance: None, stop: Some(&at_once) };
         solver.settle(&mut world, settings, &nothing);
-        let before = (outside.now)();
+        let before = (host.now)();
         let mut report = match step {
             Step::Iterations(n) => solver.relax(&mut world, settings, n.into()),
             Step::Tolerance(_) => solver.settle(&mut world, settings, budget),
@@ -163,17 +163,17 @@ impl Subject<'_> {
         if is_measured {
             solver.agree(&mut world, settings, budget, &mut report)?;
         }
-        let seconds = (outside.now)() - before;
+        let seconds = (host.now)() - before;
         Ok((world, report, seconds))
     }
 }
 
 /// What looking at the clock takes, seconds.
-fn overhead(outside: &Outside) -> f64 {
-    let mut before = (outside.now)();
+fn overhead(host: &StudyHost) -> f64 {
+    let mut before = (host.now)();
     let mut times = [0.0; 31];
     for time in &mut times {
-        let now = (outside.now)();
+        let now = (host.now)();
         *time = now - before;
         before = now;
     }

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::reference::rounded;
-use super::report::{Measure, Row, Study};
-use crate::diag::format_number;
+use super::report::{ErrorMeasure, RungResult, Study};
+use crate::diag::{format_digits, format_exponent, format_number, format_seconds};
 
 /// The table, a line a row; the efficient ones have a star.
 pub fn table(study: &Study) -> Vec<String> {
@@ -13,7 +12,8 @@ pub fn table(study: &Study) -> Vec<String> {
         "method", "setting", "time a frame", "+-", "residual", "position", "missed"
     )];
     for row in &study.rows {
-        let position = row.position_error.map_or_else(|| "-".to_owned(), error_text);
+        let position =
+            row.position_error.map_or_else(|| "-".to_owned(), |error| format_exponent(error, 2));
         lines.push(format!(
             "{} {:<11} {:>7} {:>12} {:>6} {:>10} {position:>10} {:>8}",
             if row.is_efficient { '*' } else { ' ' },
@@ -21,35 +21,20 @@ pub fn table(study: &Study) -> Vec<String> {
             row.rung.setting(),
             format_seconds(row.seconds_per_frame),
             format!("{:.0} %", 100.0 * row.spread),
-            error_text(row.residual),
+            format_exponent(row.residual, 2),
             row.n_failed,
         ));
     }
     lines.push(format!(
         "* efficient: no other setting is both faster and better by {}{}",
         study.measure.words(),
-        if study.measure == Measure::Position {
-            format!("; errors below {} are rounding", error_text(study.floor))
+        if study.measure == ErrorMeasure::Position {
+            format!("; errors below {} are rounding", format_exponent(study.floor, 2))
         } else {
             String::new()
         }
     ));
     lines
-}
-
-/// An error, two digits.
-fn error_text(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
-}
-
-/// A time with its unit, three digits: `1.25 us`.
-pub fn format_seconds(seconds: f64) -> String {
-    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
-    let (scale, unit) =
-        units.into_iter().find(|(scale, _)| seconds >= *scale).unwrap_or((1e-9, "ns"));
-    let value = seconds / scale;
-    let n_places = if value >= 100.0 { 0 } else { usize::from(value < 10.0) + 1 };
-    format!("{value:.n_places$} {unit}")
 }
 
 /// The rows as CSV, with a line of names.
@@ -67,8 +52,8 @@ pub fn csv(study: &Study) -> String {
             row.rung.method.word(),
             row.settings.iterations,
             format_number(row.settings.tolerance),
-            format_number(three_digits(row.seconds_per_frame)),
-            rounded(row.spread),
+            format_digits(row.seconds_per_frame, 3),
+            format_digits(row.spread, 2),
             row.n_rounds,
             format_number(row.residual),
             row.n_failed,
@@ -81,7 +66,7 @@ pub fn csv(study: &Study) -> String {
 /// The rows as a JSON list of objects. All their texts are words of the language, which need
 /// no escaping, and all numbers are finite.
 pub fn json(study: &Study) -> String {
-    let object = |row: &Row| {
+    let object = |row: &RungResult| {
         let position = row.position_error.map_or_else(|| "null".to_owned(), format_number);
         format!(
             "  {{\"method\": \"{}\", \"iterations\": {}, \"tolerance\": {}, \
@@ -90,7 +75,7 @@ pub fn json(study: &Study) -> String {
             row.rung.method.word(),
             row.settings.iterations,
             format_number(row.settings.tolerance),
-            format_number(three_digits(row.seconds_per_frame)),
+            format_digits(row.seconds_per_frame, 3),
             format_number(row.residual),
             row.n_failed,
             row.is_efficient
@@ -98,24 +83,4 @@ pub fn json(study: &Study) -> String {
     };
     let objects: Vec<String> = study.rows.iter().map(object).collect();
     if objects.is_empty() { "[]".to_owned() } else { format!("[\n{}\n]", objects.join(",\n")) }
-}
-
-/// A time is not known any better.
-fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::format_seconds;
-
-    #[test]
-    fn times_have_three_digits_and_a_unit() {
-        let check = |seconds: f64, wanted: &str| assert_eq!(format_seconds(seconds), wanted);
-        check(1.25, "1.25 s");
-        check(0.0123, "12.3 ms");
-        check(4.2e-6, "4.20 us");
-        check(3.21e-7, "321 ns");
-        check(0.0, "0.00 ns");
-    }
 }

@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::batch::{Batch, Made};
-use super::trace::Tail;
+use super::batch::{Batch, BatchRecords};
 use super::{
-    Clock, ConstraintId, Entity, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord,
-    Record, Trace, World,
+    Clock, ConstraintId, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord, Record, Trace,
 };
 use crate::constraint::Point;
 
@@ -27,9 +25,9 @@ pub enum Edit {
     /// Switches a constraint on, or off.
     Switch(ConstraintId, bool),
     /// Deletes points and constraints that were made one after the other.
-    Unmake(Batch),
+    DeleteBatch(Batch),
     /// Makes them again.
-    Make(Box<Made>),
+    RestoreBatch(Box<BatchRecords>),
     /// Makes a parameter, changes it, or deletes it.
     Parameter(ParameterId, Option<Box<Parameter>>),
     /// Sets the clock.
@@ -50,15 +48,15 @@ pub enum Edit {
 
 impl Edit {
     /// Whether it changes what there is, and not only where it is, when, or how it is shown.
-    const fn is_structural(&self) -> bool {
+    pub(super) const fn is_structural(&self) -> bool {
         match self {
             Self::Point(..)
             | Self::Freeze(..)
             | Self::Weight(..)
             | Self::Constraint(..)
             | Self::Switch(..)
-            | Self::Unmake(_)
-            | Self::Make(_)
+            | Self::DeleteBatch(_)
+            | Self::RestoreBatch(_)
             | Self::Parameter(..) => true,
             Self::Move(..)
             | Self::Clock(_)
@@ -72,163 +70,31 @@ impl Edit {
     }
 }
 
-impl World {
-    /// Makes an edit; gives the edit that takes it back.
-    ///
-    /// Names must be free and handles alive: whoever makes the edit has asked.
-    pub fn apply(&mut self, edit: Edit) -> Edit {
-        self.revision += u64::from(edit.is_structural());
-        match edit {
-            Edit::Point(id, record) => Edit::Point(id, self.swap_point(id, record)),
-            Edit::Move(id, at) => {
-                debug_assert!(at.is_finite(), "a position is finite");
-                self.touched.moved.push(id);
-                self.live.note_change();
-                Edit::Move(id, std::mem::replace(&mut self.points.at[id.idx()], at))
-            }
-            Edit::Freeze(id, frozen) => {
-                self.touched.points.push(id);
-                self.live.note_freeze();
-                Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
-            }
-            Edit::Weight(id, weight) => {
-                self.touched.points.push(id);
-                Edit::Weight(id, self.points.set_weight(id, weight))
-            }
-            Edit::Constraint(id, record) => Edit::Constraint(id, self.swap_constraint(id, record)),
-            Edit::Switch(id, on) => {
-                self.touched.constraints.push(id);
-                self.live.note_switch();
-                let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
-                Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
-            }
-            Edit::Unmake(batch) => Edit::Make(Box::new(self.unmake(batch))),
-            Edit::Make(made) => Edit::Unmake(self.make(*made)),
-            Edit::Parameter(id, parameter) => {
-                Edit::Parameter(id, self.swap_parameter(id, parameter))
-            }
-            Edit::Clock(clock) => {
-                self.live.note_change();
-                Edit::Clock(Box::new(std::mem::replace(&mut self.clock, *clock)))
-            }
-            Edit::Trace(idx, Some(trace)) => {
-                self.traces.insert(idx, *trace);
-                Edit::Trace(idx, None)
-            }
-            Edit::Trace(idx, None) => Edit::Trace(idx, Some(Box::new(self.traces.remove(idx)))),
-            Edit::Ghost(Some(ghost)) => {
-                self.ghosts.push(*ghost);
-                Edit::Ghost(None)
-            }
-            Edit::Ghost(None) => Edit::Ghost(self.ghosts.pop().map(Box::new)),
-            Edit::Start(id, at) => {
-                Edit::Start(id, std::mem::replace(&mut self.points.start[id.idx()], at))
-            }
-            Edit::StartState(id, state) => Edit::StartState(
-                id,
-                match state {
-                    Some(state) => self.start_states.insert(id, state.into_vec()),
-                    None => self.start_states.remove(&id),
-                }
-                .map(Vec::into_boxed_slice),
-            ),
-            Edit::StartStates(states) => {
-                Edit::StartStates(Box::new(std::mem::replace(&mut self.start_states, *states)))
-            }
-            Edit::Motion(motion) => Edit::Motion(Box::new(self.swap_motion(*motion))),
-        }
+impl Edit {
+    /// What an edit that deletes points or constraints deletes.
+    fn deletes(&self) -> Option<Batch> {
+        let mut batch = Batch::default();
+        match self {
+            Self::Point(id, None) => batch.points.extend(id.0),
+            Self::Constraint(id, None) => batch.constraints.extend(id.0),
+            Self::DeleteBatch(batch) => return Some(*batch),
+            _ => return None,
+        };
+        Some(batch)
     }
 
-    pub(super) fn swap_point(
-        &mut self,
-        id: PointId,
-        record: Option<Box<PointRecord>>,
-    ) -> Option<Box<PointRecord>> {
-        self.touched.points.push(id);
-        self.live.note_freeze();
-        let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
-            let old = self.points.remove(id);
-            self.index.remove(&old.name, Entity::Point(id));
-            Box::new(old)
-        });
-        if let Some(record) = record {
-            debug_assert!(record.at.is_finite(), "a position is finite");
-            self.index.insert(&record.name, Entity::Point(id));
-            self.points.insert(id, *record);
+    /// Takes in what deletes the point or constraint that was made right after those this one
+    /// deletes; false if that is not what `next` does.
+    pub fn absorb(&mut self, next: &Self) -> bool {
+        let Some(mut batch) = self.deletes() else { return false };
+        let fits = match next {
+            Self::Point(id, None) => batch.points.extend(id.0),
+            Self::Constraint(id, None) => batch.constraints.extend(id.0),
+            _ => false,
+        };
+        if fits {
+            *self = Self::DeleteBatch(batch);
         }
-        old
-    }
-
-    pub(super) fn swap_constraint(
-        &mut self,
-        id: ConstraintId,
-        record: Option<Box<Record>>,
-    ) -> Option<Box<Record>> {
-        self.touched.constraints.push(id);
-        let old = self.constraints.get(id.idx());
-        self.live.note_constraint(id, old, record.as_deref());
-        self.point_users.note_constraint(id, old, record.as_deref());
-        match (old, &record) {
-            (None, Some(new)) => {
-                self.n_constraints += 1;
-                self.index.insert(&new.name, Entity::Constraint(id));
-            }
-            (Some(old), None) => {
-                self.n_constraints -= 1;
-                self.index.remove(&old.name, Entity::Constraint(id));
-            }
-            (Some(old), Some(new)) => debug_assert_eq!(old.name, new.name, "a name stays"),
-            (None, None) => {}
-        }
-        let old = self.constraints.swap(id.idx(), record.map(|record| *record));
-        if old.is_none() {
-            self.note_start_state(id);
-        }
-        old.map(Box::new)
-    }
-
-    fn swap_parameter(
-        &mut self,
-        id: ParameterId,
-        parameter: Option<Box<Parameter>>,
-    ) -> Option<Box<Parameter>> {
-        let old = self.parameters.get(id.idx());
-        self.live.note_parameter(
-            id,
-            old.map(|p| (&p.formula, p.depends)),
-            parameter.as_ref().map(|p| (&p.formula, p.depends)),
-            id.idx() >= self.parameters.n_handles(),
-        );
-        let (was, is) = (old.map(|p| &p.formula), parameter.as_ref().map(|p| &p.formula));
-        self.point_users.note_parameter(id, was, is);
-        match (old, &parameter) {
-            (None, Some(new)) => self.index.insert(&new.name, Entity::Parameter(id)),
-            (Some(old), None) => self.index.remove(&old.name, Entity::Parameter(id)),
-            _ => {}
-        }
-        self.parameters.swap(id.idx(), parameter.map(|p| *p)).map(Box::new)
-    }
-
-    /// Empties the world; gives the edits that bring everything back, last first.
-    pub fn clear_edits(&self) -> Vec<Edit> {
-        let mut edits: Vec<Edit> = Vec::new();
-        edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
-        edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
-        edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
-        let mut parameters: Vec<_> =
-            self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();
-        parameters.reverse();
-        edits.extend(parameters);
-        edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));
-        edits.push(Edit::StartStates(Box::default()));
-        edits.push(Edit::Clock(Box::default()));
-        edits
-    }
-}
-
-impl World {
-    /// The traces and ghosts as they are, for a motion to go back to.
-    pub(super) fn tails(&self) -> (Vec<Tail<super::Sample>>, Tail<Ghost>) {
-        (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
+        fits
     }
 }

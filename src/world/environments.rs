@@ -29,7 +29,7 @@ impl<'a> Here<'a> {
     pub fn new(world: &'a World, rates: Option<&'a Rates>) -> Self {
         let mut here = Self { world, rates, values: BTreeMap::new() };
         if rates.is_some() {
-            for &id in world.live.order() {
+            for &id in world.dependencies.order() {
                 let parameter = world.parameter(id).expect("a listed parameter lives");
                 if parameter.depends.on_rates {
                     let value = parameter.formula.evaluate(&here);
@@ -50,7 +50,7 @@ impl Environment<f64> for Here<'_> {
         if let Some(value) = self.values.get(&id) {
             return value.clone();
         }
-        Err(self.world.live.failure(id).cloned().unwrap_or_else(|| {
+        Err(self.world.dependencies.failure(id).cloned().unwrap_or_else(|| {
             Diagnostic::error(format!("`{}` follows from a velocity", parameter.name))
                 .at(parameter.formula.span(), "a velocity cannot be had here")
                 .help("use it in `print`, `assert`, or a parameter that these use")
@@ -85,7 +85,7 @@ impl<'a> Moving<'a> {
     /// The world as it stands, live parameters being up to date, with the rates of its points.
     pub fn new(world: &'a World, rates: &'a Rates) -> Self {
         let mut moving = Self { world, rates, values: BTreeMap::new() };
-        for &id in world.live.order() {
+        for &id in world.dependencies.order() {
             let parameter = world.parameter(id).expect("a listed parameter lives");
             if !parameter.depends.on_rates {
                 let value = parameter.formula.evaluate(&moving);

@@ -40,7 +40,7 @@ impl World {
         let value = if depends.on_rates { None } else { Some(self.evaluate(&formula, None)?) };
         let record = Parameter { name, formula, value, depends };
         undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
-        if self.live.users(id).next().is_none() {
+        if self.dependencies.users(id).next().is_none() {
             return Ok(());
         }
         self.refresh_parameters();
@@ -70,7 +70,7 @@ impl World {
         let mut is_seen = vec![false; self.parameters.n_handles()];
         // Depth first: a parameter is finished after all its users, so that the reverse order
         // is the order of evaluation.
-        let mut stack = vec![(id, self.live.users(id))];
+        let mut stack = vec![(id, self.dependencies.users(id))];
         while let Some((at, users)) = stack.last_mut() {
             match users.next() {
                 None => {
@@ -80,7 +80,7 @@ impl World {
                 Some(User::Constraint(c)) => constraints.push(c),
                 Some(User::Parameter(p)) => {
                     if !std::mem::replace(&mut is_seen[p.idx()], true) {
-                        stack.push((p, self.live.users(p)));
+                        stack.push((p, self.dependencies.users(p)));
                     }
                 }
             }
@@ -108,18 +108,18 @@ impl World {
     /// # Errors
     /// Where an expression has no value, or one that its constraint cannot have.
     pub fn refresh(&mut self) -> Result<(), Diagnostic> {
-        self.live.note_change();
+        self.dependencies.note_change();
         self.sort_parameters();
         self.sort_constraints();
-        if self.live.is_idle() {
+        if self.dependencies.is_idle() {
             return Ok(());
         }
         self.refresh_parameters();
-        if let Some(why) = self.live.first_failure() {
+        if let Some(why) = self.dependencies.first_failure() {
             return Err(why.clone());
         }
-        for k in 0..self.live.driven().len() {
-            self.refresh_constraint(self.live.driven()[k])?;
+        for k in 0..self.dependencies.driven().len() {
+            self.refresh_constraint(self.dependencies.driven()[k])?;
         }
         Ok(())
     }
@@ -129,12 +129,12 @@ impl World {
     /// changes a run.
     pub(super) fn refresh_parameters(&mut self) {
         self.sort_parameters();
-        if !self.live.take_stale() {
+        if !self.dependencies.take_stale() {
             return;
         }
-        self.live.forget_failures();
-        for k in 0..self.live.order().len() {
-            let id = self.live.order()[k];
+        self.dependencies.forget_failures();
+        for k in 0..self.dependencies.order().len() {
+            let id = self.dependencies.order()[k];
             let parameter = self.parameter(id).expect("a listed parameter lives");
             if parameter.depends.on_rates {
                 continue;
@@ -143,7 +143,7 @@ impl World {
             let parameter = self.parameters.get_mut(id.idx()).expect("a listed parameter lives");
             parameter.value = value.as_ref().ok().copied();
             if let Err(why) = value {
-                self.live.fail(id, why);
+                self.dependencies.fail(id, why);
             }
         }
     }
@@ -175,13 +175,13 @@ impl World {
     /// frame has to be solved until both agree.
     pub fn is_mutual(&mut self) -> bool {
         self.sort_constraints();
-        self.live.is_mutual()
+        self.dependencies.is_mutual()
     }
 
     /// Whether some constraint's value is measured on points, of whatever kind.
     pub fn is_measured(&mut self) -> bool {
         self.sort_constraints();
-        !self.live.measured().is_empty()
+        !self.dependencies.measured().is_empty()
     }
 
     /// Evaluates anew what is measured on the pose; gives the largest change of a value.
@@ -189,12 +189,12 @@ impl World {
     /// # Errors
     /// Where an expression has no value in this pose.
     pub fn refresh_measured(&mut self) -> Result<f64, Diagnostic> {
-        self.live.note_change();
+        self.dependencies.note_change();
         self.refresh_parameters();
         self.sort_constraints();
         let mut change = 0.0_f64;
-        for k in 0..self.live.measured().len() {
-            change = change.max(self.refresh_constraint(self.live.measured()[k])?);
+        for k in 0..self.dependencies.measured().len() {
+            change = change.max(self.refresh_constraint(self.dependencies.measured()[k])?);
         }
         Ok(change)
     }
@@ -212,7 +212,7 @@ impl World {
         self.sort_constraints();
         let moving = Moving::new(self, rates);
         let mut all = Vec::new();
-        for &id in self.live.driven() {
+        for &id in self.dependencies.driven() {
             let record = self.constraint(id).expect("a listed constraint lives");
             for (field, formula) in record.drivers() {
                 all.push((id, *field, coordinate(*field, formula.evaluate(&moving)?)));

@@ -1,9 +1,9 @@
 //! Expressions bound to what they name: live formulas over points, parameters and time.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
-use super::{Function, ParameterId, PointId, Shape};
+use super::{Function, Operator, ParameterId, PointId, Shape, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
 
@@ -12,7 +12,7 @@ const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
 
 /// An expression whose names are resolved; cheap to clone.
 #[derive(Debug, Clone)]
-pub struct Formula(Rc<Inner>);
+pub struct Formula(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
@@ -45,30 +45,6 @@ pub enum Node {
     Y(Formula),
     /// A function of its arguments.
     Call(Function, Box<[Formula]>),
-}
-
-/// An arithmetic operation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Operator {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-}
-
-impl Operator {
-    /// The sign in the language.
-    pub const fn sign(self) -> &'static str {
-        match self {
-            Self::Add => "+",
-            Self::Subtract => "-",
-            Self::Multiply => "*",
-            Self::Divide => "/",
-            Self::Power => "^",
-        }
-    }
 }
 
 /// What can change the value of a formula.
@@ -108,49 +84,6 @@ impl Depends {
     }
 }
 
-/// A value of an expression over any kind of number.
-#[derive(Debug, Clone, Copy)]
-pub enum Value<T = f64> {
-    /// A number.
-    Number(T),
-    /// A vector.
-    Vector(Vec2<T>),
-}
-
-impl<T: Real> Value<T> {
-    /// What it is.
-    pub const fn shape(&self) -> Shape {
-        match self {
-            Self::Number(_) => Shape::Number,
-            Self::Vector(_) => Shape::Vector,
-        }
-    }
-
-    /// Whether it holds neither an infinity nor not-a-number.
-    pub fn is_finite(self) -> bool {
-        match self {
-            Self::Number(n) => n.value().is_finite(),
-            Self::Vector(v) => v.x.value().is_finite() && v.y.value().is_finite(),
-        }
-    }
-
-    /// The number; formulas are checked for shape when they are bound.
-    pub fn number(self) -> T {
-        match self {
-            Self::Number(n) => n,
-            Self::Vector(_) => unreachable!("shapes are checked when a formula is bound"),
-        }
-    }
-
-    /// The vector; formulas are checked for shape when they are bound.
-    pub fn vector(self) -> Vec2<T> {
-        match self {
-            Self::Vector(v) => v,
-            Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
-        }
-    }
-}
-
 /// Where a formula finds what it mentions.
 pub trait Environment<T: Real> {
     /// The value of a parameter.
@@ -174,7 +107,7 @@ impl Formula {
 
     /// A node with its shape, what it depends on and its place in the text.
     pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
-        Self(Rc::new(Inner { node, shape, depends, span }))
+        Self(Arc::new(Inner { node, shape, depends, span }))
     }
 
     /// The tree.
@@ -199,7 +132,7 @@ impl Formula {
 
     /// Whether two handles show the same formula.
     pub fn is_same(&self, other: &Self) -> bool {
-        Rc::ptr_eq(&self.0, &other.0)
+        Arc::ptr_eq(&self.0, &other.0)
     }
 
     /// Calls `visit` for each point and parameter it mentions.

@@ -3,188 +3,56 @@
 //! All edits go through [`World::apply`], which gives the edit that takes it back. Nothing
 //! here iterates towards a solution, parses, prints or holds a number that is not finite.
 
-mod arithmetic;
-mod batch;
+// What there is.
 mod clock;
+mod id;
+mod name;
+mod points;
+mod records;
+mod state;
+mod touched;
+mod trace;
+
+// Who has which name, and who uses whom.
+mod name_index;
+mod names;
+mod point_users;
+mod user;
+mod users;
+
+// Expressions, their values, and what they depend on.
+mod arithmetic;
 mod dependencies;
-mod edit;
+mod dependency_order;
 mod environments;
 mod evaluate;
 mod formula;
 mod function;
-mod id;
+mod value;
+
+// Edits, and time going on.
+mod apply;
+mod batch;
+mod edit;
 mod motion;
-mod name;
-mod names;
-mod points;
-mod records;
 mod same;
-mod touched;
-mod trace;
-mod users;
+mod unchanged;
 
 pub use arithmetic::{call, operate};
-pub use batch::{Batch, Made};
+pub use batch::{Batch, BatchRecords};
 pub use clock::Clock;
 pub use edit::Edit;
 pub use environments::Rates;
-pub use formula::{Depends, Environment, Formula, Mention, Node, Operator, Value};
+pub use formula::{Depends, Environment, Formula, Mention, Node};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 pub use motion::Motion;
 pub use name::Word;
-pub use names::Names;
+pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
+pub use state::World;
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
-pub use users::User;
-
-use std::collections::BTreeMap;
-
-use crate::constraint::{Constraint, Point};
-use records::Table;
-
-/// Everything a script has made, and the time it is.
-#[derive(Debug, Clone, Default)]
-pub struct World {
-    points: Points,
-    constraints: Table<Record>,
-    n_constraints: usize,
-    parameters: Table<Parameter>,
-    index: names::Index,
-    clock: Clock,
-    /// The state of motors and wheels when the clock left 0, or at birth if made later.
-    start_states: BTreeMap<ConstraintId, Vec<f64>>,
-    traces: Vec<Trace>,
-    ghosts: Vec<Ghost>,
-    live: dependencies::Live,
-    point_users: users::PointUsers,
-    touched: Box<Touched>,
-    revision: u64,
-}
-
-impl World {
-    /// An empty world at time 0.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// The points.
-    pub const fn points(&self) -> &Points {
-        &self.points
-    }
-
-    /// The constraints, in order of creation.
-    pub fn constraints(&self) -> impl DoubleEndedIterator<Item = (ConstraintId, &Record)> {
-        self.constraints.iter().map(|(k, record)| (ConstraintId::new(k), record))
-    }
-
-    /// How many constraints there are.
-    pub const fn n_constraints(&self) -> usize {
-        self.n_constraints
-    }
-
-    /// One constraint, if it exists.
-    pub fn constraint(&self, id: ConstraintId) -> Option<&Record> {
-        self.constraints.get(id.idx())
-    }
-
-    /// The parameters, in order of creation.
-    pub fn parameters(&self) -> impl Iterator<Item = (ParameterId, &Parameter)> {
-        self.parameters.iter().map(|(k, parameter)| (ParameterId::new(k), parameter))
-    }
-
-    /// One parameter, if it exists.
-    pub fn parameter(&self, id: ParameterId) -> Option<&Parameter> {
-        self.parameters.get(id.idx())
-    }
-
-    /// Who has which name.
-    pub const fn names(&self) -> Names<'_> {
-        Names(self)
-    }
-
-    /// The name of an entity.
-    pub fn name_of(&self, entity: Entity) -> &str {
-        self.word_of(entity)
-    }
-
-    fn word_of(&self, entity: Entity) -> &Word {
-        match entity {
-            Entity::Point(id) => self.points.word(id),
-            Entity::Constraint(id) => {
-                &self.constraint(id).expect("a handle of a living constraint").name
-            }
-            Entity::Parameter(id) => {
-                &self.parameter(id).expect("a handle of a living parameter").name
-            }
-        }
-    }
-
-    /// The clock.
-    pub const fn clock(&self) -> &Clock {
-        &self.clock
-    }
-
-    /// Counts the edits that changed what there is: while it stays the same, a motion can be
-    /// gone back to.
-    pub const fn revision(&self) -> u64 {
-        self.revision
-    }
-
-    /// The traces, in the order they were asked for.
-    pub fn traces(&self) -> &[Trace] {
-        &self.traces
-    }
-
-    /// The ghosts, the oldest first.
-    pub fn ghosts(&self) -> &[Ghost] {
-        &self.ghosts
-    }
-
-    /// A handle for a point to be made.
-    pub fn next_point(&self) -> PointId {
-        PointId::new(self.points.column().len())
-    }
-
-    /// A handle for a constraint to be made.
-    pub fn next_constraint(&self) -> ConstraintId {
-        ConstraintId::new(self.constraints.n_handles())
-    }
-
-    /// A handle for a parameter to be made.
-    pub fn next_parameter(&self) -> ParameterId {
-        ParameterId::new(self.parameters.n_handles())
-    }
-
-    /// Whether nothing changed since it was last asked what did.
-    pub fn is_untouched(&self) -> bool {
-        self.touched.is_empty()
-    }
-
-    /// What changed since this was last asked for. `room` lends its lists to what comes next.
-    pub fn take_touched(&mut self, mut room: Box<Touched>) -> Box<Touched> {
-        room.clear();
-        let mut touched = std::mem::replace(&mut self.touched, room);
-        if touched.all {
-            touched.clear();
-            touched.all = true;
-        }
-        touched
-    }
-
-    /// Puts a point where the solver found it. A position that is not finite is refused and
-    /// the one before kept.
-    pub fn set_position(&mut self, id: PointId, at: Point) {
-        if at.is_finite() {
-            self.points.at[id.idx()] = at;
-            self.live.note_change();
-        }
-    }
-
-    /// The relation as the solver carries it on: unwrapped angles and the like. Not for edits.
-    pub fn constraint_state_mut(&mut self, id: ConstraintId) -> &mut Constraint {
-        &mut self.constraints.get_mut(id.idx()).expect("a handle of a living constraint").constraint
-    }
-}
+pub use user::User;
+pub use value::{Operator, Value};

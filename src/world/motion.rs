@@ -1,26 +1,23 @@
 //! Time going on: what a frame advances, and all that running changes as one piece of data.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
-use super::same::{are_same_places, are_same_states};
+use super::same::{States, are_same_places, are_same_states};
 use super::trace::Tail;
-use super::{Clock, ConstraintId, Edit, Ghost, Sample, World};
+use super::{Clock, ConstraintId, Ghost, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 use crate::diag::Diagnostic;
-
-/// By constraint, the numbers that running changes of it.
-pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
 
 /// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.
 /// One of these takes a whole run back, however many frames it had. Copies share what is large.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    at: Rc<Vec<Point>>,
-    start: Rc<Vec<Point>>,
-    start_states: Rc<States>,
+    at: Arc<Vec<Point>>,
+    start: Arc<Vec<Point>>,
+    start_states: Arc<States>,
     clock: Clock,
-    states: Rc<States>,
+    states: Arc<States>,
     /// Constraints with live values, which a frame sets: whole.
     driven: Vec<(ConstraintId, Constraint)>,
     traces: Vec<Tail<Sample>>,
@@ -38,18 +35,23 @@ impl Motion {
 }
 
 impl World {
+    /// The traces and ghosts as they are, for a motion to go back to.
+    fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
+        (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
+    }
+
     /// All that running changes, as it is now.
     pub fn motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
-        let at = Rc::new(self.points.at.clone());
+        let at = Arc::new(self.points.at.clone());
         let is_at_start = are_same_places(&self.points.start, &self.points.at);
-        let start = if is_at_start { at.clone() } else { Rc::new(self.points.start.clone()) };
+        let start = if is_at_start { at.clone() } else { Arc::new(self.points.start.clone()) };
         Motion {
             at,
             start,
-            start_states: Rc::new(self.start_states.clone()),
+            start_states: Arc::new(self.start_states.clone()),
             clock: self.clock,
-            states: Rc::new(self.states()),
+            states: Arc::new(self.states()),
             driven: self.driven(),
             traces,
             ghosts,
@@ -111,13 +113,13 @@ impl World {
             start: exchange(&mut self.points.start, motion.start),
             start_states: exchange(&mut self.start_states, motion.start_states),
             clock: std::mem::replace(&mut self.clock, motion.clock),
-            states: Rc::new(states),
+            states: Arc::new(states),
             driven,
             traces,
             ghosts: motion.ghosts.swap(&mut self.ghosts),
         };
         self.touched.all = true;
-        self.live.note_change();
+        self.dependencies.note_change();
         old
     }
 
@@ -155,8 +157,8 @@ impl World {
         self.clock.tick();
         self.refresh()?;
         let dt = self.clock.dt;
-        for k in 0..self.live.motors().len() {
-            let id = self.live.motors()[k];
+        for k in 0..self.dependencies.motors().len() {
+            let id = self.dependencies.motors()[k];
             if self.constraint_state_mut(id).advance(dt) {
                 self.touched.values.push(id);
             }
@@ -174,12 +176,6 @@ impl World {
         }
     }
 
-    /// The edit that keeps a ghost of the mechanism as it stands.
-    pub fn expose(&self) -> Edit {
-        let at = self.points.ids().map(|id| (id, self.points.at(id))).collect();
-        Edit::Ghost(Some(Box::new(Ghost { at })))
-    }
-
     /// What `reset` brings back to a constraint that is made while the clock is running.
     pub(super) fn note_start_state(&mut self, id: ConstraintId) {
         if self.clock.frame > 0
@@ -191,11 +187,6 @@ impl World {
         }
     }
 
-    /// The edit that makes `reset` bring back a constraint as if it had been this at the start.
-    pub fn begin_with(&self, id: ConstraintId, constraint: &Constraint) -> Edit {
-        Edit::StartState(id, whole_state(constraint).map(Vec::into_boxed_slice))
-    }
-
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
@@ -204,7 +195,7 @@ impl World {
 
 /// The state of a constraint, then how wheels meshed for it and their ratio: `reset` undoes
 /// what a gear change or switching on made of the mesh.
-fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
+pub(super) fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
     let mut whole = constraint.state()?;
     whole.extend(constraint.captured());
     whole.extend(constraint.get(Field::Ratio));
@@ -233,12 +224,12 @@ fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
 }
 
 /// Puts `new` in a place; gives what was there.
-fn exchange<T: Clone>(place: &mut T, new: Rc<T>) -> Rc<T> {
-    Rc::new(std::mem::replace(place, Rc::unwrap_or_clone(new)))
+fn exchange<T: Clone>(place: &mut T, new: Arc<T>) -> Arc<T> {
+    Arc::new(std::mem::replace(place, Arc::unwrap_or_clone(new)))
 }
 
 /// Gives up a copy for what it is equal to by this measure.
-fn share<T>(copy: &mut Rc<T>, with: &Rc<T>, is_same: impl Fn(&T, &T) -> bool) {
+fn share<T>(copy: &mut Arc<T>, with: &Arc<T>, is_same: impl Fn(&T, &T) -> bool) {
     if is_same(copy, with) {
         copy.clone_from(with);
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::ops::Deref;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The text of a name, cheap to clone. Up to [`SHORT`] bytes need no room of their own.
 #[derive(Clone)]
@@ -14,7 +14,7 @@ const SHORT: usize = 22;
 #[derive(Clone)]
 enum Kept {
     Short(u8, [u8; SHORT]),
-    Long(Rc<str>),
+    Long(Arc<str>),
 }
 
 impl Word {

@@ -1,38 +1,15 @@
-//! Edits that would change nothing.
+//! What is the same to the bit: 0 and -0 differ.
 
-use super::motion::States;
-use super::{Edit, Parameter, Record, Value, World};
+use std::collections::BTreeMap;
+
+use super::{ConstraintId, Parameter, Record, Value};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 
-impl World {
-    /// Whether an edit would leave everything as it is. Says no where that is not seen at once.
-    pub fn is_already(&self, edit: &Edit) -> bool {
-        match edit {
-            Edit::Move(id, at) => same_place(&self.points.at(*id), at),
-            Edit::Start(id, at) => same_place(&self.points.start(*id), at),
-            Edit::Freeze(id, is_frozen) => self.points.is_frozen(*id) == *is_frozen,
-            Edit::Weight(id, weight) => self.points.weight(*id) == *weight,
-            Edit::Switch(id, is_on) => self.constraint(*id).is_some_and(|r| r.is_on == *is_on),
-            Edit::Constraint(id, Some(then)) => {
-                self.constraint(*id).is_some_and(|now| is_same_record(now, then))
-            }
-            Edit::Parameter(id, Some(then)) => {
-                self.parameter(*id).is_some_and(|now| is_same_number(now, then))
-            }
-            Edit::Clock(clock) => **clock == self.clock,
-            Edit::StartState(id, state) => {
-                self.start_states.get(id).map(|state| bits(state)) == state.as_deref().map(bits)
-            }
-            Edit::StartStates(states) => are_same_states(states, &self.start_states),
-            Edit::Motion(motion) => self.is_at(motion),
-            _ => false,
-        }
-    }
-}
+/// By constraint, the numbers that running changes of it.
+pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
 
-// The same means to the bit: 0 and -0 differ.
-
-fn bits(numbers: &[f64]) -> Vec<u64> {
+/// The bits of some numbers.
+pub(super) fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
@@ -53,8 +30,9 @@ pub(super) fn are_same_states(a: &States, b: &States) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(is_same)
 }
 
-/// A record that stays in being keeps its name; one with live values counts as changed.
-fn is_same_record(a: &Record, b: &Record) -> bool {
+/// Whether two records say the same. One that stays in being keeps its name; one with live values
+/// counts as changed.
+pub(super) fn is_same_record(a: &Record, b: &Record) -> bool {
     let is_plain = a.drivers().is_empty() && b.drivers().is_empty();
     is_plain
         && (a.is_on, a.rho()) == (b.is_on, b.rho())
@@ -69,7 +47,8 @@ fn numbers(constraint: &Constraint) -> Vec<u64> {
     values.chain(state).chain(constraint.captured()).map(f64::to_bits).collect()
 }
 
-fn is_same_number(a: &Parameter, b: &Parameter) -> bool {
+/// Whether two parameters that nothing changes have the same number.
+pub(super) fn is_same_number(a: &Parameter, b: &Parameter) -> bool {
     let is_fixed = |p: &Parameter| p.formula.depends().is_constant() && p.depends.is_constant();
     let number = |p: &Parameter| match p.value {
         Some(Value::Number(number)) => Some(number.to_bits()),

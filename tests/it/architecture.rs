@@ -37,7 +37,7 @@ const HOMES: [(&str, &[&str]); 13] = [
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/lower/"]),
     ("rayon", &["solve/parallel.rs", "cli/run.rs"]),
-    ("rustc_hash", &["world/names.rs"]),
+    ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("serde_json", &["cli/", "session/"]),
     ("svg", &["render/"]),

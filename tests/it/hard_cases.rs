@@ -118,7 +118,7 @@ struct Made {
 
 fn make(text: &str, method: Method, most: Option<f64>) -> Made {
     let mut talking = Talking::after(&format!("set method {}", method.word()));
-    talking.talk.tick(1.0);
+    talking.talk.tick = 1.0;
     let source = talking.session.add_source("hard", text, Some(folder()));
     let mut made = Made {
         is_finite: true,
@@ -135,7 +135,7 @@ fn make(text: &str, method: Method, most: Option<f64>) -> Made {
         talking.talk.told();
         let frame = talking.session.world().clock().frame;
         // A script may be right to be refused, where it says so.
-        if talking.session.execute(&statement).is_err() {
+        if talking.session.execute(&statement, &mut talking.talk).is_err() {
             continue;
         }
         made.look(&talking.session);
@@ -236,7 +236,7 @@ fn no_sound_script_is_told_to_have_changed_branch() {
             let text = std::fs::read_to_string(&path).unwrap();
             let source = talking.session.add_source("script", &text, Some(root.join(folder)));
             // Whether it holds is not asked here.
-            let _ = talking.session.execute_all(source);
+            let _ = talking.session.execute_all(source, &mut talking.talk);
             let told = talking.talk.told();
             let alarm = told.iter().find(|told| told.contains("changed branch"));
             assert_eq!(alarm, None, "{}", path.display());
@@ -287,7 +287,7 @@ fn table() -> String {
         let cell = |method: Method| {
             let mut talking = Talking::after(&format!("set method {}", method.word()));
             let source = talking.session.add_source("hard", text, Some(folder()));
-            let holds = match talking.session.execute_all(source) {
+            let holds = match talking.session.execute_all(source, &mut talking.talk) {
                 Ok(_) => "holds",
                 Err(_) => "**fails**",
             };

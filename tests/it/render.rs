@@ -47,14 +47,14 @@ const EVERY_KIND: &str = "
 ";
 
 fn session(script: &str) -> Session {
-    let mut session = Session::new(Box::new(Nowhere));
+    let mut session = Session::new();
     run(&mut session, script);
     session
 }
 
 fn run(session: &mut Session, script: &str) {
     let source = session.add_source("test", script, None);
-    if let Err(problem) = session.execute_all(source) {
+    if let Err(problem) = session.execute_all(source, &mut Nowhere) {
         panic!("{problem:?}\nin {script}");
     }
 }

@@ -15,21 +15,21 @@ const GUILLOCHE: u64 = 0x8974_5ea7_266c_97b8;
 fn guilloche() -> Session {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/paper/guilloche.link");
     let text = fs::read_to_string(path).unwrap();
-    let mut session = Session::new(Box::new(Nowhere));
+    let mut session = Session::new();
     let source = session.add_source("guilloche", &text, None);
     for statement in linkwork::lang::parse(source, &text) {
         let statement = statement.unwrap();
         if matches!(statement.command, Command::Step { .. }) {
             return session;
         }
-        session.execute(&statement).unwrap();
+        session.execute(&statement, &mut Nowhere).unwrap();
     }
     panic!("the script runs");
 }
 
 fn execute(session: &mut Session, text: &str) {
     let source = session.add_source("test", text, None);
-    session.execute_all(source).unwrap();
+    session.execute_all(source, &mut Nowhere).unwrap();
 }
 
 /// FNV-1a over the bits of all coordinates.
@@ -69,7 +69,7 @@ fn the_order_of_constraints_does_not_matter() {
         "slide: glider F on A D",
     ];
     let ends = |order: &[usize]| {
-        let mut session = Session::new(Box::new(Nowhere));
+        let mut session = Session::new();
         let points = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 2.9)
              point E = (2, 3), F = (3, 0)";
         execute(&mut session, points);

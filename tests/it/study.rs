@@ -1,80 +1,34 @@
 //! The study of accuracy against time, from scenes to words; no time is asserted.
 
-use std::cell::{Cell, RefCell};
-use std::io;
-use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::path::Path;
 
-use linkwork::diag::{Diagnostic, Kind, Sources};
-use linkwork::session::{Flow, Host, Session, Telling};
+use linkwork::diag::{Diagnostic, Kind};
+use linkwork::session::{Flow, Session, Telling};
 
-/// What a session said and wrote.
-#[derive(Default)]
-struct Record {
-    printed: RefCell<Vec<String>>,
-    told: RefCell<Vec<String>>,
-    written: RefCell<Vec<(PathBuf, String)>>,
-    calls: Cell<u64>,
-    /// The user stops after so many looks at the clock.
-    patience: Cell<u64>,
+use crate::support::notebook::Notebook;
+
+/// A host whose clock goes a microsecond on whenever it is looked at.
+fn notebook() -> Notebook {
+    Notebook { tick: 1e-6, ..Notebook::default() }
 }
 
-/// An outside whose clock goes a microsecond on whenever it is looked at.
-struct Notebook(Rc<Record>);
-
-impl Host for Notebook {
-    fn print(&mut self, line: &str) {
-        self.0.printed.borrow_mut().push(line.to_owned());
-    }
-
-    fn tell(&mut self, what: &Diagnostic, _sources: &Sources) {
-        let mut text = what.message.to_string();
-        what.notes.iter().for_each(|note| text = format!("{text}; {note}"));
-        self.0.told.borrow_mut().push(text);
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.0.calls.get() > self.0.patience.get()
-    }
-
-    fn read(&mut self, _path: &Path) -> io::Result<String> {
-        Err(io::Error::from(io::ErrorKind::NotFound))
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let text = String::from_utf8(bytes.to_vec()).expect("files are texts");
-        self.0.written.borrow_mut().push((path.to_path_buf(), text));
-        Ok(())
-    }
-
-    fn written(&self, path: &Path) -> PathBuf {
-        path.to_path_buf()
-    }
-
-    fn seconds(&self) -> f64 {
-        self.0.calls.set(self.0.calls.get() + 1);
-        self.0.calls.get() as f64 * 1e-6
-    }
-}
-
-fn session() -> (Session, Rc<Record>) {
-    let record = Rc::new(Record::default());
-    record.patience.set(u64::MAX);
-    (Session::new(Box::new(Notebook(record.clone()))), record)
-}
-
-fn run(session: &mut Session, text: &str) -> Result<Flow, Diagnostic> {
+fn run(session: &mut Session, notebook: &mut Notebook, text: &str) -> Result<Flow, Diagnostic> {
     let source = session.add_source("test.link", text, None);
-    session.execute_all(source)
+    session.execute_all(source, notebook)
 }
 
-/// Runs a script; gives what was printed and told.
-fn said(text: &str) -> (Vec<String>, Vec<String>, Rc<Record>) {
-    let (mut session, record) = session();
-    if let Err(problem) = run(&mut session, text) {
+/// Runs a script; gives what was printed and told, each note with what it adds, and all that
+/// was kept.
+fn said(text: &str) -> (Vec<String>, Vec<String>, Notebook) {
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    if let Err(problem) = run(&mut session, &mut notebook, text) {
         panic!("{}: {:?}", problem.message, problem.labels);
     }
-    (record.printed.take(), record.told.take(), record)
+    let told = notebook
+        .told
+        .iter()
+        .map(|what| [&[what.message.to_string()], &what.notes[..]].concat().join("; "));
+    (std::mem::take(&mut notebook.printed), told.collect(), notebook)
 }
 
 const FOUR_BAR: &str = "
@@ -101,21 +55,23 @@ fn the_table_has_every_setting_and_marks_the_efficient() {
     let auto = printed.iter().find(|line| numbers(line).starts_with(&["auto", "1e-12"]));
     let error: f64 = numbers(auto.expect("it is a setting"))[7].parse().expect("a number");
     assert!(error < 1e-10, "the position error of auto is {error}");
-    let names: Vec<_> = record.written.borrow().iter().map(|(path, _)| path.clone()).collect();
+    let names: Vec<_> = record.files.keys().collect();
     assert_eq!(names, [Path::new("accuracy.csv"), Path::new("accuracy.svg")]);
-    let written = record.written.borrow();
-    assert_eq!(written[0].1.lines().count(), 71);
+    let written: Vec<&String> = record.files.values().collect();
+    assert_eq!(written[0].lines().count(), 71);
     for word in ["relaxation", "nesterov", "efficient", "position error", "</svg>"] {
-        assert!(written[1].1.contains(word), "`{word}` is in the picture");
+        assert!(written[1].contains(word), "`{word}` is in the picture");
     }
 }
 
 #[test]
 fn json_has_these_keys_and_numbers() {
-    let (mut session, record) = session();
-    run(&mut session, FOUR_BAR).expect("it is sound");
-    session.study_accuracy(Some(12), Telling::Json).expect("there is something to study");
-    let printed = record.printed.take();
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    run(&mut session, &mut notebook, FOUR_BAR).expect("it is sound");
+    session
+        .study_accuracy(Some(12), Telling::Json, &mut notebook)
+        .expect("there is something to study");
+    let printed = notebook.printed;
     assert_eq!(printed.first().map(String::as_str), Some("["));
     assert_eq!(printed.last().map(String::as_str), Some("]"));
     assert_eq!(printed.len(), 72);
@@ -205,12 +161,12 @@ fn a_motion_past_its_branches_has_no_reference() {
 #[test]
 fn advice_can_be_typed() {
     let (printed, _, record) = said(&format!("{FOUR_BAR} step 36; accuracy within 1e-6"));
-    assert!(record.written.borrow().is_empty());
+    assert!(record.files.is_empty());
     assert_eq!(printed.len(), 2);
     assert!(printed[0].starts_with("set method ") && printed[0].contains("# position error "));
     assert!(printed[1].starts_with("set iterations ") || printed[1].starts_with("set tolerance "));
-    let (mut session, _) = session();
-    run(&mut session, &printed.join("\n")).expect("the advice is a script");
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    run(&mut session, &mut notebook, &printed.join("\n")).expect("the advice is a script");
 
     let (printed, _, _) = said(&format!("{FOUR_BAR} step 36; accuracy in 2ms"));
     assert!(printed[0].starts_with("set method "), "{printed:?}");
@@ -221,29 +177,50 @@ fn advice_can_be_typed() {
 
 #[test]
 fn a_study_that_is_stopped_shows_what_it_has() {
-    let (mut session, record) = session();
-    run(&mut session, &format!("{FOUR_BAR} step 36")).expect("it is sound");
-    record.patience.set(record.calls.get() + 2_000);
-    assert_eq!(run(&mut session, "accuracy").expect("it is stopped"), Flow::Stopped);
-    let told = record.told.take();
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    run(&mut session, &mut notebook, &format!("{FOUR_BAR} step 36")).expect("it is sound");
+    notebook.patience = Some(notebook.n_looks.get() + 2_000);
+    assert_eq!(run(&mut session, &mut notebook, "accuracy").expect("it is stopped"), Flow::Stopped);
+    let told = notebook.told();
     assert!(told.iter().any(|t| t.starts_with("stopped: ")), "{told:?}");
-    assert!(record.printed.borrow().len() > 2);
-    assert_eq!(record.written.borrow().len(), 2);
+    assert!(notebook.printed.len() > 2);
+    assert_eq!(notebook.files.len(), 2);
+}
+
+#[test]
+fn a_study_knows_where_a_hand_took_a_point_up() {
+    // C keeps to its side of the line from B to D: where it has to be at the end is known.
+    for (from, to, side) in [("(1.1, -1.5)", "(6.8, 2.9)", ">"), ("(3.8, -0.8)", "(4.7, 2.6)", "<")]
+    {
+        let (printed, told, _) = said(&format!(
+            "point D = (4, 0) frozen, B = {from}, C = (3, 2.9)
+             length B C = 3.5; length C D = 3; solve
+             point Z = (0, 9)
+             drag B to {to} over 2
+             assert cross(D - B, C - B) {side} 0
+             accuracy"
+        ));
+        assert!(told.iter().all(|told| !told.contains("no reference")), "{told:?}");
+        let auto = printed.iter().find(|line| numbers(line).starts_with(&["auto", "1e-12"]));
+        let error: f64 = numbers(auto.expect("it is a setting"))[7].parse().expect("a number");
+        assert!(error < 1e-10, "the position error of auto is {error}");
+    }
 }
 
 #[test]
 fn nothing_to_study_is_an_error() {
-    let (mut session, _) = session();
-    let problem = run(&mut session, "point A = (0, 0); accuracy").expect_err("there is nothing");
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    let problem = run(&mut session, &mut notebook, "point A = (0, 0); accuracy")
+        .expect_err("there is nothing");
     assert_eq!(&*problem.message, "there is nothing to study");
 }
 
 #[test]
 fn a_study_changes_nothing() {
-    let (mut session, _) = session();
-    run(&mut session, &format!("{FOUR_BAR} trace C; step 20")).expect("it is sound");
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    run(&mut session, &mut notebook, &format!("{FOUR_BAR} trace C; step 20")).expect("it is sound");
     let before = session.to_script();
-    run(&mut session, "accuracy").expect("it can be studied");
+    run(&mut session, &mut notebook, "accuracy").expect("it can be studied");
     assert_eq!(session.to_script(), before);
 }
 
@@ -271,11 +248,13 @@ fn a_receipt_shows_changes_between_frames() {
 
 #[test]
 fn a_broken_promise_fails() {
-    let (mut session, _) = session();
+    let (mut session, mut notebook) = (Session::new(), notebook());
     let text = format!("{FOUR_BAR} set method relaxation; step 10 within 1e-9");
-    let problem = run(&mut session, &text).expect_err("30 iterations are not enough");
+    let problem =
+        run(&mut session, &mut notebook, &text).expect_err("30 iterations are not enough");
     assert_eq!(problem.kind, Kind::Promise);
-    run(&mut session, "set method auto; step 10 within 1e-9").expect("auto keeps it");
+    run(&mut session, &mut notebook, "set method auto; step 10 within 1e-9")
+        .expect("auto keeps it");
 }
 
 #[test]
@@ -288,7 +267,7 @@ fn frames_without_time_are_told_and_gone_on_with() {
 fn pictures_say_where_they_come_from() {
     let picture = |text: &str| {
         let (_, _, record) = said(&format!("{FOUR_BAR} {text} svg \"now.svg\""));
-        let picture = record.written.borrow()[0].1.clone();
+        let picture = record.files[Path::new("now.svg")].clone();
         let start = picture.find("tolerance: ").expect("it has a receipt");
         let end = picture[start..].find('<').expect("it ends");
         picture[start..start + end].lines().map(str::to_owned).collect::<Vec<_>>()
@@ -304,18 +283,25 @@ fn pictures_say_where_they_come_from() {
 
 #[test]
 fn series_are_undone_saved_and_plotted() {
-    let (mut session, record) = session();
-    run(&mut session, "sample \"a b\" = 1, 0.5, 0.25; sample \"c\" = 3; undo; sample \"c\" = 2")
-        .expect("it is sound");
+    let (mut session, mut notebook) = (Session::new(), notebook());
+    run(
+        &mut session,
+        &mut notebook,
+        "sample \"a b\" = 1, 0.5, 0.25; sample \"c\" = 3; undo; sample \"c\" = 2",
+    )
+    .expect("it is sound");
     let script = session.to_script();
     assert!(script.contains("sample \"a b\" = 1, 0.5, 0.25\n"), "{script}");
     assert!(script.contains("sample \"c\" = 2\n"), "{script}");
-    run(&mut session, "plot \"e.svg\" log title \"T < U\" x \"n\" y \"error\"").expect("it plots");
-    let written = record.written.take();
-    assert!(written[0].1.contains("T &lt; U") && written[0].1.contains("a b"));
-    run(&mut session, "clear").expect("it clears");
-    let problem = run(&mut session, "plot \"e.svg\"").expect_err("there is nothing to plot");
+    run(&mut session, &mut notebook, "plot \"e.svg\" log title \"T < U\" x \"n\" y \"error\"")
+        .expect("it plots");
+    let written = &notebook.files[Path::new("e.svg")];
+    assert!(written.contains("T &lt; U") && written.contains("a b"));
+    run(&mut session, &mut notebook, "clear").expect("it clears");
+    let problem =
+        run(&mut session, &mut notebook, "plot \"e.svg\"").expect_err("there is nothing to plot");
     assert_eq!(&*problem.message, "there is nothing to plot");
-    let problem = run(&mut session, "sample \"c\" = 2; plot \"e.png\"").expect_err("not an SVG");
+    let problem = run(&mut session, &mut notebook, "sample \"c\" = 2; plot \"e.png\"")
+        .expect_err("not an SVG");
     assert_eq!(&*problem.message, "`plot` writes an SVG picture");
 }

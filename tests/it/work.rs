@@ -21,15 +21,19 @@ set dt 1/360
 
 /// The world that a script makes.
 fn world(script: &str) -> World {
-    let mut session = Session::new(Box::new(Nowhere));
+    let mut session = Session::new();
     let source = session.add_source("work", script, None);
-    session.execute_all(source).expect("a script that works");
+    session.execute_all(source, &mut Nowhere).expect("a script that works");
     session.world().clone()
 }
 
 fn pass(world: &mut World, solver: &mut Solver) -> Counters {
-    let settings = Settings::default();
-    solver.step(world, &settings, &Budget::default()).expect("values at every time").counters
+    pass_with(world, solver, |_| {})
+}
+
+fn pass_with(world: &mut World, solver: &mut Solver, hand: impl FnOnce(&mut World)) -> Counters {
+    let report = solver.step(world, &Settings::default(), &Budget::default(), hand);
+    report.expect("values at every time").counters
 }
 
 /// The work of some frames of a scene, once it has come to rest.
@@ -117,14 +121,14 @@ fn dragging_one_of_many_is_the_work_of_one() {
     let drag = |n: usize| {
         let mut world = world(&four_bars(n, "freeze B[i]"));
         let mut solver = Solver::new();
-        let settings = Settings::default();
         (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
         let Some(Entity::Point(d)) = world.names().get("D[1]") else { panic!("no point") };
         let mut all = Counters::default();
         for k in 1..=COUNTED {
-            solver.sync(&mut world, &settings);
-            world.apply(Edit::Move(d, Point::new(4.0 + 0.01 * k as f64, 6.0)));
-            all.add(&pass(&mut world, &mut solver));
+            let to = Point::new(4.0 + 0.01 * k as f64, 6.0);
+            all.add(&pass_with(&mut world, &mut solver, |world| {
+                world.apply(Edit::Move(d, to));
+            }));
         }
         all
     };
@@ -148,10 +152,10 @@ const EFFECTS: [(&str, &str); 6] = [
 #[test]
 fn what_no_statement_calls_for_has_no_memory() {
     let effects = |with: &str| {
-        let mut session = Session::new(Box::new(Nowhere));
+        let mut session = Session::new();
         let source = session.add_source("work", &format!("{FOUR_BAR}{with}\nstep 30"), None);
-        session.execute_all(source).expect("a script that works");
-        session.effects_on().rows
+        session.execute_all(source, &mut Nowhere).expect("a script that works");
+        session.effects_on(&Nowhere).rows
     };
     let without = effects("");
     for (name, with) in EFFECTS {

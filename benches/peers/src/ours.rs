@@ -23,7 +23,7 @@ fn statements(session: &mut Session, text: &str) -> Result<Vec<Statement>, Strin
 
 fn execute(session: &mut Session, text: &str) -> Result<(), String> {
     for statement in statements(session, text)? {
-        session.execute(&statement).map_err(|e| e.message.to_string())?;
+        session.execute(&statement, &mut Nowhere).map_err(|e| e.message.to_string())?;
     }
     Ok(())
 }
@@ -31,14 +31,14 @@ fn execute(session: &mut Session, text: &str) -> Result<(), String> {
 impl<'a> Ours<'a> {
     /// The script up to its last statement, which is the one that runs.
     pub fn start(work: &'a Work) -> Result<Self, String> {
-        let mut session = Session::new(Box::new(Nowhere));
+        let mut session = Session::new();
         for &(name, value) in &work.set {
             session.override_parameter(name, value);
         }
         let all = statements(&mut session, work.script)?;
         let (_, setup) = all.split_last().ok_or("an empty script")?;
         for statement in setup {
-            session.execute(statement).map_err(|e| e.message.to_string())?;
+            session.execute(statement, &mut Nowhere).map_err(|e| e.message.to_string())?;
         }
         if let Some(degrees) = work.degrees {
             execute(&mut session, &format!("set dt {degrees}/360"))?;

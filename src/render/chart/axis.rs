@@ -2,18 +2,18 @@
 
 /// One axis of a chart.
 #[derive(Debug, Clone, Default)]
-pub struct Axis {
+pub struct ChartAxis {
     /// What it measures.
     pub label: String,
     /// Equal ratios, not equal differences, are equally long; numbers up to 0 have no place.
     pub is_log: bool,
     /// How its numbers are written.
-    pub unit: Unit,
+    pub unit: AxisUnit,
 }
 
 /// How the numbers of an axis are written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Unit {
+pub enum AxisUnit {
     /// As they are.
     #[default]
     None,
@@ -22,15 +22,15 @@ pub enum Unit {
 }
 
 /// A number of an axis that has a line; those that are written have a label, which is SVG.
-pub(super) struct Tick {
+pub struct Tick {
     pub at: f64,
     pub label: Option<String>,
 }
 
 /// From numbers to places on the page.
-pub(super) struct Scale {
+pub struct Scale {
     is_log: bool,
-    unit: Unit,
+    unit: AxisUnit,
     /// What is shown; of a logarithmic scale, in decades.
     lo: f64,
     hi: f64,
@@ -44,7 +44,7 @@ const N_TICKS: f64 = 7.0;
 
 impl Scale {
     /// The scale that shows all of the data between two places on the page.
-    pub fn new(axis: &Axis, data: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
+    pub fn new(axis: &ChartAxis, data: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
         let is_log = axis.is_log;
         let has_place = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
         let data = data.filter(has_place).map(|v| if is_log { libm::log10(v) } else { v });
@@ -123,7 +123,7 @@ impl Scale {
     }
 }
 
-impl Unit {
+impl AxisUnit {
     fn power_of_ten(self, k: i32) -> String {
         match self {
             Self::None if (0..=3).contains(&k) => format!("{}", 10_i32.pow(k.unsigned_abs())),
@@ -164,32 +164,32 @@ impl Unit {
 mod tests {
     use super::*;
 
-    fn labels(is_log: bool, unit: Unit, data: &[f64]) -> Vec<String> {
-        let axis = Axis { label: String::new(), is_log, unit };
+    fn labels(is_log: bool, unit: AxisUnit, data: &[f64]) -> Vec<String> {
+        let axis = ChartAxis { label: String::new(), is_log, unit };
         let scale = Scale::new(&axis, data.iter().copied(), 0.0, 600.0);
         scale.ticks().into_iter().filter_map(|tick| tick.label).collect()
     }
 
     #[test]
     fn times_are_written_with_their_unit() {
-        let found = labels(true, Unit::Seconds, &[5e-7, 2e-3]);
+        let found = labels(true, AxisUnit::Seconds, &[5e-7, 2e-3]);
         assert_eq!(found, ["1 \u{b5}s", "10 \u{b5}s", "100 \u{b5}s", "1 ms"]);
     }
 
     #[test]
     fn linear_steps_are_round() {
         assert_eq!(
-            labels(false, Unit::None, &[0.0, 30.0]),
+            labels(false, AxisUnit::None, &[0.0, 30.0]),
             ["0", "5", "10", "15", "20", "25", "30"]
         );
-        assert_eq!(labels(false, Unit::None, &[0.0, 0.4])[1], "0.1");
+        assert_eq!(labels(false, AxisUnit::None, &[0.0, 0.4])[1], "0.1");
     }
 
     #[test]
     fn odd_data_still_make_an_axis() {
         for data in [&[][..], &[0.0], &[-1.0, f64::NAN], &[1e-300, 1e300], &[3.0, 3.0]] {
             for is_log in [false, true] {
-                assert!(labels(is_log, Unit::None, data).len() < 60, "of {data:?}");
+                assert!(labels(is_log, AxisUnit::None, data).len() < 60, "of {data:?}");
             }
         }
     }

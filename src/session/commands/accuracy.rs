@@ -2,14 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::run::format_rounded;
-use crate::diag::Span;
+use crate::diag::{Diagnostic, Span, format_rounded, format_seconds};
 use crate::lang::ast::Promise;
+use crate::session::execution::{Execution, Flow};
 use crate::session::resolve::unbind::NOWHERE;
-use crate::session::{Diagnostic, Flow, Session};
 use crate::study::{
-    Advice, Course, Outside, Row, Study, Wish, csv, format_seconds, json, ladder, picture, study,
-    table,
+    Advice, Course, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture, study, table,
 };
 
 /// How long a study takes at most, roughly, seconds: longer and nobody would ask.
@@ -30,7 +28,7 @@ pub enum Telling {
     Json,
 }
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn accuracy(&mut self, promise: &Promise, span: Span) -> Result<Flow, Diagnostic> {
         let limits = self.promised(promise)?;
         let study = self.study(None, span)?;
@@ -44,13 +42,9 @@ impl Session {
         Ok(if study.is_stopped { Flow::Stopped } else { Flow::On })
     }
 
-    /// Studies the motion so far, or of what is to come, over `n_frames` if given; writes
-    /// `accuracy.csv` and `accuracy.svg`.
-    ///
-    /// # Errors
-    /// Where there is nothing to study, or a file cannot be written.
+    /// Studies the motion so far, or of what is to come, over `n_frames` if given.
     pub fn study_accuracy(
-        &mut self,
+        mut self,
         n_frames: Option<u64>,
         telling: Telling,
     ) -> Result<Flow, Diagnostic> {
@@ -61,31 +55,31 @@ impl Session {
     }
 
     fn study(&mut self, n_frames: Option<u64>, span: Span) -> Result<Study, Diagnostic> {
-        if self.world.constraints().all(|(_, record)| !record.is_on) {
+        if self.state.world.constraints().all(|(_, record)| !record.is_on) {
             return Err(Diagnostic::error("there is nothing to study")
                 .at(span, "the scene has no constraint that is switched on"));
         }
         let course = self.course(n_frames);
         let host = &self.host;
-        let outside = Outside {
+        let host = StudyHost {
             now: &|| host.seconds(),
             stop: &|| host.is_interrupted(),
             progress: &|share| host.progress(share),
             seconds: SECONDS,
         };
-        study(&course, &ladder(), &outside)
+        study(&course, &ladder(), &host)
     }
 
     /// The motion to study.
     fn course(&mut self, n_frames: Option<u64>) -> Course {
-        let course = if let Some(course) = self.last_course() {
+        let course = if let Some(course) = self.history.last_motion.course(self.state) {
             let goes_on = course.n_frames < FEW_FRAMES && course.is_without_hands();
             let n = if goes_on { FRAMES } else { course.n_frames };
             course.with_frames(n)
         } else {
             self.note("nothing has moved since the scene last changed: studied is what comes next");
-            let memory = self.solver.memory();
-            Course::ahead(&self.world, memory, self.preferences.solve, FRAMES)
+            let memory = self.state.solver.memory();
+            Course::ahead(&self.state.world, memory, self.state.preferences.solve, FRAMES)
         };
         match n_frames {
             Some(n) => course.with_frames(n),
@@ -122,9 +116,9 @@ impl Session {
     /// What a picture of this scene is called: after the script that made it.
     fn title(&self, span: Span) -> String {
         let source = if span.source == NOWHERE.source {
-            self.sources.first()
+            self.input.sources.first()
         } else {
-            self.sources.get(span.source)
+            self.input.sources.get(span.source)
         };
         let stem = source.and_then(|s| Path::new(&*s.name).file_stem());
         let name = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
@@ -136,7 +130,7 @@ impl Session {
     }
 
     fn advise(&mut self, study: &Study, wish: Wish) {
-        let describe = |row: &Row| {
+        let describe = |row: &RungResult| {
             format!(
                 "{} {}, {} a frame",
                 study.measure.words(),

@@ -4,16 +4,17 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::diag::{Kind, Span};
+use crate::diag::{Diagnostic, Kind, Span, format_count, format_number, suggest};
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
-use crate::session::dispatch::format_count;
+use crate::session::execution::{Execution, Flow};
+use crate::session::host::reason;
 use crate::session::quotas::{DEEPEST_NESTING, MOST_STATEMENTS};
+use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
-use crate::session::{Diagnostic, Flow, Session};
-use crate::world::{Entity, Shape};
+use crate::world::{Entity, Shape, Value};
 
-impl Session {
+impl Execution<'_> {
     /// Goes one level deeper for as long as `inside` runs.
     fn nested<T>(
         &mut self,
@@ -53,13 +54,13 @@ impl Session {
         body: &Arc<[Statement]>,
         span: Span,
     ) -> Result<Flow, Diagnostic> {
-        let whole = |session: &mut Self, expr: &Expr| -> Result<f64, Diagnostic> {
-            let value = session.number(expr)?;
+        let whole = |execution: &mut Self, expr: &Expr| -> Result<f64, Diagnostic> {
+            let value = execution.resolve().number(expr)?;
             if value.fract() == 0.0 {
                 return Ok(value);
             }
             Err(Diagnostic::error("expected a whole number")
-                .at(expr.span, format!("this is {}", crate::diag::format_number(value))))
+                .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
         // Loops within loops multiply; one that is long in every round is found in the first.
@@ -76,20 +77,16 @@ impl Session {
             ));
         }
         self.n_rounds = n_rounds * n_outer;
-        let result = self.nested(span, |session| {
-            let scope = session.scopes.last_mut().expect("the outermost scope is never left");
-            let slot = scope.bindings.len();
-            scope.bindings.push((variable.text.clone(), Bound::Number(from)));
+        let result = self.nested(span, |execution| {
+            let slot = execution.scopes.bind(variable.text.clone(), from);
             let mut flow = Flow::On;
             let mut value = from;
             while value <= to && flow == Flow::On {
-                let scope = session.scopes.last_mut().expect("the outermost scope is never left");
-                scope.bindings[slot].1 = Bound::Number(value);
-                flow = session.perform_all(body)?;
+                execution.scopes.rebind(slot, value);
+                flow = execution.perform_all(body)?;
                 value += 1.0;
             }
-            let scope = session.scopes.last_mut().expect("the outermost scope is never left");
-            scope.bindings.truncate(slot);
+            execution.scopes.unbind(slot);
             Ok(flow)
         });
         self.n_rounds = n_outer;
@@ -108,10 +105,10 @@ impl Session {
         instance: Option<&Name>,
         span: Span,
     ) -> Result<Flow, Diagnostic> {
-        let Some(definition) = self.definitions.get(&word.text).cloned() else {
+        let Some(definition) = self.state.definitions.get(&word.text).cloned() else {
             let problem = Diagnostic::error(format!("unknown definition `{}`", word.text))
                 .at(word.span, "nothing is defined under this name");
-            return Err(Self::suggest(problem, &word.text, self.definitions.keys().map(|n| &**n)));
+            return Err(suggest(problem, &word.text, self.state.definitions.keys().map(|n| &**n)));
         };
         let wanted = definition.parameters.len();
         if wanted != arguments.len() {
@@ -128,13 +125,13 @@ impl Session {
             bindings.push((parameter.text.clone(), self.argument(argument)?));
         }
         let name = match instance {
-            Some(name) => self.declare(name)?.to_string(),
-            None => self.numbered(&word.text),
+            Some(name) => self.resolve().declare(name)?.to_string(),
+            None => self.resolve().numbered(&word.text),
         };
-        self.nested(span, |session| {
-            session.scopes.push(Scope { prefix: format!("{name}."), bindings });
-            let flow = session.perform_all(&definition.body)?;
-            session.scopes.pop();
+        self.nested(span, |execution| {
+            execution.scopes.enter(Scope { prefix: format!("{name}."), bindings });
+            let flow = execution.perform_all(&definition.body)?;
+            execution.scopes.leave();
             Ok(flow)
         })
     }
@@ -143,19 +140,13 @@ impl Session {
     fn argument(&mut self, argument: &Expr) -> Result<Bound, Diagnostic> {
         if let Some(name) = argument.as_name()
             && let (Meaning::Entity(Entity::Point(id)) | Meaning::Bound(Bound::Point(id)), None) =
-                self.meaning(name)?
+                self.resolve().meaning(name)?
         {
             return Ok(Bound::Point(id));
         }
-        match self.live(argument)? {
-            crate::session::resolve::bind::Term::Constant(crate::world::Value::Number(n)) => {
-                Ok(Bound::Number(n))
-            }
-            crate::session::resolve::bind::Term::Live(formula)
-                if formula.shape() == Shape::Number =>
-            {
-                Ok(Bound::Formula(formula))
-            }
+        match self.resolve().live(argument)? {
+            Term::Constant(Value::Number(n)) => Ok(Bound::Number(n)),
+            Term::Live(formula) if formula.shape() == Shape::Number => Ok(Bound::Formula(formula)),
             _ => Err(Diagnostic::error("expected a point or a number")
                 .at(argument.span, "this is a vector")
                 .help("make it a point first: `point P = ... frozen`")),
@@ -163,7 +154,7 @@ impl Session {
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
-        let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
+        let folder = self.input.folder(path.span.source);
         let file = folder.join(Path::new(&*path.value));
         if self.included.contains(&file) {
             return Err(Diagnostic::error(format!("`{}` includes itself", path.value))
@@ -176,21 +167,28 @@ impl Session {
         result
     }
 
+    /// What lies where `save` would put a file of this name.
+    fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
+        let file = self.host.resolve(path).ok()?;
+        let text = self.host.read(&file).ok()?;
+        Some((file, text))
+    }
+
     fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
         self.host.read(file).map_err(|e| {
             Diagnostic::error(format!("cannot read `{}`", path.value))
                 .kind(Kind::Unreadable)
-                .at(path.span, crate::session::reason(&e))
+                .at(path.span, reason(&e))
         })
     }
 
     /// Carries out the statements of a file as part of the command under way.
     fn perform_text(&mut self, file: &Path, text: &str, span: Span) -> Result<Flow, Diagnostic> {
         let folder = file.parent().map(Path::to_path_buf);
-        let source = self.add_source(&file.to_string_lossy(), text, folder);
-        self.nested(span, |session| {
+        let source = self.input.add_piece(&file.to_string_lossy(), text, 1, folder);
+        self.nested(span, |execution| {
             for statement in crate::lang::parse(source, text) {
-                let flow = session.dispatch(&statement?)?;
+                let flow = execution.dispatch(&statement?)?;
                 if flow != Flow::On {
                     return Ok(flow);
                 }
@@ -203,11 +201,10 @@ impl Session {
     /// then beside the text that loads it.
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
-        let saved: PathBuf = self.host.written(Path::new(&*path.value));
-        let folder = self.folders.get(&path.span.source).cloned().unwrap_or_default();
+        let folder = self.input.folder(path.span.source);
         let beside = folder.join(Path::new(&*path.value));
-        let (file, text) = if let Ok(text) = self.host.read(&saved) {
-            (saved, text)
+        let (file, text) = if let Some(found) = self.saved(Path::new(&*path.value)) {
+            found
         } else {
             let text = self.read(&beside, path)?;
             (beside, text)

@@ -2,39 +2,36 @@
 
 use super::constrain::{Measure, cog_ratio, not_negative};
 use crate::constraint::{Constraint, ConstraintKind as _, Field, Glider, Period, Rack};
+use crate::diag::Diagnostic;
 use crate::lang::ast::{ChangePart, Name, Relation};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::resolve::scope::Resolver;
 use crate::world::{ConstraintId, Drivers, Edit, Entity, Record};
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn change_thing(
         &mut self,
         name: &Name,
         parts: &[ChangePart],
     ) -> Result<(), Diagnostic> {
-        match self.entity(name)? {
+        match self.resolve().entity(name)? {
             Entity::Constraint(id) => self.change_constraint(id, name, parts),
             Entity::Parameter(id) => match parts {
                 [ChangePart::Relation(Relation::Equal(value))] => {
-                    let formula = self.live(value)?.into_formula(value.span);
+                    let formula = self.resolve().live(value)?.into_formula(value.span);
                     self.redefine(id, formula, value)
                 }
-                _ => Err(self.no_such_part(name, "a parameter takes `= value`")),
+                _ => Err(self.resolve().no_such_part(name, "a parameter takes `= value`")),
             },
             Entity::Point(id) => match parts {
                 [ChangePart::Relation(Relation::Equal(at))] => {
-                    let at = self.place(at)?;
+                    let at = self.resolve().place(at)?;
                     self.edit(Edit::Move(id, at));
                     Ok(())
                 }
-                _ => Err(self.no_such_part(name, "a point takes `= (x, y)`")),
+                _ => Err(self.resolve().no_such_part(name, "a point takes `= (x, y)`")),
             },
         }
-    }
-
-    fn no_such_part(&self, name: &Name, takes: &str) -> Diagnostic {
-        let what = self.sources.slice(name.span);
-        Diagnostic::error(format!("`{what}` has no such part")).at(name.span, takes)
     }
 
     fn change_constraint(
@@ -43,24 +40,31 @@ impl Session {
         name: &Name,
         parts: &[ChangePart],
     ) -> Result<(), Diagnostic> {
-        let mut record = self.world.constraint(id).expect("a named constraint lives").clone();
+        let mut record = self.state.world.constraint(id).expect("a named constraint lives").clone();
         // A line says whether a glider is bounded unless another part does.
         let (lines, others): (Vec<_>, Vec<_>) =
             parts.iter().partition(|part| matches!(part, ChangePart::On(_) | ChangePart::To(_)));
         for part in lines.into_iter().chain(others) {
-            self.change_part(&mut record, name, part)?;
+            self.resolve().change_part(&mut record, name, part)?;
         }
         let is_on_another_line = parts.iter().any(|part| matches!(part, ChangePart::On(_)));
         if let Constraint::Rack(rack) = &record.constraint
             && is_on_another_line
-            && self.world.clock().frame > 0
+            && self.state.world.clock().frame > 0
         {
-            let points = self.world.points();
+            let points = self.state.world.points();
             let at_start = Rack::new(rack.points, points.start_column()).into();
-            self.edit(self.world.begin_with(id, &at_start));
+            self.edit(self.state.world.begin_with(id, &at_start));
         }
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())
+    }
+}
+
+impl Resolver<'_> {
+    fn no_such_part(&self, name: &Name, takes: &str) -> Diagnostic {
+        let what = self.text(name.span);
+        Diagnostic::error(format!("`{what}` has no such part")).at(name.span, takes)
     }
 
     fn change_part(
@@ -143,7 +147,7 @@ impl Session {
             (Constraint::Rack(c), ChangePart::On(line)) => {
                 let [p, q] = self.pair(line)?;
                 let [o, a, ..] = c.points;
-                *c = Rack::new([o, a, p, q], self.world.points().column());
+                *c = Rack::new([o, a, p, q], self.state.world.points().column());
                 &[]
             }
             (c, _) => {

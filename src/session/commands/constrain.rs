@@ -4,9 +4,10 @@ use crate::constraint::{
     Bounds, Cog, CogVelocity, Coincidence, Constraint, Coordinate, Distance, Equal, Equivalence,
     Field, Glider, Hinge, Length, Motor, Orientation, Period, Point, PointIdx, Rack, Rigid,
 };
-use crate::diag::Span;
+use crate::diag::{Diagnostic, Span, format_number};
 use crate::lang::ast::{Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Range, Relation};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
 use crate::world::{Drivers, Edit, PointId, Record, Shape, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -22,23 +23,25 @@ pub(crate) enum Measure {
     Signed,
 }
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn constrain(
         &mut self,
         declaration: &ConstraintDecl,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let (constraint, drivers, stem) = self.build(&declaration.constraint, span)?;
+        let (constraint, drivers, stem) = self.resolve().build(&declaration.constraint, span)?;
         let name = match &declaration.label {
-            Some(label) => self.declare(label)?,
-            None => self.numbered(stem).into(),
+            Some(label) => self.resolve().declare(label)?,
+            None => self.resolve().numbered(stem).into(),
         };
         let record = Record::new(name, constraint, drivers);
-        let id = self.world.next_constraint();
+        let id = self.state.world.next_constraint();
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())
     }
+}
 
+impl Resolver<'_> {
     fn build(
         &mut self,
         stated: &Stated,
@@ -109,8 +112,8 @@ impl Session {
                 let points = self.pairs(first, second)?;
                 let value = self.drive(ratio, Field::Ratio, &mut drivers)?;
                 let ratio = cog_ratio(value, *inside, ratio.span)?;
-                let x = self.world.points().column();
-                let wheels: Constraint = match self.preferences.solve.cog {
+                let x = self.state.world.points().column();
+                let wheels: Constraint = match self.state.preferences.solve.cog {
                     CogForm::Holonomic => Cog::new(points, ratio, x).into(),
                     CogForm::Velocity => CogVelocity::new(points, ratio, x).into(),
                 };
@@ -134,7 +137,7 @@ impl Session {
                             .at(name.span, "named twice"));
                     }
                 }
-                (Rigid::new(&points, self.world.points().column()).into(), "rigid")
+                (Rigid::new(&points, self.state.world.points().column()).into(), "rigid")
             }
             Stated::Rack { wheel, on } => {
                 let points = self.pairs(wheel, on)?;
@@ -143,14 +146,14 @@ impl Session {
                     return Err(Diagnostic::error("the rim point lies on the centre")
                         .at(span, "a wheel of radius 0 does not roll"));
                 }
-                (Rack::new(points, self.world.points().column()).into(), "rack")
+                (Rack::new(points, self.state.world.points().column()).into(), "rack")
             }
         };
         Ok((constraint, drivers, stem))
     }
 
     fn at(&self, p: PointIdx) -> Point {
-        self.world.points().at(PointId(p))
+        self.state.world.points().at(PointId(p))
     }
 
     fn idx(&mut self, name: &Name) -> Result<PointIdx, Diagnostic> {
@@ -320,7 +323,7 @@ pub(crate) fn not_negative(value: f64, what: &str, span: Span) -> Result<(), Dia
         return Ok(());
     }
     Err(Diagnostic::error(format!("{what} cannot be negative"))
-        .at(span, format!("this is {}", crate::diag::format_number(value))))
+        .at(span, format!("this is {}", format_number(value))))
 }
 
 /// The ratio of a pair of wheels, negative where one runs inside the other.

@@ -1,38 +1,13 @@
 //! Motors that cannot go on: noticing it, saying so, and what happens then.
 
-use super::motor_range::degrees;
 use crate::constraint::geometry::wrap;
 use crate::constraint::{ConstraintKind as _, Field};
-use crate::session::Session;
+use crate::diag::format_degrees;
+use crate::session::execution::Execution;
+use crate::session::preferences::AtDeadPoint;
 use crate::session::undo::recorder::{Recorder, Reel};
 use crate::solve::{Halt, Memory, Method};
 use crate::world::{ConstraintId, Edit, Entity, Motion};
-
-/// What happens where a motor cannot go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AtDeadPoint {
-    /// The run ends with the last frame that was solved.
-    Stop,
-    /// The motor turns on; the points stay as near as they can until they can follow again.
-    #[default]
-    Hold,
-    /// The motor turns back.
-    Reverse,
-}
-
-impl AtDeadPoint {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Stop, Self::Hold, Self::Reverse];
-
-    /// The word of the command language.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Stop => "stop",
-            Self::Hold => "hold",
-            Self::Reverse => "reverse",
-        }
-    }
-}
 
 /// A way back to the beginning of a frame, while frames may have to be taken back: all that
 /// frames change, as it was before one of them. From there the frames since are done again, to
@@ -60,10 +35,12 @@ pub(crate) enum Next {
     Stop,
 }
 
-impl Session {
+impl Execution<'_> {
     /// Keeps a way back from frame `k`, which is about to begin, where that is due or `always`.
     pub(crate) fn keep_way_back(&mut self, way_back: &mut Option<WayBack>, k: u64, always: bool) {
-        if self.preferences.dead_points == AtDeadPoint::Hold || !self.world.has_running_motors() {
+        if self.state.preferences.dead_points == AtDeadPoint::Hold
+            || !self.state.world.has_running_motors()
+        {
             *way_back = None;
             return;
         }
@@ -74,18 +51,18 @@ impl Session {
             *way_back = Some(WayBack {
                 first,
                 frame: k,
-                motion: self.world.motion(),
-                memory: self.solver.memory(),
-                reels: self.recorders.iter().map(Recorder::mark).collect(),
+                motion: self.state.world.motion(),
+                memory: self.state.solver.memory(),
+                reels: self.state.recorders.iter().map(Recorder::mark).collect(),
             });
         }
     }
 
     /// Puts everything as it was before the frame that a way back is kept of.
     pub(crate) fn go_back(&mut self, way: WayBack) {
-        self.world.apply(Edit::Motion(Box::new(way.motion)));
-        self.solver.set_memory(way.memory);
-        for (recorder, reel) in self.recorders.iter_mut().zip(way.reels) {
+        self.state.world.apply(Edit::Motion(Box::new(way.motion)));
+        self.state.solver.set_memory(way.memory);
+        for (recorder, reel) in self.state.recorders.iter_mut().zip(way.reels) {
             recorder.wind(reel);
         }
     }
@@ -93,29 +70,29 @@ impl Session {
     /// Looks for motors that met a dead point in frame `k` of `n`, which was not solved, and
     /// says what is to be done then.
     pub(crate) fn met(&mut self, has_way_back: bool, k: u64, n: u64) -> Next {
-        let halted = self.solver.halted();
+        let halted = self.state.solver.halted();
         let met: Vec<(ConstraintId, String)> =
             halted.into_iter().filter_map(|(id, halt)| Some((id, self.tell_halt(halt)?))).collect();
         if met.is_empty() {
             return Next::On;
         }
-        let frame = self.world.clock().frame;
+        let frame = self.state.world.clock().frame;
         let told: Vec<String> = met
             .iter()
             .map(|(id, what)| {
-                let name = self.world.name_of(Entity::Constraint(*id));
+                let name = self.state.world.name_of(Entity::Constraint(*id));
                 format!("{name} {what}")
             })
             .collect();
         let told = told.join(", ");
-        match self.preferences.dead_points {
+        match self.state.preferences.dead_points {
             AtDeadPoint::Stop if has_way_back => {
                 self.note(format!("{told}: stopped after {} of {n} frames", k - 1));
                 Next::Stop
             }
             AtDeadPoint::Reverse if has_way_back => {
                 if let Some((id, ..)) = met.iter().find(|(id, ..)| !self.can_reverse(*id)) {
-                    let name = self.world.name_of(Entity::Constraint(*id));
+                    let name = self.state.world.name_of(Entity::Constraint(*id));
                     self.note(format!(
                         "{told} in frame {frame}; the speed of {name} is an expression and \
                          cannot be reversed"
@@ -137,15 +114,15 @@ impl Session {
     /// What a motor met in the frame that was just tried, and where; none if nothing that is
     /// worth telling.
     fn tell_halt(&self, halt: Halt) -> Option<String> {
-        let at = |angle: f64| degrees(wrap(angle));
+        let at = |angle: f64| format_degrees(wrap(angle));
         match halt {
             Halt::DeadPoint(angle) => Some(format!("meets a dead point at {}", at(angle))),
             Halt::Stop(angle, by) => {
-                let by = self.world.name_of(Entity::Constraint(by));
+                let by = self.state.world.name_of(Entity::Constraint(by));
                 Some(format!("is stopped by {by} at {}", at(angle)))
             }
             // Only a best fit says that something moves along with it that cannot.
-            Halt::Unclear(angle) if self.preferences.solve.method == Method::Auto => {
+            Halt::Unclear(angle) if self.state.preferences.solve.method == Method::Auto => {
                 Some(format!("cannot go on beyond {}", at(angle)))
             }
             Halt::Unclear(_) => None,
@@ -154,12 +131,12 @@ impl Session {
 
     /// Whether a motor's speed is a number, not an expression.
     fn can_reverse(&self, id: ConstraintId) -> bool {
-        self.world.constraint(id).is_some_and(|record| record.driver(Field::Speed).is_none())
+        self.state.world.constraint(id).is_some_and(|record| record.driver(Field::Speed).is_none())
     }
 
     /// Makes a motor turn back.
     pub(crate) fn reverse(&mut self, id: ConstraintId) {
-        let Some(mut record) = self.world.constraint(id).cloned() else { return };
+        let Some(mut record) = self.state.world.constraint(id).cloned() else { return };
         if let Some(speed) = record.constraint.get(Field::Speed) {
             record.constraint.set(Field::Speed, -speed);
             self.edit(Edit::Constraint(id, Some(Box::new(record))));

@@ -3,45 +3,50 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use crate::diag::Diagnostic;
 use crate::lang::ast::Name;
+use crate::session::execution::Execution;
+use crate::session::state::State;
 use crate::session::undo::journal::Change;
-use crate::session::{Diagnostic, Session};
 use crate::solve::Memory;
-use crate::world::{Edit, Entity, Formula, Mention, User};
+use crate::world::{Edit, Entity, Formula, Mention, ParameterId, User};
 
-impl Session {
+impl Execution<'_> {
     /// Deletes all that is named at once: what only they use of each other is no hindrance.
     pub(crate) fn delete(&mut self, names: &[Name], cascade: bool) -> Result<(), Diagnostic> {
         let mut all: Vec<Entity> = Vec::new();
         let mut is_named: BTreeSet<Entity> = BTreeSet::new();
         let mut parts: Vec<(&Name, Range<usize>)> = Vec::new();
         for name in names {
-            let members = match self.instance(name)? {
-                Some(instance) => self.members(&instance),
-                // A definition shares no name with things of the world.
-                None => match name.as_simple() {
-                    Some(word)
-                        if self.definitions.contains_key(&word.text)
-                            && self.world.names().is_free(&word.text) =>
-                    {
-                        self.change(Change::Definition(Box::new((word.text.clone(), None))));
-                        continue;
-                    }
-                    _ => {
-                        let entity = self.entity(name);
-                        vec![entity.map_err(|problem| self.or_word(problem, name, "cascade"))?]
-                    }
-                },
-            };
+            let members =
+                match self.resolve().instance(name)? {
+                    Some(instance) => self.state.members(&instance),
+                    // A definition shares no name with things of the world.
+                    None => match name.as_simple() {
+                        Some(word)
+                            if self.state.definitions.contains_key(&word.text)
+                                && self.state.world.names().is_free(&word.text) =>
+                        {
+                            self.change(Change::Definition(Box::new((word.text.clone(), None))));
+                            continue;
+                        }
+                        _ => {
+                            let entity = self.resolve().entity(name);
+                            vec![entity.map_err(|problem| {
+                                self.resolve().or_word(problem, name, "cascade")
+                            })?]
+                        }
+                    },
+                };
             let first = all.len();
             all.extend(members.into_iter().filter(|member| is_named.insert(*member)));
             parts.push((name, first..all.len()));
         }
         if cascade {
-            all = self.world.with_users(&all);
+            all = self.state.world.with_users(&all);
         } else {
             for (name, members) in parts {
-                let users = self.world.users(&all[members]);
+                let users = self.state.world.users(&all[members]);
                 let others = users.into_iter().filter(|user| !is_named.contains(&user.entity()));
                 self.refuse_used(name, &others.collect::<Vec<_>>())?;
             }
@@ -54,26 +59,17 @@ impl Session {
         if users.is_empty() {
             return Ok(());
         }
-        let text = self.sources.slice(name.span);
+        let text = self.input.sources.slice(name.span);
         let shown = &users[..users.len().min(8)];
-        let list: Vec<String> =
-            shown.iter().map(|user| format!("`{}`", self.world.name_of(user.entity()))).collect();
+        let list: Vec<String> = shown
+            .iter()
+            .map(|user| format!("`{}`", self.state.world.name_of(user.entity())))
+            .collect();
         let more = users.len() - shown.len();
         let more = if more == 0 { String::new() } else { format!(" and {more} more") };
         Err(Diagnostic::error(format!("`{text}` is in use"))
             .at(name.span, format!("used by {}{more}", list.join(", ")))
             .help(format!("`delete {text} cascade` removes these too")))
-    }
-
-    /// Everything whose name begins with `instance.`, constraints and parameters before points.
-    fn members(&self, instance: &str) -> Vec<Entity> {
-        let mut members: Vec<Entity> = self.world.names().members(instance).collect();
-        members.sort_by_key(|entity| match entity {
-            Entity::Constraint(_) => 0,
-            Entity::Parameter(_) => 1,
-            Entity::Point(_) => 2,
-        });
-        members
     }
 
     /// Deletes entities that nothing else uses.
@@ -87,7 +83,7 @@ impl Session {
         }
         for &entity in entities {
             if let Entity::Point(id) = entity {
-                while let Some(k) = self.world.traces().iter().position(|t| t.point == id) {
+                while let Some(k) = self.state.world.traces().iter().position(|t| t.point == id) {
                     self.edit(Edit::Trace(k, None));
                 }
                 self.edit(Edit::Point(id, None));
@@ -95,9 +91,53 @@ impl Session {
         }
     }
 
+    pub(crate) fn clear(&mut self) {
+        self.stop_everything();
+        for edit in self.state.world.clear_edits() {
+            self.edit(edit);
+        }
+    }
+
+    /// Ends recordings, forgets definitions and settings, and what the solver remembers.
+    fn stop_everything(&mut self) {
+        if !self.stop_recording() {
+            self.note("stopped: what was recorded is not written");
+            self.drop_recordings();
+        }
+        self.set_memory(Memory::default());
+        self.change(Change::Series(Box::default()));
+        let definitions: Vec<_> = self.state.definitions.keys().cloned().collect();
+        for name in definitions {
+            self.change(Change::Definition(Box::new((name, None))));
+        }
+        self.change(Change::Preferences(Box::default()));
+    }
+
+    /// Time 0 again, and everything where it stood when the clock left 0.
+    pub(crate) fn reset(&mut self) -> Result<(), Diagnostic> {
+        self.begin_motion();
+        let start = self.state.world.start();
+        self.edit(Edit::Motion(Box::new(start)));
+        self.set_memory(Memory::default());
+        self.state.world.refresh().map_err(|why| why.note("at time 0"))
+    }
+}
+
+impl State {
+    /// Everything whose name begins with `instance.`, constraints and parameters before points.
+    fn members(&self, instance: &str) -> Vec<Entity> {
+        let mut members: Vec<Entity> = self.world.names().members(instance).collect();
+        members.sort_by_key(|entity| match entity {
+            Entity::Constraint(_) => 0,
+            Entity::Parameter(_) => 1,
+            Entity::Point(_) => 2,
+        });
+        members
+    }
+
     /// Parameters whose expressions mention only what comes before them in the list: the
     /// order in which they can be made again.
-    pub(crate) fn parameters_in_order(&self) -> Vec<crate::world::ParameterId> {
+    pub(crate) fn parameters_in_order(&self) -> Vec<ParameterId> {
         let mut order = Vec::new();
         let mut is_done = BTreeSet::new();
         let roots: Vec<_> = self.world.parameters().map(|(id, _)| id).collect();
@@ -119,36 +159,5 @@ impl Session {
             }
         }
         order
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.stop_everything();
-        for edit in self.world.clear_edits() {
-            self.edit(edit);
-        }
-    }
-
-    /// Ends recordings, forgets definitions and settings, and what the solver remembers.
-    fn stop_everything(&mut self) {
-        if !self.stop_recording() {
-            self.note("stopped: what was recorded is not written");
-            self.drop_recordings();
-        }
-        self.set_memory(Memory::default());
-        self.change(Change::Series(Box::default()));
-        let definitions: Vec<_> = self.definitions.keys().cloned().collect();
-        for name in definitions {
-            self.change(Change::Definition(Box::new((name, None))));
-        }
-        self.change(Change::Preferences(Box::default()));
-    }
-
-    /// Time 0 again, and everything where it stood when the clock left 0.
-    pub(crate) fn reset(&mut self) -> Result<(), Diagnostic> {
-        self.begin_motion();
-        let start = self.world.start();
-        self.edit(Edit::Motion(Box::new(start)));
-        self.set_memory(Memory::default());
-        self.world.refresh().map_err(|why| why.note("at time 0"))
     }
 }

@@ -1,16 +1,17 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
-use super::run::{format_digits, format_rounded};
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind, Period};
+use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
 use crate::lang::ast::{ChangePart, Command, Name};
 use crate::mobility::{
     Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
 };
-use crate::session::resolve::unbind::text_of;
-use crate::session::settled::{Settled, listed, listed_first};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::resolve::unbind::{Unbind, named, text_of};
+use crate::session::settled::Settled;
+use crate::session::state::State;
 use crate::solve::Status;
-use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId};
+use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId, Record};
 
 /// More redundant constraints than this are counted.
 const MOST_REDUNDANT: usize = 30;
@@ -99,7 +100,7 @@ impl Check {
     }
 }
 
-impl Session {
+impl State {
     /// What there is to know about the mechanism at rest at the present time.
     pub fn examine(&self) -> Check {
         let subject = self.settled();
@@ -123,7 +124,7 @@ impl Session {
                 .iter()
                 .map(|&k| Unsatisfiable {
                     constraint: subject.name(k),
-                    frozen: self.points_of(&subject, k),
+                    frozen: subject.points_of(k),
                     miss: subject.miss(k),
                 })
                 .collect(),
@@ -132,34 +133,6 @@ impl Session {
             residual: subject.report.residual,
             near_singular,
         }
-    }
-
-    /// The names of a constraint's points, each once.
-    fn points_of(&self, subject: &Settled, place: usize) -> Vec<String> {
-        let mut points = subject.parts.constraints[place].points().to_vec();
-        points.sort_unstable();
-        points.dedup();
-        points.iter().map(|&p| self.world.points().name(PointId(p)).to_owned()).collect()
-    }
-
-    pub(crate) fn check(&mut self) {
-        for line in self.examine().lines() {
-            self.host.print(&line);
-        }
-    }
-
-    pub(crate) fn why(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        let lines = match self.entity(name)? {
-            Entity::Constraint(id) => self.why_constraint(id),
-            Entity::Point(id) => self.why_point(id),
-            Entity::Parameter(id) => {
-                let text = self.parameter_text(id);
-                return Err(Diagnostic::error("`why` asks about a constraint or a point")
-                    .at(name.span, format!("this is a parameter: `{text}`")));
-            }
-        };
-        lines.iter().for_each(|line| self.host.print(line));
-        Ok(())
     }
 
     fn why_constraint(&self, id: ConstraintId) -> Vec<String> {
@@ -174,8 +147,8 @@ impl Session {
         let off = format!("{name} is off by {}", subject.miss(place));
         let found = subject.with(|scene| analyse(scene, slack));
         if found.unsatisfiable.contains(&place) {
-            let points = self.points_of(&subject, place);
-            let mut ways = self.repairs_of_frozen(&subject, place);
+            let points = subject.points_of(place);
+            let mut ways = subject.repairs_of_frozen(place);
             ways.push(format!("thaw {}", listed(&points, "or")));
             ways.push(format!("drop {name}"));
             return vec![
@@ -201,7 +174,7 @@ impl Session {
                     others => format!("it cannot hold together with {}", listed(others, "and")),
                 };
                 let mut lines = vec![format!("{off}: {why}")];
-                lines.extend(self.ways_out(&subject, &conflict));
+                lines.extend(subject.ways_out(&conflict));
                 lines
             }
             None if subject.report.status == Status::Stalled => {
@@ -209,98 +182,6 @@ impl Session {
             }
             None => vec![off, "nothing contradicts it: another start may reach it".to_owned()],
         }
-    }
-
-    /// What would settle a conflict, in one line, and the same as commands.
-    fn ways_out(&self, subject: &Settled, conflict: &Conflict) -> Vec<String> {
-        let mut repairs: Vec<Mend> = conflict
-            .repairs
-            .iter()
-            .filter_map(|repair| self.mend(subject, conflict, repair.constraint))
-            .collect();
-        repairs.sort_by(|a, b| a.effort.total_cmp(&b.effort));
-        repairs.truncate(MOST_REPAIRS);
-        let mut ways: Vec<String> = repairs.iter().map(|mend| mend.text.clone()).collect();
-        let names = subject.names(&conflict.constraints);
-        ways.push(format!("drop {}", listed(&names, "or")));
-        let mut lines = vec![listed_ways(&ways)];
-        lines.extend(repairs.into_iter().map(|mend| format!("    {}", mend.command)));
-        lines
-    }
-
-    /// The change of one constraint that settles a conflict, if there is one that was seen to.
-    fn mend(&self, subject: &Settled, conflict: &Conflict, place: usize) -> Option<Mend> {
-        let field = changeable(&subject.parts.constraints[place])?;
-        let island = subject.with(|scene| scene.neighbours(place));
-        // All that hangs together with it is to hold; if other conflicts are in there, at
-        // least those of this one are.
-        [&island[..], &conflict.constraints[..]].into_iter().find_map(|among| {
-            let change = subject.with(|scene| repair(scene, place, among, 1e-3 * subject.slack))?;
-            let mend = self.mend_by(subject, place, field(change), change)?;
-            // A change that was not seen to work is none.
-            let mut world = subject.world.clone();
-            world.apply(Edit::Constraint(
-                subject.parts.ids[place],
-                Some(Box::new(mend.record.clone())),
-            ));
-            let after = self.settled_of(world);
-            let holds = |&k: &usize| after.violation(k) <= after.slack;
-            conflict.constraints.iter().all(holds).then_some(mend)
-        })
-    }
-
-    /// A constraint with some bounds moved by `change`.
-    fn mend_by(
-        &self,
-        subject: &Settled,
-        place: usize,
-        fields: &[Field],
-        change: f64,
-    ) -> Option<Mend> {
-        let name = subject.name(place);
-        let mut record = subject.world.constraint(subject.parts.ids[place])?.clone();
-        record.replace_drivers(fields, Drivers::new());
-        for &field in fields {
-            let value = record.constraint.get(field)?;
-            record.constraint.set(field, value + change);
-        }
-        let amount = |value: f64| format_digits(value.abs(), 5);
-        let is_more = change > 0.0;
-        let kind = record.constraint.kind();
-        let text = match kind {
-            Kind::Length => {
-                let verb = if is_more { "lengthen" } else { "shorten" };
-                format!("{verb} {name} by {}", amount(change))
-            }
-            Kind::Orientation => {
-                let side = if is_more { "counter-clockwise" } else { "clockwise" };
-                format!("turn {name} {side} by {} deg", amount(change.to_degrees()))
-            }
-            _ => {
-                let verb = if is_more { "increase" } else { "decrease" };
-                format!("{verb} {name} by {}", amount(change))
-            }
-        };
-        let is_angle = kind == Kind::Orientation;
-        let bounds =
-            Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
-        let parts = vec![ChangePart::Relation(self.relation(&record, bounds, is_angle))];
-        let command = text_of(&Command::Change {
-            name: crate::session::resolve::unbind::named(&name),
-            parts,
-        });
-        // A radian counts as the length of what hangs together.
-        let effort = if is_angle { change.abs() * subject.size() } else { change.abs() };
-        Some(Mend { text, command, record, effort })
-    }
-
-    /// The change that makes a constraint between frozen points hold.
-    fn repairs_of_frozen(&self, subject: &Settled, place: usize) -> Vec<String> {
-        let constraint = &subject.parts.constraints[place];
-        let change = constraint.residual(subject.world.points().column());
-        let fields = changeable(constraint).map(|field| field(change));
-        let mend = fields.and_then(|fields| self.mend_by(subject, place, fields, change));
-        mend.into_iter().map(|mend| mend.text).collect()
     }
 
     fn why_point(&self, id: PointId) -> Vec<String> {
@@ -340,6 +221,122 @@ impl Session {
     }
 }
 
+impl Settled {
+    /// The names of a constraint's points, each once.
+    fn points_of(&self, place: usize) -> Vec<String> {
+        let mut points = self.parts.constraints[place].points().to_vec();
+        points.sort_unstable();
+        points.dedup();
+        points.iter().map(|&p| self.world.points().name(PointId(p)).to_owned()).collect()
+    }
+
+    /// What would settle a conflict, in one line, and the same as commands.
+    fn ways_out(&self, conflict: &Conflict) -> Vec<String> {
+        let mut repairs: Vec<Mend> = conflict
+            .repairs
+            .iter()
+            .filter_map(|repair| self.mend(conflict, repair.constraint))
+            .collect();
+        repairs.sort_by(|a, b| a.effort.total_cmp(&b.effort));
+        repairs.truncate(MOST_REPAIRS);
+        let mut ways: Vec<String> = repairs.iter().map(|mend| mend.text.clone()).collect();
+        let names = self.names(&conflict.constraints);
+        ways.push(format!("drop {}", listed(&names, "or")));
+        let mut lines = vec![listed_ways(&ways)];
+        lines.extend(repairs.into_iter().map(|mend| format!("    {}", mend.command)));
+        lines
+    }
+
+    /// The change of one constraint that settles a conflict, if there is one that was seen to.
+    fn mend(&self, conflict: &Conflict, place: usize) -> Option<Mend> {
+        let field = changeable(&self.parts.constraints[place])?;
+        let island = self.with(|scene| scene.neighbours(place));
+        // All that hangs together with it is to hold; if other conflicts are in there, at
+        // least those of this one are.
+        [&island[..], &conflict.constraints[..]].into_iter().find_map(|among| {
+            let change = self.with(|scene| repair(scene, place, among, 1e-3 * self.slack))?;
+            let mend = self.mend_by(place, field(change), change)?;
+            // A change that was not seen to work is none.
+            let mut world = self.world.clone();
+            world.apply(Edit::Constraint(
+                self.parts.ids[place],
+                Some(Box::new(mend.record.clone())),
+            ));
+            let after = self.with_world(world);
+            let holds = |&k: &usize| after.violation(k) <= after.slack;
+            conflict.constraints.iter().all(holds).then_some(mend)
+        })
+    }
+
+    /// A constraint with some bounds moved by `change`.
+    fn mend_by(&self, place: usize, fields: &[Field], change: f64) -> Option<Mend> {
+        let name = self.name(place);
+        let mut record = self.world.constraint(self.parts.ids[place])?.clone();
+        record.replace_drivers(fields, Drivers::new());
+        for &field in fields {
+            let value = record.constraint.get(field)?;
+            record.constraint.set(field, value + change);
+        }
+        let amount = |value: f64| format_digits(value.abs(), 5);
+        let is_more = change > 0.0;
+        let kind = record.constraint.kind();
+        let text = match kind {
+            Kind::Length => {
+                let verb = if is_more { "lengthen" } else { "shorten" };
+                format!("{verb} {name} by {}", amount(change))
+            }
+            Kind::Orientation => {
+                let side = if is_more { "counter-clockwise" } else { "clockwise" };
+                format!("turn {name} {side} by {} deg", amount(change.to_degrees()))
+            }
+            _ => {
+                let verb = if is_more { "increase" } else { "decrease" };
+                format!("{verb} {name} by {}", amount(change))
+            }
+        };
+        let is_angle = kind == Kind::Orientation;
+        let bounds =
+            Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
+        let parts =
+            vec![ChangePart::Relation(Unbind::of(&self.world).relation(&record, bounds, is_angle))];
+        let command = text_of(&Command::Change { name: named(&name), parts });
+        // A radian counts as the length of what hangs together.
+        let effort = if is_angle { change.abs() * self.size() } else { change.abs() };
+        Some(Mend { text, command, record, effort })
+    }
+
+    /// The change that makes a constraint between frozen points hold.
+    fn repairs_of_frozen(&self, place: usize) -> Vec<String> {
+        let constraint = &self.parts.constraints[place];
+        let change = constraint.residual(self.world.points().column());
+        let fields = changeable(constraint).map(|field| field(change));
+        let mend = fields.and_then(|fields| self.mend_by(place, fields, change));
+        mend.into_iter().map(|mend| mend.text).collect()
+    }
+}
+
+impl Execution<'_> {
+    pub(crate) fn check(&mut self) {
+        for line in self.state.examine().lines() {
+            self.host.print(&line);
+        }
+    }
+
+    pub(crate) fn why(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        let lines = match self.resolve().entity(name)? {
+            Entity::Constraint(id) => self.state.why_constraint(id),
+            Entity::Point(id) => self.state.why_point(id),
+            Entity::Parameter(id) => {
+                let text = Unbind::of(&self.state.world).parameter_text(id);
+                return Err(Diagnostic::error("`why` asks about a constraint or a point")
+                    .at(name.span, format!("this is a parameter: `{text}`")));
+            }
+        };
+        lines.iter().for_each(|line| self.host.print(line));
+        Ok(())
+    }
+}
+
 /// More ways out of a conflict than this are not listed.
 const MOST_REPAIRS: usize = 3;
 
@@ -347,7 +344,7 @@ const MOST_REPAIRS: usize = 3;
 struct Mend {
     text: String,
     command: String,
-    record: crate::world::Record,
+    record: Record,
     /// How much of a change it is, length units.
     effort: f64,
 }
@@ -371,12 +368,4 @@ fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field
             &[Field::Lo]
         }
     })
-}
-
-/// Ways as one line: commas between them, `or` before the last.
-fn listed_ways(ways: &[String]) -> String {
-    match ways {
-        [first @ .., last] if !first.is_empty() => format!("{}, or {last}", first.join(", ")),
-        _ => ways.join(""),
-    }
 }

@@ -1,7 +1,9 @@
 //! `effects`: what this scene has switched on, because of which statements, and what each costs.
 
 use crate::constraint::{Constraint, Kind};
-use crate::session::Session;
+use crate::diag::format_digits;
+use crate::session::execution::Execution;
+use crate::session::state::State;
 use crate::solve::{Budget, Effect, Solver, is_inequality, is_wheel};
 use crate::world::{Formula, Record, Sample, World};
 
@@ -40,10 +42,10 @@ const TIMED_SECONDS: f64 = 0.3;
 /// Names told of those that call for an effect.
 const NAMES_TOLD: usize = 6;
 
-impl Session {
+impl State {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
     /// live expressions have values.
-    pub fn effects_on(&self) -> Effects {
+    pub fn effects_on(&self, now: &dyn Fn() -> f64) -> Effects {
         let mut rows = vec![self.clock_row(), self.measures_row()];
         rows.extend([
             self.constraint_row("wheel angles", is_wheel),
@@ -55,7 +57,7 @@ impl Session {
             self.recording_row(),
         ]);
         let mut effects = Effects { rows, islands: (0, 0), n_frames: 0, seconds: 0.0 };
-        self.time_effects(&mut effects);
+        self.time_effects(&mut effects, now);
         effects
     }
 
@@ -140,30 +142,32 @@ impl Session {
     }
 
     /// Lets a copy of the scene run on and times its parts.
-    fn time_effects(&self, effects: &mut Effects) {
+    fn time_effects(&self, effects: &mut Effects, now: &dyn Fn() -> f64) {
         let mut world = self.world.clone();
         let mut solver = Solver::new();
         solver.set_memory(self.solver.memory());
         let settings = &self.preferences.solve;
         // The first frames bring the copy to its pace.
         for _ in 0..2 {
-            let Ok(report) = solver.step(&mut world, settings, &Budget::default()) else { return };
+            let Ok(report) = solver.step(&mut world, settings, &Budget::default(), |_| {}) else {
+                return;
+            };
             effects.islands = (solver.n_islands().0, report.counters.islands_visited as usize);
         }
-        let begun = self.host.seconds();
-        while effects.n_frames < TIMED_FRAMES && self.host.seconds() - begun < TIMED_SECONDS {
-            if solver.step(&mut world, settings, &Budget::default()).is_err() {
+        let begun = now();
+        while effects.n_frames < TIMED_FRAMES && now() - begun < TIMED_SECONDS {
+            if solver.step(&mut world, settings, &Budget::default(), |_| {}).is_err() {
                 break;
             }
             world.sample_traces(false);
             effects.n_frames += 1;
         }
-        effects.seconds = self.host.seconds() - begun;
+        effects.seconds = now() - begun;
         let n_frames = effects.n_frames;
         let time = |work: &mut dyn FnMut()| {
-            let begun = self.host.seconds();
+            let begun = now();
             (0..n_frames).for_each(|_| work());
-            self.host.seconds() - begun
+            now() - begun
         };
         for row in effects.rows.iter_mut().filter(|row| row.is_on) {
             row.seconds = match row.name {
@@ -184,9 +188,11 @@ impl Session {
             };
         }
     }
+}
 
+impl Execution<'_> {
     pub(crate) fn effects(&mut self) {
-        for line in self.effects_on().lines() {
+        for line in self.state.effects_on(&|| self.host.seconds()).lines() {
             self.host.print(&line);
         }
     }
@@ -196,7 +202,7 @@ impl Effects {
     /// The effects as lines of text.
     pub fn lines(&self) -> Vec<String> {
         let per_frame = |seconds: f64| seconds / self.n_frames.max(1) as f64 * 1e6;
-        let digits = |value: f64| super::run::format_digits(value, 3);
+        let digits = |value: f64| format_digits(value, 3);
         let head = ("effect", "", "memory", "us a frame", "share");
         let mut lines = vec![format!(
             "{:<20}{:<5}{:>10}{:>12}{:>8}  because of",

@@ -2,30 +2,24 @@
 
 use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
-use crate::diag::format_number;
+use crate::diag::{Diagnostic, format_degrees, listed};
 use crate::lang::ast::Name;
 use crate::mobility::{End, Range, Reach, range};
-use crate::session::settled::{Parts, listed};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::settled::Parts;
+use crate::session::state::State;
 use crate::world::{ConstraintId, Entity};
 
-/// An angle in degrees, to 1e-9.
-pub(crate) fn degrees(radians: f64) -> String {
-    let rounded = (radians.to_degrees() * 1e9).round() / 1e9;
-    // Adding 0 makes a 0 of -0.
-    format!("{} deg", format_number(rounded + 0.0))
-}
-
-impl Session {
+impl Execution<'_> {
     pub(crate) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        let entity = self.entity(name)?;
+        let entity = self.resolve().entity(name)?;
         let motor = match entity {
-            Entity::Constraint(id) => self.world.constraint(id).map(|record| (id, record)),
+            Entity::Constraint(id) => self.state.world.constraint(id).map(|record| (id, record)),
             _ => None,
         };
         let Some((id, record)) = motor.filter(|(_, r)| r.constraint.kind() == Kind::Motor) else {
             return Err(Diagnostic::error("`limits` asks how far a motor can turn")
-                .at(name.span, format!("this is a {}", self.noun_of(entity)))
+                .at(name.span, format!("this is a {}", self.state.noun_of(entity)))
                 .help("`list constraints` shows the motors"));
         };
         if !record.is_on {
@@ -33,11 +27,13 @@ impl Session {
             self.host.print(&text);
             return Ok(());
         }
-        let text = self.limits_of(id);
+        let text = self.state.limits_of(id);
         self.host.print(&text);
         Ok(())
     }
+}
 
+impl State {
     fn noun_of(&self, entity: Entity) -> &'static str {
         match entity {
             Entity::Constraint(id) => {
@@ -67,16 +63,16 @@ impl Session {
             return cannot("it is switched off".to_owned());
         };
         let end = |end: End, which: &str| match end {
-            End::DeadPoint(angle) => format!("{which} {}, a dead point", degrees(angle)),
+            End::DeadPoint(angle) => format!("{which} {}, a dead point", format_degrees(angle)),
             End::Stop(angle, by) => {
                 let by = Parts::of(&self.world).ids[by];
                 let by = self.world.name_of(Entity::Constraint(by));
-                format!("{which} {}, where {by} stops it", degrees(angle))
+                format!("{which} {}, where {by} stops it", format_degrees(angle))
             }
             End::Lost(angle) => {
-                format!("{which} at least {}, where the motion was lost", degrees(angle))
+                format!("{which} at least {}, where the motion was lost", format_degrees(angle))
             }
-            End::Endless(angle) => format!("{which} {} and on", degrees(angle)),
+            End::Endless(angle) => format!("{which} {} and on", format_degrees(angle)),
         };
         let text = match reach {
             Reach::Full(1) => format!("{name} turns fully"),
@@ -85,7 +81,7 @@ impl Session {
                 "{name} turns {}, {}; it is at {}",
                 end(lower, "from"),
                 end(upper, "to"),
-                degrees(now)
+                format_degrees(now)
             ),
             Reach::Rigid => format!("{name} cannot turn: what it drives is rigid"),
             Reach::Unsatisfied => cannot("the constraints do not hold now".to_owned()),
@@ -103,7 +99,7 @@ impl Session {
         angles.sort_by(f64::total_cmp);
         // They are known to some 1e-8.
         let rounded = |angle: f64| ((angle.to_degrees() * 1e6).round() / 1e6).to_radians();
-        let mut angles: Vec<String> = angles.into_iter().map(rounded).map(degrees).collect();
+        let mut angles: Vec<String> = angles.into_iter().map(rounded).map(format_degrees).collect();
         angles.dedup();
         match angles.len() {
             0 => text,

@@ -2,39 +2,19 @@
 
 use std::sync::Arc;
 
+use crate::diag::Diagnostic;
 use crate::lang::ast::{Expr, PlotPart, Text};
-use crate::render::chart::{Axis, Chart, Mark, Series, Unit};
+use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
+use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
-use crate::session::{Diagnostic, Session};
 
-/// The series by name, in order of their first values.
-pub type SeriesList = Vec<(Arc<str>, Vec<f64>)>;
-
-impl Session {
+impl Execution<'_> {
     pub(crate) fn sample(&mut self, series: &Text, values: &[Expr]) -> Result<(), Diagnostic> {
         for value in values {
-            let value = self.number(value)?;
+            let value = self.resolve().number(value)?;
             self.change(Change::Sample(Box::new((series.value.clone(), Some(value)))));
         }
         Ok(())
-    }
-
-    /// Appends a value to a series, or takes its last one away; gives what takes that back.
-    pub(crate) fn swap_sample(&mut self, name: Arc<str>, value: Option<f64>) -> Change {
-        let at = self.series.iter().position(|(known, _)| *known == name);
-        let Some(value) = value else {
-            let at = at.expect("a value was appended to it before");
-            let old = self.series[at].1.pop();
-            if self.series[at].1.is_empty() {
-                self.series.remove(at);
-            }
-            return Change::Sample(Box::new((name, old)));
-        };
-        match at {
-            Some(at) => self.series[at].1.push(value),
-            None => self.series.push((name.clone(), vec![value])),
-        }
-        Change::Sample(Box::new((name, None)))
     }
 
     pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
@@ -43,7 +23,7 @@ impl Session {
             return Err(Diagnostic::error("`plot` writes an SVG picture")
                 .at(path.span, "expected a name that ends in `.svg`"));
         }
-        if self.series.is_empty() {
+        if self.state.series.is_empty() {
             return Err(Diagnostic::error("there is nothing to plot")
                 .at(path.span, "no series has a value")
                 .help(r#"`sample "error" = distance(A, B)` appends one"#));
@@ -61,18 +41,19 @@ impl Session {
                 PlotPart::Y(text) => chart.y.label = text.value.to_string(),
             }
         }
-        let mark = |(k, &y): (usize, &f64)| Mark { x: k as f64, y, label: None, is_notable: false };
+        let datum =
+            |(k, &y): (usize, &f64)| Datum { x: k as f64, y, label: None, is_notable: false };
         let line = |(look, (name, values)): (usize, &(Arc<str>, Vec<f64>))| Series {
             name: name.to_string(),
             look,
-            marks: values.iter().enumerate().map(mark).collect(),
+            data: values.iter().enumerate().map(datum).collect(),
         };
-        chart.series = self.series.iter().enumerate().map(line).collect();
+        chart.series = self.state.series.iter().enumerate().map(line).collect();
         self.outbox.push((file, chart.svg().into_bytes(), path.span));
         Ok(())
     }
 }
 
-fn axis(label: &str, is_log: bool) -> Axis {
-    Axis { label: label.to_owned(), is_log, unit: Unit::None }
+fn axis(label: &str, is_log: bool) -> ChartAxis {
+    ChartAxis { label: label.to_owned(), is_log, unit: AxisUnit::None }
 }

@@ -1,25 +1,20 @@
 //! Points and parameters: making, moving, freezing.
 
 use crate::constraint::ConstraintKind as _;
-use crate::diag::nearest;
+use crate::diag::Diagnostic;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
-use crate::session::{Diagnostic, Session};
-use crate::world::{Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
+use crate::session::execution::Execution;
+use crate::session::resolve::scope::{ALL, RESERVED};
+use crate::world::{ConstraintId, Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
 
-/// Names that have a meaning of their own in every expression.
-pub(crate) const RESERVED: [&str; 3] = ["pi", "tau", "time"];
-
-/// The word for every point.
-pub(crate) const ALL: &str = "all";
-
-impl Session {
+impl Execution<'_> {
     pub(crate) fn make_points(&mut self, declarations: &[PointDecl]) -> Result<(), Diagnostic> {
         for PointDecl { name, at, frozen } in declarations {
             debug_assert!(!RESERVED.contains(&&*name.head.text), "the parser refuses these");
-            let at = self.place(at)?;
-            let name = self.declare(name)?;
+            let at = self.resolve().place(at)?;
+            let name = self.resolve().declare(name)?;
             let record = PointRecord { name, at, start: at, is_frozen: *frozen, weight: 1.0 };
-            let id = self.world.next_point();
+            let id = self.state.world.next_point();
             self.edit(Edit::Point(id, Some(Box::new(record))));
         }
         Ok(())
@@ -30,17 +25,17 @@ impl Session {
     }
 
     fn let_parameter(&mut self, name: &Name, value: &Expr) -> Result<(), Diagnostic> {
-        let text = self.declared(name)?;
-        let mut formula = self.live(value)?.into_formula(value.span);
-        if let Some(given) = self.overrides.get_mut(&text) {
+        let text = self.resolve().declared(name)?;
+        let mut formula = self.resolve().live(value)?.into_formula(value.span);
+        if let Some(given) = self.input.overrides.get_mut(&text) {
             given.is_used = true;
             formula = Formula::constant(given.value);
         }
-        if let Some(Entity::Parameter(id)) = self.world.names().get(&text) {
+        if let Some(Entity::Parameter(id)) = self.state.world.names().get(&text) {
             return self.redefine(id, formula, value);
         }
-        let text = self.declare(name)?;
-        let id = self.world.next_parameter();
+        let text = self.resolve().declare(name)?;
+        let id = self.state.world.next_parameter();
         self.set_parameter(id, text, formula)
     }
 
@@ -51,12 +46,12 @@ impl Session {
         formula: Formula,
         value: &Expr,
     ) -> Result<(), Diagnostic> {
-        let old = self.world.parameter(id).expect("a named parameter lives");
+        let old = self.state.world.parameter(id).expect("a named parameter lives");
         let text = old.name.clone();
-        if let Some(path) = self.world.cycle(id, &formula) {
+        if let Some(path) = self.state.world.cycle(id, &formula) {
             let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
                 .at(value.span, format!("this leads back to `{text}`"));
-            let path = path.into_iter().map(|id| self.world.name_of(Entity::Parameter(id)));
+            let path = path.into_iter().map(|id| self.state.world.name_of(Entity::Parameter(id)));
             let path: Vec<String> = path.map(|name| format!("`{name}`")).collect();
             return Err(if path.len() == 1 {
                 problem.help("an expression stays live; to count on, give the number itself")
@@ -65,7 +60,7 @@ impl Session {
             });
         }
         let (was, is) = (old.formula.shape(), formula.shape());
-        if was != is && !self.world.users(&[Entity::Parameter(id)]).is_empty() {
+        if was != is && !self.state.world.users(&[Entity::Parameter(id)]).is_empty() {
             return Err(Diagnostic::error(format!("`{text}` is a {} and used as one", was.noun()))
                 .at(value.span, format!("this is a {}", is.noun())));
         }
@@ -79,20 +74,23 @@ impl Session {
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();
-        let result = self.world.set_parameter(id, name, formula, &mut undo);
-        undo.into_iter().for_each(|inverse| self.keep(inverse));
+        let result = self.state.world.set_parameter(id, name, formula, &mut undo);
+        for inverse in undo {
+            self.history.keep(&self.state.world, inverse);
+        }
         result
     }
 
     /// The points of a selection.
     pub(crate) fn selected(&mut self, selection: &Selection) -> Result<Vec<PointId>, Diagnostic> {
         match selection {
-            Selection::All => Ok(self.world.points().ids().collect()),
+            Selection::All => Ok(self.state.world.points().ids().collect()),
             Selection::Names(names) => {
                 let mut points = Vec::new();
                 for name in names {
-                    let point = self.point(name);
-                    points.push(point.map_err(|problem| self.or_word(problem, name, ALL))?);
+                    let point = self.resolve().point(name);
+                    points
+                        .push(point.map_err(|problem| self.resolve().or_word(problem, name, ALL))?);
                 }
                 Ok(points)
             }
@@ -101,7 +99,7 @@ impl Session {
 
     pub(crate) fn freeze(&mut self, selection: &Selection, freeze: bool) -> Result<(), Diagnostic> {
         for id in self.selected(selection)? {
-            if self.world.points().is_frozen(id) != freeze {
+            if self.state.world.points().is_frozen(id) != freeze {
                 self.edit(Edit::Freeze(id, freeze));
             }
         }
@@ -109,8 +107,8 @@ impl Session {
     }
 
     pub(crate) fn move_point(&mut self, point: &Name, to: &Expr) -> Result<(), Diagnostic> {
-        let id = self.point(point)?;
-        let at = self.place(to)?;
+        let id = self.resolve().point(point)?;
+        let at = self.resolve().place(to)?;
         self.edit(Edit::Move(id, at));
         Ok(())
     }
@@ -118,16 +116,16 @@ impl Session {
     /// Switches constraints, or all those of an instance.
     pub(crate) fn switch(&mut self, names: &[Name], on: bool) -> Result<(), Diagnostic> {
         for name in names {
-            let ids = match self.instance(name)? {
+            let ids = match self.resolve().instance(name)? {
                 Some(instance) => {
-                    let members = self.world.names().members(&instance);
+                    let members = self.state.world.names().members(&instance);
                     let constraints = members.filter_map(|member| match member {
                         Entity::Constraint(id) => Some(id),
                         _ => None,
                     });
                     constraints.collect()
                 }
-                None => vec![self.constraint(name)?],
+                None => vec![self.resolve().constraint(name)?],
             };
             for id in ids {
                 self.switch_one(id, on);
@@ -136,31 +134,19 @@ impl Session {
         Ok(())
     }
 
-    fn switch_one(&mut self, id: crate::world::ConstraintId, on: bool) {
-        let record = self.world.constraint(id).expect("a named constraint lives");
+    fn switch_one(&mut self, id: ConstraintId, on: bool) {
+        let record = self.state.world.constraint(id).expect("a named constraint lives");
         if record.is_on == on {
             return;
         }
         if on {
             // A motor goes on from where its point is now.
             let mut record = record.clone();
-            record.constraint.pick_up(self.world.points().column());
+            record.constraint.pick_up(self.state.world.points().column());
             record.is_on = true;
             self.edit(Edit::Constraint(id, Some(Box::new(record))));
         } else {
             self.edit(Edit::Switch(id, false));
-        }
-    }
-
-    /// The word nearest to one that was not understood, as help.
-    pub(crate) fn suggest<'a>(
-        problem: Diagnostic,
-        word: &str,
-        known: impl IntoIterator<Item = &'a str>,
-    ) -> Diagnostic {
-        match nearest(word, known) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem,
         }
     }
 }

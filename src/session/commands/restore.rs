@@ -2,12 +2,12 @@
 
 use super::save::{ordinals, what};
 use crate::constraint::{ConstraintKind as _, Point};
-use crate::diag::Span;
+use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Expr, Ident, Name};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
 use crate::world::{Clock, ConstraintId, Edit, Ghost, Record, Sample, Value};
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn restore(
         &mut self,
         kind: &Ident,
@@ -15,7 +15,8 @@ impl Session {
         values: &[Expr],
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let values = values.iter().map(|e| self.value(e)).collect::<Result<Vec<_>, _>>()?;
+        let values =
+            values.iter().map(|e| self.resolve().value(e)).collect::<Result<Vec<_>, _>>()?;
         let bad = || {
             Diagnostic::error("this does not restore anything").at(span, "written by `save` only")
         };
@@ -33,7 +34,7 @@ impl Session {
                 self.edit(Edit::Clock(Box::new(Clock { frame, dt, base_frame, base_time })));
             }
             (what::START, Some(name)) => {
-                let id = self.point(name)?;
+                let id = self.resolve().point(name)?;
                 let [Value::Vector(v)] = values[..] else { return Err(bad()) };
                 self.edit(Edit::Start(id, Point::new(v.x, v.y)));
             }
@@ -54,7 +55,7 @@ impl Session {
                 })?;
             }
             (what::FIRST_STATE, Some(name)) => {
-                let id = self.constraint(name)?;
+                let id = self.resolve().constraint(name)?;
                 let state = numbers(&values).ok_or_else(bad)?;
                 self.edit(Edit::StartState(id, Some(state.into())));
             }
@@ -64,7 +65,7 @@ impl Session {
                 self.restore_missed(name, &missed)?;
             }
             (what::GHOST, None) => {
-                let numbered = ordinals(&self.world);
+                let numbered = ordinals(&self.state.world);
                 let mut ghost = Ghost { at: Vec::new() };
                 for pair in values.chunks(2) {
                     let [Value::Number(k), Value::Vector(v)] = *pair else { return Err(bad()) };
@@ -74,9 +75,9 @@ impl Session {
                 self.edit(Edit::Ghost(Some(Box::new(ghost))));
             }
             (what::MEMORY, owner) => {
-                let id = owner.map(|name| self.point(name)).transpose()?;
+                let id = owner.map(|name| self.resolve().point(name)).transpose()?;
                 let values = numbers(&values).ok_or_else(bad)?;
-                let mut memory = self.solver.memory();
+                let mut memory = self.state.solver.memory();
                 if !memory.restore(id, &values) {
                     return Err(bad());
                 }
@@ -92,8 +93,8 @@ impl Session {
         name: &Name,
         change: impl FnOnce(&mut Record),
     ) -> Result<(), Diagnostic> {
-        let id: ConstraintId = self.constraint(name)?;
-        let mut record = self.world.constraint(id).expect("a named constraint lives").clone();
+        let id: ConstraintId = self.resolve().constraint(name)?;
+        let mut record = self.state.world.constraint(id).expect("a named constraint lives").clone();
         change(&mut record);
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())
@@ -126,8 +127,8 @@ impl Session {
         name: &Name,
         change: impl FnOnce(&mut Vec<Sample>),
     ) -> Result<(), Diagnostic> {
-        let point = self.point(name)?;
-        let traces = self.world.traces();
+        let point = self.resolve().point(name)?;
+        let traces = self.state.world.traces();
         let Some(k) = traces.iter().position(|t| t.point == point) else {
             return Err(Diagnostic::error("this point is not traced").at(name.span, ""));
         };

@@ -1,14 +1,15 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
 use super::dead_point::{Next, WayBack};
-use crate::diag::{Kind, Span, format_number};
+use crate::diag::{Diagnostic, Kind, Span, format_count, format_number, format_rounded};
 use crate::lang::ast::{DragTarget, Expr, Promise};
-use crate::session::dispatch::format_count;
-use crate::session::report::Summary;
-use crate::session::{Diagnostic, Flow, Session};
+use crate::session::execution::{Execution, Flow};
+use crate::session::quotas::MOST_FRAMES;
+use crate::session::state::State;
+use crate::session::summary::Summary;
 use crate::solve::{Budget, Report, Status};
-use crate::study::Hand;
-use crate::world::{Edit, PointId};
+use crate::study::{Hand, move_by};
+use crate::world::{Edit, PointId, World};
 
 /// A promise, evaluated.
 #[derive(Debug, Clone, Copy, Default)]
@@ -17,6 +18,13 @@ pub(crate) struct Limits {
     pub tolerance: Option<f64>,
     /// The wall time that no frame is to exceed.
     pub seconds: Option<f64>,
+}
+
+/// So many frames, and the hands that are at work in them.
+#[derive(Clone, Copy)]
+struct Frames<'a> {
+    n: u64,
+    hands: &'a [Hand],
 }
 
 /// What a user who wants to stop does to a frame on its way.
@@ -33,11 +41,11 @@ const RELAX_CHUNK: u64 = 256;
 /// With more iterations than that a frame may take so long that its user wants to stop it.
 const LONG: u32 = 10_000;
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn promised(&mut self, promise: &Promise) -> Result<Limits, Diagnostic> {
         let mut positive = |expr: &Option<Expr>| -> Result<Option<f64>, Diagnostic> {
             let Some(expr) = expr else { return Ok(None) };
-            let value = self.number(expr)?;
+            let value = self.resolve().number(expr)?;
             if value > 0.0 {
                 return Ok(Some(value));
             }
@@ -55,12 +63,12 @@ impl Session {
     ) -> Result<Flow, Diagnostic> {
         let n = match frames {
             None => 1,
-            Some(n) => self.count(n, 0.0, crate::session::quotas::MOST_FRAMES, "frames")?,
+            Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
         };
         let limits = self.promised(promise)?;
-        self.begin_leg(n);
-        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
-        self.end_leg(n, n_done, Vec::new());
+        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        let (flow, n_done) = self.frames(n, limits, span, &[])?;
+        self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
 
@@ -70,18 +78,18 @@ impl Session {
         promise: &Promise,
         span: Span,
     ) -> Result<Flow, Diagnostic> {
-        let value = self.number(time)?;
-        let n = (value / self.world.clock().dt).round();
-        if !(0.0..=crate::session::quotas::MOST_FRAMES).contains(&n) {
+        let value = self.resolve().number(time)?;
+        let n = (value / self.state.world.clock().dt).round();
+        if !(0.0..=MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
             return Err(
                 Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
             );
         }
         let (n, limits) = (n as u64, self.promised(promise)?);
-        self.begin_leg(n);
-        let (flow, n_done) = self.frames(n, limits, span, |_, _| {})?;
-        self.end_leg(n, n_done, Vec::new());
+        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        let (flow, n_done) = self.frames(n, limits, span, &[])?;
+        self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
 
@@ -93,74 +101,69 @@ impl Session {
     ) -> Result<Flow, Diagnostic> {
         let n = match over {
             None => 1,
-            Some(n) => self.count(n, 1.0, crate::session::quotas::MOST_FRAMES, "frames")?,
+            Some(n) => self.resolve().count(n, 1.0, MOST_FRAMES, "frames")?,
         };
         let mut hands: Vec<Hand> = Vec::new();
         for target in targets {
-            let id = self.point(&target.point)?;
+            let id = self.resolve().point(&target.point)?;
             if hands.iter().any(|hand| hand.point == id) {
                 return Err(Diagnostic::error("one point cannot be dragged to two places")
                     .at(target.point.span, "dragged twice"));
             }
-            let (from, to) = (self.world.points().at(id), self.place(&target.to)?);
+            let (from, to) = (self.state.world.points().at(id), self.resolve().place(&target.to)?);
             hands.push(Hand { point: id, from, way: to - from });
         }
         // A free point is held by the hand that drags it, and let go after.
         let free: Vec<PointId> = hands
             .iter()
             .map(|h| h.point)
-            .filter(|&id| !self.world.points().is_frozen(id))
+            .filter(|&id| !self.state.world.points().is_frozen(id))
             .collect();
-        self.begin_leg(n);
+        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
         self.begin_motion();
         for &id in &free {
             self.edit(Edit::Freeze(id, true));
         }
-        let is_at_start = self.world.clock().frame == 0;
-        let (flow, n_done) = self.frames(n, Limits::default(), span, |session, k| {
-            for hand in &hands {
-                let at = hand.at(k as f64 / n as f64);
-                session.world.apply(Edit::Move(hand.point, at));
-            }
-        })?;
+        let is_at_start = self.state.world.clock().frame == 0;
+        let (flow, n_done) = self.frames(n, Limits::default(), span, &hands)?;
         for &id in &free {
             self.edit(Edit::Freeze(id, false));
         }
         // The hand moved before the clock left 0: `reset` puts the point back under it.
-        if is_at_start && self.world.clock().frame > 0 {
+        if is_at_start && self.state.world.clock().frame > 0 {
             for hand in &hands {
                 self.edit(Edit::Start(hand.point, hand.from));
             }
         }
-        self.end_leg(n, n_done, hands);
+        self.history.last_motion.end_leg(self.state, n, n_done, hands);
         Ok(flow)
     }
 
-    /// Lets `n` frames pass; gives how many did. Before each, `hand` may move points; it is
-    /// given the frame's number, from 1.
+    /// Lets `n` frames pass, in which hands go their ways; gives how many did.
     fn frames(
         &mut self,
         n: u64,
         limits: Limits,
         span: Span,
-        hand: impl Fn(&mut Self, u64),
+        hands: &[Hand],
     ) -> Result<(Flow, u64), Diagnostic> {
-        let clock = self.world.clock();
+        let clock = self.state.world.clock();
         if !(clock.time() + n as f64 * clock.dt).is_finite() {
             return Err(Diagnostic::error("the clock does not go that far")
                 .at(span, format!("time would be beyond {}", format_number(f64::MAX))));
         }
         self.begin_motion();
-        let settings = self.preferences.solve;
+        let settings = self.state.preferences.solve;
         let mut summary = self.run.take().unwrap_or(Summary::new());
         summary.begin(&settings, limits.tolerance.unwrap_or(settings.tolerance));
         let (n_before, n_missed_before) = (summary.n_frames, summary.n_missed);
         let mut flow = Flow::On;
         let begun = self.host.seconds();
-        let leaves_nothing = self.world.traces().is_empty()
-            && self.recorders.is_empty()
-            && self.preferences.expose_every.is_none();
+        let leaves_nothing = self.state.world.traces().is_empty()
+            && self.state.recorders.is_empty()
+            && self.state.preferences.expose_every.is_none();
         let mut way_back = None;
+        let frames = Frames { n, hands };
         for k in 1..=n {
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
@@ -169,24 +172,24 @@ impl Session {
             }
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
-            let mut report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+            let mut report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
             if report.status != Status::Converged {
                 let next = self.met(way_back.is_some(), k, n);
                 if next != Next::On
                     && let Some(way) = way_back.take()
                 {
-                    self.go_back_to(k, way, &limits, &hand)?;
+                    self.go_back_to(k, way, frames, &limits)?;
                 }
                 match next {
                     Next::On => {}
                     Next::Again(motors) => {
                         motors.into_iter().for_each(|id| self.reverse(id));
-                        report = self.one_frame(k, &limits, Stop::Allowed, &hand)?;
+                        report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
                     }
                     Next::Stop => break,
                 }
             }
-            summary.add(&report, self.world.clock().frame, span);
+            summary.add(&report, self.state.world.clock().frame, span);
             if !leaves_nothing {
                 self.keep_frame(is_missed(&report));
             }
@@ -207,42 +210,14 @@ impl Session {
     fn one_frame(
         &mut self,
         k: u64,
+        frames: Frames,
         limits: &Limits,
         stop: Stop,
-        hand: impl Fn(&mut Self, u64),
     ) -> Result<Report, Diagnostic> {
+        // What was edited is part of no frame's time.
         self.sync();
-        hand(self, k);
-        self.pass(limits, stop).map_err(|why| self.in_frame(why))
-    }
-
-    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
-    /// already, so none is cut short: what comes out is what was.
-    fn go_back_to(
-        &mut self,
-        k: u64,
-        way: WayBack,
-        limits: &Limits,
-        hand: impl Fn(&mut Self, u64),
-    ) -> Result<(), Diagnostic> {
-        let limits = Limits { tolerance: limits.tolerance, seconds: None };
-        let again = way.frame..k;
-        self.go_back(way);
-        for k in again {
-            let report = self.one_frame(k, &limits, Stop::Ignored, &hand)?;
-            self.keep_frame(is_missed(&report));
-        }
-        Ok(())
-    }
-
-    /// Adds to an error in which frame it came up.
-    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
-        let clock = self.world.clock();
-        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
-    }
-
-    fn pass(&mut self, limits: &Limits, stop: Stop) -> Result<Report, Diagnostic> {
-        let Self { solver, world, preferences, host, .. } = self;
+        let Self { state, host, .. } = &mut *self;
+        let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
         let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
         let is_over = || {
@@ -251,11 +226,40 @@ impl Session {
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
-        solver.step(world, &preferences.solve, &Budget { tolerance: limits.tolerance, stop })
+        let budget = Budget { tolerance: limits.tolerance, stop };
+        let share = k as f64 / frames.n as f64;
+        let hand = |world: &mut World| move_by(frames.hands, share, world);
+        let report = solver.step(world, &preferences.solve, &budget, hand);
+        report.map_err(|why| self.in_frame(why))
+    }
+
+    /// Goes a way back, and does the frames from there up to `k` again. Each took its time
+    /// already, so none is cut short: what comes out is what was.
+    fn go_back_to(
+        &mut self,
+        k: u64,
+        way: WayBack,
+        frames: Frames,
+        limits: &Limits,
+    ) -> Result<(), Diagnostic> {
+        let limits = Limits { tolerance: limits.tolerance, seconds: None };
+        let again = way.frame..k;
+        self.go_back(way);
+        for k in again {
+            let report = self.one_frame(k, frames, &limits, Stop::Ignored)?;
+            self.keep_frame(is_missed(&report));
+        }
+        Ok(())
+    }
+
+    /// Adds to an error in which frame it came up.
+    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+        let clock = self.state.world.clock();
+        why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }
 
     pub(crate) fn relax(&mut self, n: Option<&Expr>) -> Result<Flow, Diagnostic> {
-        let n = n.map_or(Ok(1), |n| self.count(n, 0.0, 1e12, "iterations"))?;
+        let n = n.map_or(Ok(1), |n| self.resolve().count(n, 0.0, 1e12, "iterations"))?;
         self.begin_motion();
         let mut left = n;
         let mut lowered: Option<f64> = None;
@@ -266,11 +270,15 @@ impl Session {
                 flow = Flow::Stopped;
                 break;
             }
-            if self.world.is_measured() {
-                self.world.refresh_measured()?;
+            if self.state.world.is_measured() {
+                self.state.world.refresh_measured()?;
             }
             let chunk = left.min(RELAX_CHUNK);
-            let report = self.solver.relax(&mut self.world, &self.preferences.solve, chunk);
+            let report = self.state.solver.relax(
+                &mut self.state.world,
+                &self.state.preferences.solve,
+                chunk,
+            );
             if let Some(rho) = report.lowered_rho {
                 lowered = Some(lowered.map_or(rho, |least| least.min(rho)));
             }
@@ -279,7 +287,7 @@ impl Session {
         // From here on the method that is set counts again; that is part of this command.
         self.sync();
         if let Some(rho) = lowered {
-            let given = format_number(self.preferences.solve.rho);
+            let given = format_number(self.state.preferences.solve.rho);
             self.note(format!(
                 "rho {given} would diverge on this scene; {} was used",
                 format_rounded(rho)
@@ -291,12 +299,13 @@ impl Session {
     pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
         let limits = self.promised(promise)?;
         self.begin_motion();
-        let is_measured = self.world.is_measured();
+        let is_measured = self.state.world.is_measured();
         if is_measured {
-            self.world.refresh_measured()?;
+            self.state.world.refresh_measured()?;
         }
         let mut report = {
-            let Self { solver, world, preferences, host, .. } = self;
+            let Self { state, host, .. } = &mut *self;
+            let State { solver, world, preferences, .. } = &mut **state;
             let deadline = limits.seconds.map(|s| host.seconds() + s);
             let is_over = || {
                 host.is_interrupted() || deadline.is_some_and(|deadline| host.seconds() >= deadline)
@@ -305,7 +314,7 @@ impl Session {
             solver.settle(world, &preferences.solve, &budget)
         };
         if is_measured {
-            let Self { solver, world, preferences, .. } = self;
+            let State { solver, world, preferences, .. } = &mut *self.state;
             let budget = Budget { tolerance: limits.tolerance, stop: None };
             solver.agree(world, &preferences.solve, &budget, &mut report)?;
         }
@@ -328,15 +337,4 @@ impl Session {
 /// Whether a frame counts as missed.
 fn is_missed(report: &Report) -> bool {
     report.status != Status::Converged || report.is_interrupted
-}
-
-/// A number for talk: three digits say enough.
-pub(crate) fn format_rounded(value: f64) -> String {
-    format_digits(value, 3)
-}
-
-/// A number rounded to so many digits.
-pub(crate) fn format_digits(value: f64, n_digits: usize) -> String {
-    let text = format!("{value:.*e}", n_digits - 1);
-    format_number(text.parse().unwrap_or(value))
 }

@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use super::settings::SETTINGS;
 use crate::constraint::{Constraint, ConstraintKind as _};
+use crate::diag::Diagnostic;
 use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
-use crate::session::resolve::unbind::{ident, literal, named, text_of, vector};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
+use crate::session::state::State;
 use crate::solve::CogForm;
 use crate::world::{PointId, World};
 
@@ -37,10 +39,10 @@ pub(crate) mod what {
     pub const MEMORY: &str = "memory";
 }
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
         let file = self.output_file(path)?;
-        let there = self.host.read(&self.host.written(&file));
+        let there = self.host.resolve(&file).and_then(|at| self.host.read(&at));
         // What a hand wrote cannot be written anew by a machine.
         if there.is_ok_and(|text| !text.trim().is_empty() && !text.starts_with(FIRST_WORDS)) {
             let name = &path.value;
@@ -50,11 +52,13 @@ impl Session {
             .at(path.span, "it would be lost")
             .help("choose another name, or remove the file first"));
         }
-        let text = self.to_script();
+        let text = self.state.to_script();
         self.queue_file(file, text.into_bytes(), path.span);
         Ok(())
     }
+}
 
+impl State {
     /// The script that makes this world, its settings and its state.
     pub fn to_script(&self) -> String {
         let mut script = format!("{FIRST_WORDS} `load` it, or run it as a script.\n");
@@ -64,7 +68,7 @@ impl Session {
         }
         self.save_points(&mut script);
         for id in self.parameters_in_order() {
-            let text = self.parameter_text(id);
+            let text = Unbind::of(&self.world).parameter_text(id);
             script.push_str(&text);
             script.push('\n');
         }
@@ -138,7 +142,7 @@ impl Session {
             if std::mem::replace(&mut form, wanted) != wanted {
                 set_cog(script, wanted);
             }
-            line(script, self.constraint_statement(record));
+            line(script, Unbind::of(&self.world).constraint_statement(record));
             let name = Some(&*record.name);
             if let Some(rho) = record.rho() {
                 let targets = vec![named(&record.name)];
@@ -199,7 +203,7 @@ impl Session {
             restore(script, what::GHOST, None, places.flatten().collect());
         }
         for (series, values) in &self.series {
-            let series = crate::session::resolve::unbind::quoted(series);
+            let series = quoted(series);
             line(script, Command::Sample { series, values: numbers(values) });
         }
         if let Some(every) = self.preferences.expose_every {

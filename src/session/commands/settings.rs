@@ -1,24 +1,13 @@
 //! Settings: their names, their values, `set`.
 
-use super::dead_point::AtDeadPoint;
-use crate::diag::format_number;
+use crate::diag::{Diagnostic, format_number, suggest};
 use crate::lang::ast::{Expr, Ident, Name};
+use crate::session::execution::Execution;
+use crate::session::preferences::AtDeadPoint;
+use crate::session::state::State;
 use crate::session::undo::journal::Change;
-use crate::session::{Diagnostic, Session};
-use crate::solve::{CogForm, Method, Settings};
+use crate::solve::{CogForm, Method};
 use crate::world::{Edit, Entity};
-
-/// What a user prefers: everything that `set` sets but the length of a frame, which belongs
-/// to the clock.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Preferences {
-    /// How the solver works.
-    pub solve: Settings,
-    /// What happens where a motor cannot go on.
-    pub dead_points: AtDeadPoint,
-    /// A ghost of the mechanism is kept every so many frames.
-    pub expose_every: Option<u64>,
-}
 
 /// The settings, in the order in which they are printed, with what each is.
 pub const SETTINGS: [(&str, &str); 7] = [
@@ -31,7 +20,7 @@ pub const SETTINGS: [(&str, &str); 7] = [
     ("cog", "`holonomic`, or the paper's `velocity` form"),
 ];
 
-impl Session {
+impl State {
     /// The value of a setting as it would be typed.
     pub(crate) fn setting_text(&self, name: &str) -> String {
         let solve = &self.preferences.solve;
@@ -46,7 +35,9 @@ impl Session {
             _ => unreachable!("`{name}` is not among the settings"),
         }
     }
+}
 
+impl Execution<'_> {
     pub(crate) fn show_settings(&mut self, which: Option<&Ident>) -> Result<(), Diagnostic> {
         if let Some(word) = which
             && SETTINGS.iter().all(|(name, _)| *name != &*word.text)
@@ -55,7 +46,7 @@ impl Session {
         }
         for (name, what) in SETTINGS {
             if which.is_none_or(|word| &*word.text == name) {
-                let text = format!("set {name} {}", self.setting_text(name));
+                let text = format!("set {name} {}", self.state.setting_text(name));
                 self.host.print(&format!("{text:<28}# {what}"));
             }
         }
@@ -79,11 +70,11 @@ impl Session {
             }
             ("dt", []) => {
                 let dt = self.positive(value)?;
-                self.edit(Edit::Clock(Box::new(self.world.clock().with_dt(dt))));
+                self.edit(Edit::Clock(Box::new(self.state.world.clock().with_dt(dt))));
                 Ok(())
             }
             (_, []) => {
-                let mut new = self.preferences.clone();
+                let mut new = self.state.preferences.clone();
                 let solve = &mut new.solve;
                 match &*setting.text {
                     "method" => {
@@ -99,7 +90,8 @@ impl Session {
                     }
                     "rho" => solve.rho = self.coefficient(value)?,
                     "iterations" => {
-                        solve.iterations = self.count(value, 1.0, 1e9, "iterations")? as u32;
+                        solve.iterations =
+                            self.resolve().count(value, 1.0, 1e9, "iterations")? as u32;
                     }
                     "tolerance" => {
                         let tolerance = self.positive(value)?;
@@ -118,7 +110,7 @@ impl Session {
     }
 
     fn positive(&mut self, expr: &Expr) -> Result<f64, Diagnostic> {
-        let value = self.number(expr)?;
+        let value = self.resolve().number(expr)?;
         if value > 0.0 {
             return Ok(value);
         }
@@ -144,7 +136,7 @@ impl Session {
     ) -> Result<(), Diagnostic> {
         let number = self.positive(value)?;
         for name in targets {
-            match (&*setting.text, self.entity(name)?) {
+            match (&*setting.text, self.resolve().entity(name)?) {
                 ("weight", Entity::Point(id)) => {
                     if !(1e-9..=1e9).contains(&number) {
                         return Err(Diagnostic::error("a weight lies between 1e-9 and 1e9")
@@ -153,7 +145,7 @@ impl Session {
                     self.edit(Edit::Weight(id, number));
                 }
                 ("rho", Entity::Constraint(id)) => {
-                    let mut record = self.world.constraint(id).expect("it is named").clone();
+                    let mut record = self.state.world.constraint(id).expect("it is named").clone();
                     record.set_rho(self.coefficient(value)?);
                     self.edit(Edit::Constraint(id, Some(Box::new(record))));
                 }
@@ -189,12 +181,12 @@ fn word_of<T: Copy>(
     }
     let problem =
         Diagnostic::error(format!("`{}` is not {what}", given.text)).at(given.span, expected);
-    Err(Session::suggest(problem, &given.text, all.iter().map(|t| word(*t))))
+    Err(suggest(problem, &given.text, all.iter().map(|t| word(*t))))
 }
 
 fn unknown_setting(word: &Ident) -> Diagnostic {
     let problem = Diagnostic::error(format!("unknown setting `{}`", word.text))
         .at(word.span, "nothing to set");
     let known = SETTINGS.iter().map(|(name, _)| *name).chain(["weight"]);
-    Session::suggest(problem, &word.text, known).help("`set` alone lists the settings")
+    suggest(problem, &word.text, known).help("`set` alone lists the settings")
 }

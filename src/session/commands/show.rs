@@ -2,12 +2,14 @@
 
 use std::fmt::Write;
 
-use super::run::format_rounded;
+use super::settings::SETTINGS;
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{Kind, Span, format_number};
+use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry};
-use crate::session::{Diagnostic, Session};
+use crate::session::execution::Execution;
+use crate::session::resolve::unbind::Unbind;
+use crate::session::state::State;
 use crate::world::{ConstraintId, Entity, Function, PointId, Value};
 
 /// A value as `print` writes it.
@@ -18,7 +20,7 @@ pub(crate) fn format_value(value: Value) -> String {
     }
 }
 
-impl Session {
+impl Execution<'_> {
     pub(crate) fn print(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
         let mut line = String::new();
         for (k, item) in items.iter().enumerate() {
@@ -27,7 +29,7 @@ impl Session {
             }
             match item {
                 PrintItem::Text(text) => line.push_str(&text.value),
-                PrintItem::Value(expr) => line.push_str(&format_value(self.value(expr)?)),
+                PrintItem::Value(expr) => line.push_str(&format_value(self.resolve().value(expr)?)),
             }
         }
         self.host.print(&line);
@@ -41,21 +43,22 @@ impl Session {
         within: Option<&Expr>,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let slack = within.map_or(Ok(0.0), |e| self.number(e))?;
+        let slack = within.map_or(Ok(0.0), |e| self.resolve().number(e))?;
         if let Some(e) = within.filter(|_| slack < 0.0) {
             return Err(Diagnostic::error("a tolerance is not negative")
                 .at(e.span, format!("this is {}", format_number(slack))));
         }
-        let a = self.value(left)?;
+        let a = self.resolve().value(left)?;
         let (holds, wanted, difference) = match relation {
             Relation::In(range) => {
-                let (lo, hi) = (self.number(&range.from)?, self.number(&range.to)?);
+                let (lo, hi) =
+                    (self.resolve().number(&range.from)?, self.resolve().number(&range.to)?);
                 let a = self.one_number(a, left)?;
                 let outside = (lo - a).max(a - hi).max(0.0);
                 (outside <= slack, format!("{}..{}", format_number(lo), format_number(hi)), outside)
             }
             Relation::Equal(right) => {
-                let b = self.value(right)?;
+                let b = self.resolve().value(right)?;
                 let difference = match (a, b) {
                     (Value::Number(a), Value::Number(b)) => (a - b).abs(),
                     (Value::Vector(a), Value::Vector(b)) => (a - b).norm(),
@@ -72,7 +75,7 @@ impl Session {
             | Relation::Greater(right)
             | Relation::GreaterEqual(right) => {
                 let a = self.one_number(a, left)?;
-                let b = self.number(right)?;
+                let b = self.resolve().number(right)?;
                 let holds = match relation {
                     Relation::Less(_) => a < b + slack,
                     Relation::LessEqual(_) => a <= b + slack,
@@ -109,18 +112,23 @@ impl Session {
         let is_asked = |part| what.is_none_or(|what| what == part);
         let mut lines: Vec<String> = Vec::new();
         if is_asked(ListWhat::Parameters) {
-            lines.extend(self.parameters_in_order().into_iter().map(|id| self.parameter_line(id)));
+            lines.extend(
+                self.state
+                    .parameters_in_order()
+                    .into_iter()
+                    .map(|id| self.state.parameter_line(id)),
+            );
         }
         if is_asked(ListWhat::Points) {
-            lines.extend(self.world.points().ids().map(|id| self.point_line(id)));
+            lines.extend(self.state.world.points().ids().map(|id| self.state.point_line(id)));
         }
         if is_asked(ListWhat::Constraints) {
-            let constraints = self.world.constraints().map(|(id, _)| id);
-            lines.extend(constraints.map(|id| self.constraint_line(id)));
+            let constraints = self.state.world.constraints().map(|(id, _)| id);
+            lines.extend(constraints.map(|id| self.state.constraint_line(id)));
         }
         if is_asked(ListWhat::Traces) {
-            lines.extend(self.world.traces().iter().map(|trace| {
-                let name = self.world.points().name(trace.point);
+            lines.extend(self.state.world.traces().iter().map(|trace| {
+                let name = self.state.world.points().name(trace.point);
                 let n = trace.samples.len();
                 match trace.every {
                     1 => format!("trace {name}  # {n} places"),
@@ -129,7 +137,7 @@ impl Session {
             }));
         }
         if is_asked(ListWhat::Definitions) {
-            lines.extend(self.definitions.values().map(|definition| {
+            lines.extend(self.state.definitions.values().map(|definition| {
                 let names: Vec<&str> = definition.parameters.iter().map(|p| &*p.text).collect();
                 format!("define {}({})", definition.name.text, names.join(", "))
             }));
@@ -150,8 +158,66 @@ impl Session {
         }
     }
 
+    pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        if let Some(instance) = self.resolve().instance(name)? {
+            let prefix = format!("{instance}.");
+            let mut lines = Vec::new();
+            for id in self.state.world.points().ids() {
+                if self.state.world.points().name(id).starts_with(&prefix) {
+                    lines.push(self.state.point_line(id));
+                }
+            }
+            for (id, record) in self.state.world.constraints() {
+                if record.name.starts_with(&prefix) {
+                    lines.push(self.state.constraint_line(id));
+                }
+            }
+            lines.iter().for_each(|line| self.host.print(line));
+            return Ok(());
+        }
+        match self.resolve().entity(name)? {
+            Entity::Point(id) => {
+                let mut lines = vec![self.state.point_line(id)];
+                for (c, record) in self.state.world.constraints() {
+                    if record.constraint.points().contains(&id.0) {
+                        lines.push(format!("  {}", self.state.constraint_line(c)));
+                    }
+                }
+                lines.iter().for_each(|line| self.host.print(line));
+            }
+            Entity::Constraint(id) => {
+                let mut lines = vec![self.state.constraint_line(id)];
+                lines.extend(
+                    Unbind::of(&self.state.world)
+                        .constraint_details(id)
+                        .into_iter()
+                        .map(|l| format!("  {l}")),
+                );
+                lines.iter().for_each(|line| self.host.print(line));
+            }
+            Entity::Parameter(id) => {
+                let text = Unbind::of(&self.state.world).parameter_text(id);
+                let formula = self.state.world.parameter(id).expect("it is named").formula.clone();
+                let value = self.resolve().evaluate(&formula)?;
+                self.host.print(&format!("{text}  # {}", format_value(value)));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
+        let text = match topic {
+            None => overview(),
+            Some(topic) => self.state.help_on(topic)?,
+        };
+        text.lines().for_each(|line| self.host.print(line));
+        Ok(())
+    }
+}
+
+impl State {
     fn parameter_line(&self, id: crate::world::ParameterId) -> String {
-        let text = self.parameter_text(id);
+        let text = Unbind::of(&self.world).parameter_text(id);
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         match (parameter.depends.is_constant(), parameter.value) {
             (false, Some(value)) if !parameter.depends.is_live() => {
@@ -181,7 +247,7 @@ impl Session {
 
     fn constraint_line(&self, id: ConstraintId) -> String {
         let record = self.world.constraint(id).expect("a listed constraint lives");
-        let mut line = self.constraint_text(record);
+        let mut line = Unbind::of(&self.world).constraint_text(record);
         if record.is_on {
             let residual = record.constraint.residual(self.world.points().column());
             let _ = write!(line, "  # residual {}", format_rounded(residual));
@@ -194,57 +260,6 @@ impl Session {
         line
     }
 
-    pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
-        if let Some(instance) = self.instance(name)? {
-            let prefix = format!("{instance}.");
-            let mut lines = Vec::new();
-            for id in self.world.points().ids() {
-                if self.world.points().name(id).starts_with(&prefix) {
-                    lines.push(self.point_line(id));
-                }
-            }
-            for (id, record) in self.world.constraints() {
-                if record.name.starts_with(&prefix) {
-                    lines.push(self.constraint_line(id));
-                }
-            }
-            lines.iter().for_each(|line| self.host.print(line));
-            return Ok(());
-        }
-        match self.entity(name)? {
-            Entity::Point(id) => {
-                let mut lines = vec![self.point_line(id)];
-                for (c, record) in self.world.constraints() {
-                    if record.constraint.points().contains(&id.0) {
-                        lines.push(format!("  {}", self.constraint_line(c)));
-                    }
-                }
-                lines.iter().for_each(|line| self.host.print(line));
-            }
-            Entity::Constraint(id) => {
-                let mut lines = vec![self.constraint_line(id)];
-                lines.extend(self.constraint_details(id).into_iter().map(|l| format!("  {l}")));
-                lines.iter().for_each(|line| self.host.print(line));
-            }
-            Entity::Parameter(id) => {
-                let text = self.parameter_text(id);
-                let formula = self.world.parameter(id).expect("it is named").formula.clone();
-                let value = self.evaluate(&formula)?;
-                self.host.print(&format!("{text}  # {}", format_value(value)));
-            }
-        }
-        Ok(())
-    }
-
-    pub(crate) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
-        let text = match topic {
-            None => overview(),
-            Some(topic) => self.help_on(topic)?,
-        };
-        text.lines().for_each(|line| self.host.print(line));
-        Ok(())
-    }
-
     fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
         let word = &*topic.text;
         let mut text = catalogue::entry(word).map(explained).unwrap_or_default();
@@ -252,7 +267,7 @@ impl Session {
         for function in Function::named(word) {
             let _ = writeln!(text, "{word}: {}", function.help());
         }
-        let setting = super::settings::SETTINGS.iter().find(|(name, _)| *name == word);
+        let setting = SETTINGS.iter().find(|(name, _)| *name == word);
         if let Some((name, what)) = setting {
             let _ = writeln!(text, "set {name}: {what}; now {}", self.setting_text(name));
         }
@@ -268,8 +283,8 @@ impl Session {
                 .chain(catalogue::topics())
                 .map(|entry| entry.keyword)
                 .chain(Function::ALL.iter().map(|f| f.name()))
-                .chain(super::settings::SETTINGS.iter().map(|(name, _)| *name));
-            return Err(Self::suggest(problem, word, known).help("`help` alone lists the commands"));
+                .chain(SETTINGS.iter().map(|(name, _)| *name));
+            return Err(suggest(problem, word, known).help("`help` alone lists the commands"));
         }
         Ok(text)
     }

@@ -1,26 +1,29 @@
 //! Traces, ghosts, pictures and recordings.
 
-use std::path::{Component, Path, PathBuf};
+use std::io;
+use std::path::{Path, PathBuf};
 
-use super::points::ALL;
-use crate::diag::{Kind, Span};
+use crate::diag::{Diagnostic, Kind, Span};
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
 use crate::render::{Animation, Scene, View, svg, svg_with_view};
+use crate::session::execution::Execution;
+use crate::session::host::{contained, reason};
+use crate::session::preferences::Preferences;
+use crate::session::resolve::scope::ALL;
 use crate::session::undo::journal::Change;
 use crate::session::undo::recorder::{Format, Recorder};
-use crate::session::{Diagnostic, Session};
 use crate::world::{Edit, Trace};
 
-impl Session {
+impl Execution<'_> {
     fn every(&mut self, every: Option<&Expr>) -> Result<u64, Diagnostic> {
-        every.map_or(Ok(1), |n| self.count(n, 1.0, 1e9, "frames"))
+        every.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e9, "frames"))
     }
 
     pub(crate) fn trace(&mut self, names: &[Name], every: Option<&Expr>) -> Result<(), Diagnostic> {
         let every = self.every(every)?;
         for name in names {
-            let point = self.point(name)?;
-            let traces = self.world.traces();
+            let point = self.resolve().point(name)?;
+            let traces = self.state.world.traces();
             match traces.iter().position(|t| t.point == point) {
                 Some(k) if traces[k].every == every => {}
                 Some(k) => {
@@ -42,17 +45,17 @@ impl Session {
 
     pub(crate) fn untrace(&mut self, selection: &Selection) -> Result<(), Diagnostic> {
         if *selection == Selection::All {
-            for k in (0..self.world.traces().len()).rev() {
+            for k in (0..self.state.world.traces().len()).rev() {
                 self.edit(Edit::Trace(k, None));
             }
             return Ok(());
         }
         let Selection::Names(names) = selection else { return Ok(()) };
         for name in names {
-            let point = self.point(name);
-            let point = point.map_err(|problem| self.or_word(problem, name, ALL))?;
-            let Some(k) = self.world.traces().iter().position(|t| t.point == point) else {
-                let text = self.world.points().name(point);
+            let point = self.resolve().point(name);
+            let point = point.map_err(|problem| self.resolve().or_word(problem, name, ALL))?;
+            let Some(k) = self.state.world.traces().iter().position(|t| t.point == point) else {
+                let text = self.state.world.points().name(point);
                 return Err(Diagnostic::error(format!("`{text}` is not traced"))
                     .at(name.span, "no trace to end"));
             };
@@ -64,32 +67,32 @@ impl Session {
     pub(crate) fn expose(&mut self, expose: &Expose) -> Result<(), Diagnostic> {
         let every = match expose {
             Expose::Now => {
-                let ghost = self.world.expose();
+                let ghost = self.state.world.expose();
                 self.edit(ghost);
                 return Ok(());
             }
-            Expose::Every(n) => Some(self.count(n, 1.0, 1e9, "frames")?),
+            Expose::Every(n) => Some(self.resolve().count(n, 1.0, 1e9, "frames")?),
             Expose::Off => None,
         };
-        let new = crate::session::Preferences { expose_every: every, ..self.preferences.clone() };
+        let new = Preferences { expose_every: every, ..self.state.preferences.clone() };
         self.change(Change::Preferences(Box::new(new)));
         Ok(())
     }
 
     /// Keeps what this frame leaves behind: traces, ghosts, recordings.
     pub(crate) fn keep_frame(&mut self, missed: bool) {
-        if !self.world.traces().is_empty() {
-            self.world.sample_traces(missed);
+        if !self.state.world.traces().is_empty() {
+            self.state.world.sample_traces(missed);
         }
-        if let Some(every) = self.preferences.expose_every
-            && self.world.clock().frame.is_multiple_of(every)
+        if let Some(every) = self.state.preferences.expose_every
+            && self.state.world.clock().frame.is_multiple_of(every)
         {
-            let ghost = self.world.expose();
+            let ghost = self.state.world.expose();
             // Running is taken back as a whole, ghosts included.
-            self.world.apply(ghost);
+            self.state.world.apply(ghost);
         }
-        for recorder in &mut self.recorders {
-            recorder.take(&self.world);
+        for recorder in &mut self.state.recorders {
+            recorder.take(&self.state.world);
         }
     }
 
@@ -103,7 +106,7 @@ impl Session {
         Ok(file)
     }
 
-    /// Where an output path leads; refused outside the output folder.
+    /// Where an output path leads; refused where the host does not let scripts write.
     pub(crate) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let given = Path::new(&*path.value);
         if path.value.is_empty() || path.value.contains('\0') {
@@ -111,18 +114,19 @@ impl Session {
                 Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
             );
         }
-        if self.host.allows_any_path() {
-            return Ok(given.to_path_buf());
+        match self.host.resolve(given) {
+            // The same file by another name is the same file.
+            Ok(_) => Ok(contained(given).unwrap_or_else(|_| given.to_path_buf())),
+            Err(e) if e.kind() == io::ErrorKind::PermissionDenied => {
+                Err(Diagnostic::error("files are written below the output folder only")
+                    .at(path.span, "this path leads elsewhere")
+                    .help("name the file alone: the output folder is `--out`, or where you are")
+                    .help("`--allow-any-path` on the command line permits it"))
+            }
+            Err(e) => Err(Diagnostic::error(format!("cannot write `{}`", path.value))
+                .kind(Kind::Unreadable)
+                .at(path.span, reason(&e))),
         }
-        let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-        if given.components().all(is_inside) {
-            let is_named = |part: &Component| matches!(part, Component::Normal(_));
-            return Ok(given.components().filter(is_named).collect());
-        }
-        Err(Diagnostic::error("files are written below the output folder only")
-            .at(path.span, "this path leads elsewhere")
-            .help("name the file alone: the output folder is `--out`, or where you are")
-            .help("`--allow-any-path` on the command line permits it"))
     }
 
     pub(crate) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
@@ -132,16 +136,13 @@ impl Session {
             }
             problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
         })?;
-        let scene = Scene::new(&self.world);
-        let picture = svg(&scene, &self.picture_options());
+        let scene = Scene::new(&self.state.world);
+        let picture = svg(
+            &scene,
+            &self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref())),
+        );
         self.queue_file(file, picture.into_bytes(), path.span);
         Ok(())
-    }
-
-    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
-    pub(crate) fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
-        self.outbox.retain(|(other, ..)| *other != file);
-        self.outbox.push((file, bytes, span));
     }
 
     pub(crate) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
@@ -159,18 +160,18 @@ impl Session {
                 .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
                 .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
         };
-        if self.recorders.iter().any(|r| r.path == file) {
+        if self.state.recorders.iter().any(|r| r.path == file) {
             return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
                 .at(path.span, "")
                 .help("`record stop` ends and writes all recordings"));
         }
         let recorder = Box::new(Recorder::new(file, path.span, every, format));
-        self.change(Change::Recorder(self.recorders.len(), Some(recorder)));
+        self.change(Change::Recorder(self.state.recorders.len(), Some(recorder)));
         Ok(())
     }
 
     pub(crate) fn record_stop(&mut self, span: Span) -> Result<(), Diagnostic> {
-        if self.recorders.is_empty() {
+        if self.state.recorders.is_empty() {
             return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
         }
         if self.stop_recording() {
@@ -185,17 +186,18 @@ impl Session {
     /// Ends all recordings and hands over their files, unless the user stops that: false then,
     /// and they are as they were.
     pub(crate) fn stop_recording(&mut self) -> bool {
-        if self.recorders.is_empty() {
+        if self.state.recorders.is_empty() {
             return true;
         }
-        let options = self.picture_options();
+        let options =
+            self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref()));
         // Who stopped a run still wants what it recorded.
         let was_stopped = self.host.is_interrupted();
         let host = &self.host;
         let is_stopped = || host.is_interrupted() && !was_stopped;
         let n_before = self.outbox.len();
         let mut bare = Vec::new();
-        for recorder in &self.recorders {
+        for recorder in &self.state.recorders {
             match recorder.format {
                 Format::Table => {
                     if recorder.has_times_only() {
@@ -247,7 +249,7 @@ impl Session {
 
     /// Ends all recordings as they are.
     pub(crate) fn drop_recordings(&mut self) {
-        for idx in (0..self.recorders.len()).rev() {
+        for idx in (0..self.state.recorders.len()).rev() {
             self.change(Change::Recorder(idx, None));
         }
     }

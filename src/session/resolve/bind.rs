@@ -1,10 +1,9 @@
 //! Expressions of the language become values, or formulas that stay live.
 
-use super::scope::{Bound, Meaning};
+use super::scope::{Bound, Meaning, Resolver};
 use crate::constraint::{Point, Vec2};
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::lang::ast::{Axis, BinaryOp, Expr, Node as Syntax};
-use crate::session::Session;
 use crate::world::{
     Depends, Entity, Formula, Function, Node, Operator, Rates, Shape, Value, call, operate,
 };
@@ -68,7 +67,7 @@ impl Term {
     }
 }
 
-impl Session {
+impl Resolver<'_> {
     /// The value of an expression now.
     pub(crate) fn value(&mut self, expr: &Expr) -> Result<Value, Diagnostic> {
         match self.bind(expr, Mode::Now)? {
@@ -92,6 +91,31 @@ impl Session {
             Value::Number(_) => Err(wanted(expr, Shape::Vector)
                 .help("a place is written `(x, y)`, or named by a point")),
         }
+    }
+
+    /// The value of an expression that has to be a whole number from `least` to `most`.
+    pub(crate) fn count(
+        &mut self,
+        expr: &Expr,
+        least: f64,
+        most: f64,
+        of: &str,
+    ) -> Result<u64, Diagnostic> {
+        let value = self.number(expr)?;
+        let n = value.round();
+        if (n - value).abs() > 1e-9 * value.abs().max(1.0) {
+            return Err(Diagnostic::error(format!("expected a whole number of {of}"))
+                .at(expr.span, format!("this is {}", format_number(value))));
+        }
+        if n < least || n > most {
+            return Err(Diagnostic::error(format!(
+                "expected {} to {} {of}",
+                format_number(least),
+                format_count(most)
+            ))
+            .at(expr.span, format!("this is {}", format_count(value))));
+        }
+        Ok(n as u64)
     }
 
     /// A live expression, its constant parts folded.
@@ -120,11 +144,11 @@ impl Session {
         match term {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
-                if self.world.depends(&formula).on_rates {
+                if self.state.world.depends(&formula).on_rates {
                     return Err(Diagnostic::error("a velocity cannot drive a constraint")
                         .at(expr.span, "velocities follow from the constraints"));
                 }
-                Ok((self.world.evaluate(&formula, None)?, Some(formula)))
+                Ok((self.state.world.evaluate(&formula, None)?, Some(formula)))
             }
         }
     }
@@ -136,7 +160,7 @@ impl Session {
             Syntax::Pi => number(std::f64::consts::PI),
             Syntax::Tau => number(std::f64::consts::TAU),
             Syntax::Time => match mode {
-                Mode::Now => number(self.world.clock().time()),
+                Mode::Now => number(self.state.world.clock().time()),
                 Mode::Live => {
                     let depends = Depends { on_time: true, ..Depends::default() };
                     Ok(Term::Live(Formula::new(Node::Time, Shape::Number, depends, expr.span)))
@@ -210,14 +234,14 @@ impl Session {
         let (node, shape, depends) = match entity {
             Entity::Point(id) => {
                 if mode == Mode::Now {
-                    let p = self.world.points().at(id);
+                    let p = self.state.world.points().at(id);
                     return Ok(Term::Constant(Value::Vector(Vec2 { x: p.x, y: p.y })));
                 }
                 let depends = Depends { on_points: true, ..Depends::default() };
                 (Node::Point(id), Shape::Vector, depends)
             }
             Entity::Parameter(id) => {
-                let parameter = self.world.parameter(id).expect("a named parameter lives");
+                let parameter = self.state.world.parameter(id).expect("a named parameter lives");
                 let shape = parameter.formula.shape();
                 if mode == Mode::Now
                     && !parameter.depends.is_live()
@@ -229,7 +253,7 @@ impl Session {
                 (Node::Parameter(id), shape, depends)
             }
             Entity::Constraint(_) => {
-                let name = self.world.name_of(entity);
+                let name = self.state.world.name_of(entity);
                 return Err(Diagnostic::error(format!("`{name}` is a constraint"))
                     .at(span, "expected a point, a parameter or a number"));
             }
@@ -243,16 +267,16 @@ impl Session {
 
     /// The value of a formula now, velocities included if it needs them.
     pub(crate) fn evaluate(&mut self, formula: &Formula) -> Result<Value, Diagnostic> {
-        if self.world.depends(formula).on_rates {
+        if self.state.world.depends(formula).on_rates {
             let rates = self.rates()?;
-            self.world.evaluate(formula, Some(&rates))
+            self.state.world.evaluate(formula, Some(&rates))
         } else {
-            self.world.evaluate(formula, None)
+            self.state.world.evaluate(formula, None)
         }
     }
 
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
-        self.look(crate::solve::Solver::rates)
+        self.state.look(crate::solve::Solver::rates)
     }
 
     fn bind_call(

@@ -2,11 +2,77 @@
 
 use std::sync::Arc;
 
-use crate::diag::{Diagnostic, Span, format_number, nearest};
+use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Function, Name, PartKind};
-use crate::session::Session;
-use crate::session::commands::points::{ALL, RESERVED};
+use crate::session::state::State;
 use crate::world::{ConstraintId, Entity, Formula, PointId, Word};
+
+/// Names that have a meaning of their own in every expression.
+pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
+
+/// The word for every point.
+pub const ALL: &str = "all";
+
+/// The blocks and instances around a statement.
+#[derive(Debug)]
+pub struct Scopes {
+    /// The innermost last; the outermost is never left.
+    stack: Vec<Scope>,
+    /// Room for the text of a name.
+    spelling: String,
+}
+
+impl Default for Scopes {
+    fn default() -> Self {
+        Self { stack: vec![Scope::default()], spelling: String::new() }
+    }
+}
+
+impl Scopes {
+    /// The scope of an instance begins.
+    pub fn enter(&mut self, scope: Scope) {
+        self.stack.push(scope);
+    }
+
+    /// The scope entered last ends.
+    pub fn leave(&mut self) {
+        self.stack.pop();
+    }
+
+    /// Binds a loop variable in the innermost scope; gives its place there.
+    pub fn bind(&mut self, name: Arc<str>, value: f64) -> usize {
+        let bindings = &mut self.innermost_mut().bindings;
+        bindings.push((name, Bound::Number(value)));
+        bindings.len() - 1
+    }
+
+    /// Gives a loop variable of the innermost scope another value.
+    pub fn rebind(&mut self, place: usize, value: f64) {
+        self.innermost_mut().bindings[place].1 = Bound::Number(value);
+    }
+
+    /// Forgets a loop variable of the innermost scope.
+    pub fn unbind(&mut self, place: usize) {
+        self.innermost_mut().bindings.truncate(place);
+    }
+
+    fn innermost(&self) -> &Scope {
+        self.stack.last().expect("the outermost scope is never left")
+    }
+
+    fn innermost_mut(&mut self) -> &mut Scope {
+        self.stack.last_mut().expect("the outermost scope is never left")
+    }
+}
+
+/// What names and expressions mean where a statement stands.
+pub struct Resolver<'a> {
+    /// What the names are names of. The solver is asked for velocities; what it takes in for
+    /// that it forgets again.
+    pub state: &'a mut State,
+    scopes: &'a mut Scopes,
+    sources: &'a Sources,
+}
 
 /// The names that a block or an instance adds.
 #[derive(Debug, Default)]
@@ -37,9 +103,19 @@ pub enum Meaning {
     Entity(Entity),
 }
 
-impl Session {
+impl<'a> Resolver<'a> {
+    /// Names as they are in `scopes`; `sources` holds the text they stand in.
+    pub fn new(state: &'a mut State, scopes: &'a mut Scopes, sources: &'a Sources) -> Self {
+        Self { state, scopes, sources }
+    }
+
+    /// The text at a place.
+    pub fn text(&self, span: Span) -> &str {
+        self.sources.slice(span)
+    }
+
     fn scope(&self) -> &Scope {
-        self.scopes.last().expect("the outermost scope is never left")
+        self.scopes.innermost()
     }
 
     fn binding(&self, name: &Name) -> Option<&Bound> {
@@ -50,7 +126,7 @@ impl Session {
     /// The text of the first `n_parts` parts of a name, indices evaluated.
     fn spell(&mut self, name: &Name, n_parts: usize) -> Result<String, Diagnostic> {
         // A loop spells millions of names: each in the room of the one before.
-        let mut text = std::mem::take(&mut self.spelling);
+        let mut text = std::mem::take(&mut self.scopes.spelling);
         text.clear();
         text.push_str(&name.head.text);
         for part in &name.parts[..n_parts] {
@@ -78,11 +154,11 @@ impl Session {
     fn find(&self, text: &str) -> Option<Entity> {
         let prefix = &self.scope().prefix;
         if !prefix.is_empty()
-            && let Some(entity) = self.world.names().get(&format!("{prefix}{text}"))
+            && let Some(entity) = self.state.world.names().get(&format!("{prefix}{text}"))
         {
             return Some(entity);
         }
-        self.world.names().get(text)
+        self.state.world.names().get(text)
     }
 
     /// What a name in an expression stands for, with the component taken of it, if any.
@@ -111,13 +187,13 @@ impl Session {
         }
         let whole = self.spell(name, name.parts.len())?;
         if let Some(entity) = self.find(&whole) {
-            self.spelling = whole;
+            self.scopes.spelling = whole;
             return Ok((Meaning::Entity(entity), None));
         }
         if axis.is_some() {
             let vector = self.spell(name, name.parts.len() - 1)?;
             if let Some(entity) = self.find(&vector) {
-                self.spelling = vector;
+                self.scopes.spelling = vector;
                 return Ok((Meaning::Entity(entity), axis));
             }
         }
@@ -166,7 +242,7 @@ impl Session {
     }
 
     fn wrong_kind(&self, name: &Name, is: Entity, wanted: &str) -> Diagnostic {
-        let text = self.world.name_of(is);
+        let text = self.state.world.name_of(is);
         Diagnostic::error(format!("`{text}` is a {}", is.noun()))
             .at(name.span, format!("expected the name of {wanted}"))
     }
@@ -178,7 +254,7 @@ impl Session {
         }
         let text = self.spell(name, name.parts.len())?;
         let inner = format!("{}{text}", self.scope().prefix);
-        let names = self.world.names();
+        let names = self.state.world.names();
         Ok(if names.is_instance(&inner) {
             Some(inner)
         } else if names.is_instance(&text) {
@@ -204,7 +280,7 @@ impl Session {
         }
         self.must_be_free(&text, name.span)?;
         let name = Word::from(text.as_str());
-        self.spelling = text;
+        self.scopes.spelling = text;
         Ok(name)
     }
 
@@ -216,7 +292,7 @@ impl Session {
 
     /// Says what has a name that was to be given to something new.
     pub(crate) fn must_be_free(&self, text: &str, span: Span) -> Result<(), Diagnostic> {
-        let names = self.world.names();
+        let names = self.state.world.names();
         if names.is_free(text) {
             return self.must_have_no_owner(text, span);
         }
@@ -239,7 +315,7 @@ impl Session {
         if !text.as_bytes().contains(&b'.') {
             return Ok(());
         }
-        let names = self.world.names();
+        let names = self.state.world.names();
         for (dot, _) in text.match_indices('.') {
             let owner = &text[..dot];
             if let Some(entity) = names.get(owner) {
@@ -255,16 +331,16 @@ impl Session {
     pub(crate) fn numbered(&mut self, stem: &str) -> String {
         let prefix = &self.scope().prefix;
         if prefix.is_empty() {
-            self.world.numbered_name(stem)
+            self.state.world.numbered_name(stem)
         } else {
             let stem = format!("{prefix}{stem}");
-            self.world.numbered_name(&stem)
+            self.state.world.numbered_name(&stem)
         }
     }
 
     /// The error for a name that nothing has.
     pub(crate) fn unknown(&self, text: &str, span: Span) -> Diagnostic {
-        let names = self.world.names();
+        let names = self.state.world.names();
         let problem = Diagnostic::error(format!("unknown name `{text}`"));
         if names.is_instance(text) {
             let member = names
@@ -307,8 +383,8 @@ impl Session {
     /// The error for a name that nothing has where a word could have stood: says so if that was
     /// probably meant.
     pub(crate) fn or_word(&self, problem: Diagnostic, name: &Name, word: &str) -> Diagnostic {
-        let text = self.sources.slice(name.span);
-        if self.world.names().is_free(text) && nearest(text, [word]).is_some() {
+        let text = self.text(name.span);
+        if self.state.world.names().is_free(text) && nearest(text, [word]).is_some() {
             return problem.help(format!("did you mean the word `{word}`?"));
         }
         problem
@@ -329,7 +405,7 @@ impl Session {
                 .parse()
                 .ok()
         };
-        let indices = || self.world.names().iter().filter_map(|(name, _)| index(name));
+        let indices = || self.state.world.names().iter().filter_map(|(name, _)| index(name));
         let name = |index: i64| format!("{stem}[{index}]{end}");
         Some((name(indices().min()?), name(indices().max()?)))
     }

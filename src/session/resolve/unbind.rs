@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Period, PointIdx};
-use crate::diag::{SourceId, Span, format_number};
+use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
     Name, Node as Syntax, Pair, Range, Relation, Text,
 };
-use crate::session::Session;
-use crate::world::{ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record};
+use crate::world::{
+    ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record, World,
+};
 
 /// The place of what no text says.
 pub(crate) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -47,7 +48,17 @@ pub(crate) fn text_of(command: &Command) -> String {
     command.to_string()
 }
 
-impl Session {
+/// A world whose things are to be said.
+pub(crate) struct Unbind<'a> {
+    world: &'a World,
+}
+
+impl<'a> Unbind<'a> {
+    /// The statements of a world.
+    pub const fn of(world: &'a World) -> Self {
+        Self { world }
+    }
+
     fn point_name(&self, p: PointIdx) -> Name {
         named(self.world.points().name(PointId(p)))
     }
@@ -199,9 +210,7 @@ impl Session {
     pub(crate) fn constraint_details(&self, id: ConstraintId) -> Vec<String> {
         let record = self.world.constraint(id).expect("a listed constraint lives");
         let x = self.world.points().column();
-        let angle = |phi: f64| {
-            format!("{} deg", crate::session::commands::run::format_rounded(phi.to_degrees()))
-        };
+        let angle = |phi: f64| format!("{} deg", format_rounded(phi.to_degrees()));
         let at = |p: PointIdx| x[p as usize];
         match &record.constraint {
             Constraint::Length(c) => {

@@ -1,13 +1,13 @@
 //! What was done, so that it can be undone: every command is one transaction.
 
 use std::collections::{BTreeSet, VecDeque};
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
-use crate::session::Preferences;
+use crate::session::preferences::Preferences;
 use crate::session::quotas::{UNDO_BYTES, UNDO_COMMANDS};
+use crate::session::series::SeriesList;
 use crate::solve::Memory;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
 
@@ -22,13 +22,13 @@ pub enum Change {
     /// Sets what a definition is, or that there is none.
     Definition(Box<(Arc<str>, Option<Arc<Definition>>)>),
     /// Sets what the solver remembers.
-    Memory(Rc<Memory>),
+    Memory(Arc<Memory>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
     /// Appends a value to a series, or takes the last one away.
     Sample(Box<(Arc<str>, Option<f64>)>),
     /// Sets all series.
-    Series(Box<crate::session::commands::plot::SeriesList>),
+    Series(Box<SeriesList>),
     /// Sets what the recorders have taken.
     Reels(Box<[Reel]>),
 }
@@ -37,7 +37,7 @@ impl Change {
     fn n_bytes(&self) -> usize {
         let inside = match self {
             Self::World(Edit::Motion(motion)) => motion.n_bytes(),
-            Self::World(Edit::Make(made)) => made.n_bytes(),
+            Self::World(Edit::RestoreBatch(records)) => records.n_bytes(),
             Self::World(Edit::Constraint(_, Some(_))) => size_of::<crate::world::Record>(),
             _ => 0,
         };

@@ -1,6 +1,6 @@
 //! The motion of the last long command, kept so that it can be done again.
 
-use crate::session::Session;
+use crate::session::state::State;
 use crate::solve::Memory;
 use crate::study::{Course, Hand, Leg};
 use crate::world::Motion;
@@ -39,32 +39,27 @@ impl LastMotion {
         self.current.as_ref().or(self.longest.as_ref()).map(|lap| &lap.motion)
     }
 
-    fn n_longest(&self, revision: u64) -> u64 {
-        self.longest.as_ref().filter(|lap| lap.revision == revision).map_or(0, |lap| lap.n_frames)
-    }
-
-    fn end(&mut self, revision: u64) {
+    /// The command under way is done, and this the world's revision at its end.
+    pub fn end(&mut self, revision: u64) {
         if let Some(lap) = self.current.take()
             && lap.n_frames > self.n_longest(revision)
         {
             self.longest = Some(lap);
         }
     }
-}
 
-impl Session {
-    /// Frames are about to pass. What the hand holds is not yet frozen.
-    pub(crate) fn begin_leg(&mut self, n_frames: u64) {
-        let revision = self.world.revision();
-        if self.last_motion.current.as_ref().is_some_and(|lap| lap.revision == revision) {
+    /// Frames are about to pass in the command under way. What the hand holds is not yet frozen.
+    /// In a block more frames may follow.
+    pub fn begin_leg(&mut self, state: &State, n_frames: u64, is_in_block: bool) {
+        let revision = state.world.revision();
+        if self.current.as_ref().is_some_and(|lap| lap.revision == revision) {
             return;
         }
-        self.last_motion.end(revision);
-        // In a loop more frames may follow.
-        if self.depth > 0 || n_frames > self.last_motion.n_longest(revision) {
-            self.last_motion.current = Some(Lap {
-                motion: self.world.motion(),
-                memory: self.solver.memory(),
+        self.end(revision);
+        if is_in_block || n_frames > self.n_longest(revision) {
+            self.current = Some(Lap {
+                motion: state.world.motion(),
+                memory: state.solver.memory(),
                 legs: Vec::new(),
                 n_frames: 0,
                 revision,
@@ -73,10 +68,9 @@ impl Session {
     }
 
     /// Frames have passed: `n_done` of the `n_frames` that were to. The hand has let go.
-    pub(crate) fn end_leg(&mut self, n_frames: u64, n_done: u64, hands: Vec<Hand>) {
-        let revision = self.world.revision();
-        let Some(lap) = &mut self.last_motion.current else { return };
-        lap.revision = revision;
+    pub fn end_leg(&mut self, state: &State, n_frames: u64, n_done: u64, hands: Vec<Hand>) {
+        let Some(lap) = &mut self.current else { return };
+        lap.revision = state.world.revision();
         if lap.legs.len() >= MOST_LEGS {
             return;
         }
@@ -87,20 +81,19 @@ impl Session {
         }
     }
 
-    /// The command under way is done.
-    pub(crate) fn end_legs(&mut self) {
-        self.last_motion.end(self.world.revision());
-    }
-
     /// The longest motion since the structure changed, if there was one.
-    pub(crate) fn last_course(&self) -> Option<Course> {
-        let lap = self.last_motion.longest.as_ref()?;
-        if lap.revision != self.world.revision() {
+    pub fn course(&self, state: &State) -> Option<Course> {
+        let lap = self.longest.as_ref()?;
+        if lap.revision != state.world.revision() {
             return None;
         }
         let (motion, memory) = (lap.motion.clone(), lap.memory.clone());
-        let settings = self.preferences.solve;
-        let course = Course::back(&self.world, motion, memory, settings, lap.legs.clone());
+        let settings = state.preferences.solve;
+        let course = Course::back(&state.world, motion, memory, settings, lap.legs.clone());
         Some(course.with_frames(lap.n_frames))
+    }
+
+    fn n_longest(&self, revision: u64) -> u64 {
+        self.longest.as_ref().filter(|lap| lap.revision == revision).map_or(0, |lap| lap.n_frames)
     }
 }

@@ -1,5 +1,6 @@
 //! What takes a command back, and does it again.
 
+pub mod history;
 pub mod journal;
 pub mod last_motion;
 pub mod recorder;

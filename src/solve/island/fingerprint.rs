@@ -1,17 +1,9 @@
 //! Whether an island is what it was: its structure, its inputs and its pose, hashed.
 
 use super::Island;
+use super::snapshot::Fingerprint;
 use crate::constraint::{ConstraintKind, Field};
 use crate::solve::frame::decomposition::n_firm_rows;
-
-/// What an island is made of, what drives it and how it lies, each as one number: equal
-/// numbers mean that nothing was edited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Fingerprint {
-    pub structure: u64,
-    pub inputs: u64,
-    pub pose: u64,
-}
 
 /// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
 struct Hasher(u64);

@@ -4,6 +4,7 @@ pub mod before;
 pub mod fingerprint;
 pub mod history;
 pub mod inputs;
+pub mod memory;
 pub mod partition;
 pub mod sides;
 pub mod snapshot;
@@ -22,6 +23,7 @@ use crate::world::{ConstraintId, PointId, Record};
 use before::Before;
 use history::History;
 use inputs::Inputs;
+use snapshot::Snapshot;
 
 /// A set of points that are not frozen, connected by constraints, and the frozen points that
 /// these constraints hold too. Points have local indices here: free ones first, each group by
@@ -86,7 +88,7 @@ pub(crate) struct Island {
     /// The room for each part the plan leaves to be solved as a whole; once needed.
     pub part_workspaces: Vec<Workspace>,
     /// What is remembered of it, once asked for since the last visit.
-    pub remembered: OnceLock<Arc<[f64]>>,
+    pub remembered: OnceLock<Arc<Snapshot>>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }

@@ -1,9 +1,9 @@
 //! Which constraints and points make which island, kept up to date edit by edit.
 
-use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
-use super::snapshot::Memory;
+use super::memory::Memory;
 use super::{Island, Member};
 use crate::constraint::ConstraintKind;
 use crate::linalg::DisjointSets;
@@ -40,7 +40,7 @@ pub(crate) struct Partition {
     checked: BTreeSet<ConstraintId>,
     /// What holds each frozen point. Made when it is first asked for, which a scene in which no
     /// frozen point is moved never does, and kept up from then on.
-    holders: OnceCell<BTreeSet<(PointId, ConstraintId)>>,
+    holders: OnceLock<BTreeSet<(PointId, ConstraintId)>>,
 }
 
 impl Partition {
@@ -150,7 +150,7 @@ impl Partition {
         self.of_point.fill(NONE);
         self.of_constraint.fill(NONE);
         self.checked.clear();
-        self.holders = OnceCell::new();
+        self.holders = OnceLock::new();
     }
 
     /// Collects all constraints whose island may change.

@@ -4,8 +4,8 @@ use super::Solver;
 use crate::constraint::Point;
 use crate::solve::dispatch::{Cause, check};
 use crate::solve::island::Island;
+use crate::solve::island::memory::{self, Memory};
 use crate::solve::island::partition::{Home, Partition};
-use crate::solve::island::snapshot::{self, Memory};
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
 use crate::world::{ConstraintId, PointId, Touched, World};
@@ -108,7 +108,7 @@ impl Solver {
     fn restore_island(&mut self, k: u32) {
         let Some(island) = self.partition.get_mut(k) else { return };
         if let Some(remembered) = self.pending.take(island) {
-            snapshot::restore(island, &remembered);
+            memory::restore(island, &remembered);
             if island.status != Status::Converged {
                 self.unsolved.insert(k);
             }

@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::dispatch::{Cause, Task, check};
 use super::island::Island;
+use super::island::memory::Memory;
 use super::island::partition::{Home, Partition};
-use super::island::snapshot::Memory;
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
@@ -58,7 +58,7 @@ impl Solver {
 
     /// Lets one frame pass: the clock ticks, live values are evaluated, the pose is solved,
     /// and solved again until values that are measured on it agree with it. Points that a hand
-    /// drags along in this frame are moved after [`Solver::sync`] and before this.
+    /// drags along in this frame are moved by `hand`, once the solver knows where they were.
     ///
     /// # Errors
     /// A live expression that has no value at this time or in this pose.
@@ -67,10 +67,10 @@ impl Solver {
         world: &mut World,
         settings: &Settings,
         budget: &Budget,
+        hand: impl FnOnce(&mut World),
     ) -> Result<Report, Diagnostic> {
-        if self.is_stale {
-            self.sync(world, settings);
-        }
+        self.sync(world, settings);
+        hand(world);
         world.advance()?;
         let mut report = self.frame(world, settings, budget);
         if world.is_mutual() {

@@ -31,7 +31,7 @@ fn check(script: &Path) {
     let mut told = String::new();
     for statement in parse(source, &text) {
         let before = seat.world();
-        let result = statement.and_then(|statement| seat.session.execute(&statement));
+        let result = statement.and_then(|it| seat.session.execute(&it, &mut seat.notebook));
         assert!(told.is_empty(), "{name} goes on after its mistake");
         if let Err(problem) = result {
             assert_eq!(seat.world(), before, "{name} changes the world");

@@ -286,7 +286,7 @@ fn a_run_that_ends_early_is_as_one_that_was_never_longer() {
         assert_eq!(stopped.session.to_script(), stepped.session.to_script(), "{promise}");
         let table = |talking: &mut Talking| {
             talking.run("record stop");
-            talking.talk.files()
+            std::mem::take(&mut talking.talk.files)
         };
         assert_eq!(table(&mut stopped), table(&mut stepped), "{promise}");
     }

@@ -1,0 +1,25 @@
+//! A picture that stands still, made from one scene.
+
+use super::canvas::Canvas;
+use super::document::{self, Group, Options};
+use super::legend;
+use super::scene::Scene;
+use super::view::View;
+
+/// A scene as an SVG document, fitted to the page.
+pub fn svg(scene: &Scene, options: &Options) -> String {
+    svg_with_view(scene, &View::of([scene]), options)
+}
+
+/// A scene as an SVG document, one of several with a view in common.
+pub fn svg_with_view(scene: &Scene, view: &View, options: &Options) -> String {
+    let mut groups = view.ghosts(scene.ghosts.iter().map(|ghost| &**ghost));
+    let mut canvas = Canvas::new(view.page(), &scene.pose.at, view.lettering());
+    scene.pose.symbols.iter().for_each(|symbol| symbol.draw(&mut canvas));
+    for curve in &scene.curves {
+        curve.draw(&mut canvas);
+    }
+    legend::draw(&mut canvas, &scene.curves);
+    groups.push(Group::of(canvas.finish()));
+    document::write(view.page(), &groups, options)
+}

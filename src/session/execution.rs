@@ -1,0 +1,169 @@
+//! The command under way: what it works on, and what is needed for as long as it runs.
+
+use std::path::PathBuf;
+
+use super::host::{Host, reason};
+use super::input::Input;
+use super::resolve::scope::{Resolver, Scopes};
+use super::state::State;
+use super::summary::Summary;
+use super::undo::history::History;
+use super::undo::journal::Change;
+use crate::diag::{Diagnostic, Kind, Span};
+use crate::lang::ast::Statement;
+use crate::solve::Memory;
+use crate::world::Edit;
+
+/// How a statement ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// The next statement is to follow.
+    On,
+    /// The user wants to leave.
+    Quit,
+    /// The user stopped the command; what it did so far stays.
+    Stopped,
+}
+
+/// A command on its way, with the parts of the session that it may touch and the host that it
+/// talks to. What only it needs ends with it, however it ends.
+pub struct Execution<'a> {
+    pub state: &'a mut State,
+    pub input: &'a mut Input,
+    pub history: &'a mut History,
+    pub host: &'a mut dyn Host,
+    /// The blocks and instances around the statement.
+    pub scopes: Scopes,
+    /// Statements carried out so far.
+    pub n_statements: u64,
+    /// Rounds of the loops under way, multiplied.
+    pub n_rounds: f64,
+    /// How deep `include`, `use` and `for` are nested now.
+    pub depth: usize,
+    /// Files being included, the outermost first.
+    pub included: Vec<PathBuf>,
+    /// Files to be written when the command has succeeded.
+    pub outbox: Vec<(PathBuf, Vec<u8>, Span)>,
+    /// What has run so far.
+    pub run: Option<Summary>,
+}
+
+impl<'a> Execution<'a> {
+    /// A command that has done nothing yet.
+    pub fn new(
+        state: &'a mut State,
+        input: &'a mut Input,
+        history: &'a mut History,
+        host: &'a mut dyn Host,
+    ) -> Self {
+        Self {
+            state,
+            input,
+            history,
+            host,
+            scopes: Scopes::default(),
+            n_statements: 0,
+            n_rounds: 1.0,
+            depth: 0,
+            included: Vec::new(),
+            outbox: Vec::new(),
+            run: None,
+        }
+    }
+
+    /// Carries out one statement, whole or not at all.
+    pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
+        let result = self.dispatch(statement).and_then(|flow| {
+            self.flush_outbox()?;
+            Ok(flow)
+        });
+        match result {
+            Ok(flow) => {
+                self.history.last_motion.end(self.state.world.revision());
+                self.report_run();
+                let label = self.input.label(statement.span);
+                self.history.commit(self.state, &label);
+                Ok(flow)
+            }
+            Err(problem) => {
+                self.history.roll_back(self.state);
+                Err(problem)
+            }
+        }
+    }
+
+    /// Ends recordings that still run and writes them.
+    pub fn finish(mut self) -> Result<(), Diagnostic> {
+        if !self.stop_recording() {
+            self.drop_recordings();
+            return Err(Diagnostic::error("stopped before the recording was written")
+                .kind(Kind::Interrupted));
+        }
+        self.flush_outbox()?;
+        self.history.commit(self.state, "");
+        Ok(())
+    }
+
+    /// What names and expressions mean where the statement stands.
+    pub fn resolve(&mut self) -> Resolver<'_> {
+        Resolver::new(self.state, &mut self.scopes, &self.input.sources)
+    }
+
+    /// Makes a change that belongs to the command.
+    pub fn change(&mut self, change: Change) {
+        self.history.change(self.state, change);
+    }
+
+    /// Makes an edit of the world that belongs to the command.
+    pub fn edit(&mut self, edit: Edit) {
+        self.history.edit(self.state, edit);
+    }
+
+    /// Lets the solver take in what was edited, as part of the command.
+    pub fn sync(&mut self) {
+        self.history.sync(self.state);
+    }
+
+    /// Sets what the solver remembers, as part of the command.
+    pub fn set_memory(&mut self, memory: Memory) {
+        self.history.set_memory(self.state, memory);
+    }
+
+    /// Keeps all that running changes, before time passes or the solver moves points.
+    pub fn begin_motion(&mut self) {
+        self.history.begin_motion(self.state);
+    }
+
+    /// Tells the user something that is not an answer.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.warn(&Diagnostic::note_only(text));
+    }
+
+    /// Warns the user.
+    pub fn warn(&mut self, warning: &Diagnostic) {
+        self.host.tell(warning, &self.input.sources);
+    }
+
+    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
+    pub fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
+        self.outbox.retain(|(other, ..)| *other != file);
+        self.outbox.push((file, bytes, span));
+    }
+
+    /// Writes the files of a command that succeeded. One that cannot be written keeps no
+    /// other back.
+    pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
+        let mut result = Ok(());
+        for (path, bytes, span) in std::mem::take(&mut self.outbox) {
+            let written = self.host.resolve(&path).and_then(|at| self.host.write(&at, &bytes));
+            if let Err(e) = written
+                && result.is_ok()
+            {
+                let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
+                let why = reason(&e);
+                result = Err(problem.kind(Kind::Unreadable).at(span, why));
+            }
+        }
+        result
+    }
+}

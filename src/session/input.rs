@@ -1,0 +1,57 @@
+//! What comes from outside: texts, where they lie, and values that win over theirs.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
+
+use crate::diag::{SourceId, Sources, Span};
+
+/// What a session was given to read. Nothing of it is ever taken back: places in diagnostics and
+/// in live expressions are places in these texts.
+#[derive(Debug, Default)]
+pub struct Input {
+    /// The texts read so far.
+    pub sources: Sources,
+    /// The folder of each text that was a file, for what it includes.
+    folders: HashMap<SourceId, PathBuf>,
+    /// Values that the user gave from outside; they win over a `let`.
+    pub overrides: BTreeMap<String, Override>,
+}
+
+/// A value from outside and whether some `let` took it.
+#[derive(Debug, Clone)]
+pub struct Override {
+    pub value: f64,
+    pub is_used: bool,
+}
+
+impl Input {
+    /// Keeps a piece of a text, which begins at line `first_line` of it.
+    pub fn add_piece(
+        &mut self,
+        name: &str,
+        text: &str,
+        first_line: usize,
+        folder: Option<PathBuf>,
+    ) -> SourceId {
+        let id = self.sources.add_piece(name, text, first_line);
+        if let Some(folder) = folder {
+            self.folders.insert(id, folder);
+        }
+        id
+    }
+
+    /// Where what a text includes is looked for.
+    pub fn folder(&self, text: SourceId) -> PathBuf {
+        self.folders.get(&text).cloned().unwrap_or_default()
+    }
+
+    /// The first line of a statement, for telling what was undone.
+    pub fn label(&self, span: Span) -> String {
+        let text = self.sources.slice(span);
+        let line = text.lines().next().unwrap_or_default();
+        match line.char_indices().nth(60) {
+            Some((end, _)) => format!("{}...", &line[..end]),
+            None => line.to_owned(),
+        }
+    }
+}

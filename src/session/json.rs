@@ -1,0 +1,54 @@
+//! Findings as JSON, for programs.
+
+use serde_json::{Value, json};
+
+use super::commands::diagnose::Check;
+use super::commands::effects::{Effects, Row};
+
+impl Check {
+    /// The findings as one JSON object, indented.
+    pub fn to_json(&self) -> String {
+        let redundant = self.redundant.iter();
+        let conflicting = self.conflicting.iter();
+        let unsatisfiable = self.unsatisfiable.iter();
+        indented(&json!({
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "redundant": redundant
+                .map(|(name, depends_on)| json!({ "constraint": name, "depends_on": depends_on }))
+                .collect::<Vec<_>>(),
+            "conflicting": conflicting
+                .map(|(names, residual)| json!({ "constraints": names, "residual": residual }))
+                .collect::<Vec<_>>(),
+            "unsatisfiable": unsatisfiable.map(|found| &found.constraint).collect::<Vec<_>>(),
+            "pose": self.pose_word(),
+            "status": self.status.word(),
+            "residual": self.residual,
+        }))
+    }
+}
+
+impl Effects {
+    /// The effects as one JSON object, indented.
+    pub fn to_json(&self) -> String {
+        let row = |row: &Row| {
+            json!({
+                "name": row.name,
+                "on": row.is_on,
+                "because": row.because,
+                "bytes": row.n_bytes,
+                "seconds": row.seconds,
+            })
+        };
+        let (total, awake) = self.islands;
+        indented(&json!({
+            "effects": self.rows.iter().map(row).collect::<Vec<_>>(),
+            "islands": { "total": total, "awake": awake },
+            "frames": self.n_frames,
+            "seconds": self.seconds,
+        }))
+    }
+}
+
+fn indented(value: &Value) -> String {
+    format!("{value:#}")
+}

@@ -1,0 +1,199 @@
+//! The receipt of a command that let time pass: what it did, and what it has to confess.
+
+use std::fmt::Write;
+
+use crate::diag::{Span, format_number, format_rounded, format_seconds};
+use crate::solve::{Method, Report, Settings, Status};
+use crate::world::PointId;
+
+/// Receipt of a command that let time pass.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    /// Frames that were solved.
+    pub n_frames: u64,
+    /// Frames that did not reach the tolerance.
+    pub n_missed: u64,
+    /// The first frame that missed, as the clock counts.
+    pub first_missed: Option<u64>,
+    /// Frames whose time was up before they were solved.
+    pub n_late: u64,
+    /// Iterations of all frames together.
+    pub n_iterations: u64,
+    /// The largest residual of a frame, relative to the scene's size.
+    pub worst_residual: f64,
+    /// How the worst frame ended.
+    pub worst_status: Status,
+    /// The least relaxation coefficient that was used instead of the user's.
+    pub lowered_rho: Option<f64>,
+    /// The tolerance that was asked for last.
+    pub tolerance: f64,
+    /// Frames after which something may be on another branch of its motion.
+    pub n_turned_over: u64,
+    /// The first few of them, as the clock counts, each with a point that changed sides.
+    pub turned_over: Vec<(u64, PointId)>,
+    /// Wall time of all frames together, seconds.
+    pub seconds: f64,
+    /// How the frames were solved, with the number of frames each.
+    pub ways: Vec<(Way, u64)>,
+    /// How far points may be from where they belong, length units, where that can be said and
+    /// somebody listens.
+    pub position_error: Option<f64>,
+    /// The statement whose frame was the first to miss.
+    pub(super) missed_at: Option<Span>,
+    /// The statement whose frame was the first to turn over.
+    pub(super) turned_over_at: Option<Span>,
+}
+
+/// How frames were solved, as far as the user chose it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Way {
+    /// The method.
+    pub method: Method,
+    /// The relaxation coefficient.
+    pub rho: f64,
+    /// The most iterations.
+    pub iterations: u32,
+}
+
+/// Frames that may have changed branch, each told by its number.
+const MOST_TURNED_OVER: usize = 5;
+/// Ways that are told before it becomes too many.
+const MOST_WAYS: usize = 4;
+impl Summary {
+    /// No frames yet.
+    pub(super) const fn new() -> Self {
+        Self {
+            n_frames: 0,
+            n_missed: 0,
+            first_missed: None,
+            n_late: 0,
+            n_iterations: 0,
+            worst_residual: 0.0,
+            worst_status: Status::Converged,
+            lowered_rho: None,
+            tolerance: 0.0,
+            n_turned_over: 0,
+            turned_over: Vec::new(),
+            seconds: 0.0,
+            ways: Vec::new(),
+            position_error: None,
+            missed_at: None,
+            turned_over_at: None,
+        }
+    }
+
+    /// Frames solved with these settings follow.
+    pub(super) fn begin(&mut self, settings: &Settings, tolerance: f64) {
+        let &Settings { method, rho, iterations, .. } = settings;
+        let way = Way { method, rho, iterations };
+        self.tolerance = tolerance;
+        if self.ways.last().is_none_or(|(last, _)| *last != way) {
+            self.ways.push((way, 0));
+        }
+    }
+
+    /// One frame more.
+    pub(super) fn add(&mut self, report: &Report, frame: u64, span: Span) {
+        self.n_frames += 1;
+        if let Some((_, n)) = self.ways.last_mut() {
+            *n += 1;
+        }
+        self.n_iterations += report.iterations;
+        self.worst_residual = self.worst_residual.max(report.residual);
+        self.worst_status = self.worst_status.max(report.status);
+        self.n_late += u64::from(report.is_interrupted);
+        if report.status != Status::Converged || report.is_interrupted {
+            self.n_missed += 1;
+            self.first_missed.get_or_insert(frame);
+            self.missed_at.get_or_insert(span);
+        }
+        if let Some(point) = report.turned_over {
+            self.n_turned_over += 1;
+            if self.turned_over.len() < MOST_TURNED_OVER {
+                self.turned_over.push((frame, point));
+            }
+            self.turned_over_at.get_or_insert(span);
+        }
+        if let Some(rho) = report.lowered_rho {
+            self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));
+        }
+    }
+
+    /// The receipt, in one line.
+    pub(super) fn line(&self) -> String {
+        let n = self.n_frames.max(1) as f64;
+        let mut text = format!(
+            "{} by {}: {} iterations and {} a frame, largest residual {}",
+            frames(self.n_frames),
+            self.ways_text(),
+            format_rounded(self.n_iterations as f64 / n),
+            format_seconds(self.seconds / n),
+            format_rounded(self.worst_residual)
+        );
+        // Writing to a string cannot fail.
+        if let Some(error) = self.position_error.filter(|error| *error > 0.0) {
+            let _ = write!(text, ", position error about {}", format_rounded(error));
+        }
+        if self.n_missed > 0 {
+            let _ = write!(text, ", {} missed {}", self.n_missed, format_number(self.tolerance));
+        }
+        if self.n_late > 0 {
+            let _ = write!(text, ", {} of them for want of time", self.n_late);
+        }
+        if let Some(rho) = self.lowered_rho {
+            let rho = format_rounded(rho);
+            let _ = write!(text, ", rho lowered to {rho} where it would diverge");
+        }
+        text
+    }
+
+    fn ways_text(&self) -> String {
+        if let [(way, _)] = &self.ways[..] {
+            return way.to_string();
+        }
+        let told = self.ways.iter().filter(|(_, n)| *n > 0);
+        let mut text: Vec<String> =
+            told.take(MOST_WAYS).map(|(way, n)| format!("{way} ({n})")).collect();
+        if self.ways.len() > MOST_WAYS {
+            text.push(format!("{} more", self.ways.len() - MOST_WAYS));
+        }
+        text.join(", then ")
+    }
+
+    /// What is wrong with the frames after the first `n_before` that missed; none if nothing.
+    pub(super) fn broken(&self, n_before: u64) -> Option<(String, String)> {
+        if self.n_missed <= n_before {
+            return None;
+        }
+        let message = format!(
+            "{} of {} did not reach the tolerance {}",
+            self.n_missed,
+            frames(self.n_frames),
+            format_number(self.tolerance)
+        );
+        let label = format!(
+            "largest residual {}, first at frame {}: {}",
+            format_rounded(self.worst_residual),
+            self.first_missed.unwrap_or_default(),
+            self.worst_status.phrase()
+        );
+        Some((message, label))
+    }
+}
+
+fn frames(n: u64) -> String {
+    if n == 1 { "1 frame".to_owned() } else { format!("{n} frames") }
+}
+
+impl std::fmt::Display for Way {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str(self.method.word())?;
+        match self.method {
+            Method::Auto => Ok(()),
+            Method::Relaxation | Method::Successive | Method::Anderson => {
+                write!(f, " (rho {}, iterations {})", format_number(self.rho), self.iterations)
+            }
+            _ => write!(f, " (iterations {})", self.iterations),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What depends on what, and the order in which live values are brought up to date.
+
+use std::collections::BTreeMap;
+
+use super::dependencies::{LiveConstraints, is_motor};
+use super::{Depends, Formula, Mention, ParameterId, Record, World};
+use crate::constraint::{ConstraintKind as _, Field};
+
+/// Whether a motor turns: its speed is not 0, or may not be 0 at another time.
+fn is_turning(record: &Record) -> bool {
+    is_motor(record)
+        && (record.constraint.get(Field::Speed) != Some(0.0)
+            || record.driver(Field::Speed).is_some())
+}
+
+impl World {
+    /// Brings the order of live parameters up to date.
+    pub(super) fn sort_parameters(&mut self) {
+        if !self.dependencies.take_order_dirty() {
+            return;
+        }
+        let mut order: Vec<ParameterId> = Vec::new();
+        let mut is_seen = vec![false; self.parameters.n_handles()];
+        let is_live = |id: ParameterId| self.parameter(id).is_some_and(|p| p.depends.is_live());
+        for (root, _) in self.parameters().filter(|(_, p)| p.depends.is_live()) {
+            let mut stack = vec![(root, false)];
+            while let Some((id, is_expanded)) = stack.pop() {
+                if is_expanded {
+                    order.push(id);
+                } else if !std::mem::replace(&mut is_seen[id.idx()], true) {
+                    stack.push((id, true));
+                    let parameter = self.parameter(id).expect("a mentioned parameter lives");
+                    parameter.formula.mentions(&mut |mention| {
+                        if let Mention::Parameter(used) = mention
+                            && is_live(used)
+                        {
+                            stack.push((used, false));
+                        }
+                    });
+                }
+            }
+        }
+        self.dependencies.set_order(order);
+    }
+
+    /// Brings the lists of driven constraints and motors up to date.
+    pub(super) fn sort_constraints(&mut self) {
+        if !self.dependencies.take_lists_dirty() {
+            return;
+        }
+        let mut lists = LiveConstraints::default();
+        for (id, record) in self.constraints() {
+            if record.is_on && is_turning(record) {
+                lists.motors.push(id);
+            }
+            let formulas = record.drivers().iter().map(|(_, formula)| self.depends(formula));
+            let depends = formulas.fold(Depends::default(), Depends::or);
+            if depends.is_live() {
+                lists.driven.push(id);
+            }
+            if depends.on_points {
+                lists.measured.push(id);
+                lists.is_mutual |= record.drivers().iter().any(|(_, f)| self.follows_motion(f));
+            }
+        }
+        self.dependencies.set_lists(lists);
+    }
+
+    /// Whether a formula mentions a point that can move, at any depth.
+    pub fn follows_motion(&self, formula: &Formula) -> bool {
+        let mut follows = false;
+        formula.mentions(&mut |mention| {
+            follows |= match mention {
+                Mention::Point(id) => !self.points.is_frozen(id),
+                Mention::Parameter(id) => {
+                    self.parameter(id).is_some_and(|p| self.follows_motion(&p.formula))
+                }
+            };
+        });
+        follows
+    }
+
+    /// Whether some motor is switched on and turns.
+    pub fn has_running_motors(&mut self) -> bool {
+        self.sort_constraints();
+        !self.dependencies.motors().is_empty()
+    }
+
+    /// What can change a formula, its parameters' own formulas included.
+    pub fn depends(&self, formula: &Formula) -> Depends {
+        let mut depends = formula.depends();
+        if depends.on_parameters {
+            formula.mentions(&mut |mention| {
+                if let Mention::Parameter(id) = mention
+                    && let Some(parameter) = self.parameter(id)
+                {
+                    depends = depends.or(parameter.depends);
+                }
+            });
+        }
+        depends
+    }
+
+    /// How parameter `id` would come to depend on itself through `formula`: the parameters on
+    /// the way, itself last. None where it would not.
+    pub fn cycle(&self, id: ParameterId, formula: &Formula) -> Option<Vec<ParameterId>> {
+        let mut pending: Vec<ParameterId> = Vec::new();
+        // Through which parameter each was reached; itself, where by the formula.
+        let mut reached: BTreeMap<ParameterId, ParameterId> = BTreeMap::new();
+        let mut look = |formula: &Formula, from, pending: &mut Vec<ParameterId>| {
+            formula.mentions(&mut |mention| {
+                if let Mention::Parameter(used) = mention {
+                    reached.entry(used).or_insert_with(|| {
+                        pending.push(used);
+                        from
+                    });
+                }
+            });
+        };
+        look(formula, id, &mut pending);
+        while let Some(used) = pending.pop() {
+            if used == id {
+                break;
+            }
+            if let Some(parameter) = self.parameter(used) {
+                look(&parameter.formula, used, &mut pending);
+            }
+        }
+        let mut path = vec![id];
+        let mut at = *reached.get(&id)?;
+        while at != id {
+            path.push(at);
+            at = reached[&at];
+        }
+        path.reverse();
+        Some(path)
+    }
+}

@@ -1,0 +1,71 @@
+//! Values of expressions, numbers or vectors, and the operators between them.
+
+use super::Shape;
+use crate::constraint::{Real, Vec2};
+
+/// A value of an expression over any kind of number.
+#[derive(Debug, Clone, Copy)]
+pub enum Value<T = f64> {
+    /// A number.
+    Number(T),
+    /// A vector.
+    Vector(Vec2<T>),
+}
+
+impl<T: Real> Value<T> {
+    /// What it is.
+    pub const fn shape(&self) -> Shape {
+        match self {
+            Self::Number(_) => Shape::Number,
+            Self::Vector(_) => Shape::Vector,
+        }
+    }
+
+    /// Whether it holds neither an infinity nor not-a-number.
+    pub fn is_finite(self) -> bool {
+        match self {
+            Self::Number(n) => n.value().is_finite(),
+            Self::Vector(v) => v.x.value().is_finite() && v.y.value().is_finite(),
+        }
+    }
+
+    /// The number; formulas are checked for shape when they are bound.
+    pub fn number(self) -> T {
+        match self {
+            Self::Number(n) => n,
+            Self::Vector(_) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+
+    /// The vector; formulas are checked for shape when they are bound.
+    pub fn vector(self) -> Vec2<T> {
+        match self {
+            Self::Vector(v) => v,
+            Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+}
+
+/// An arithmetic operation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+}
+
+impl Operator {
+    /// The sign in the language.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+            Self::Power => "^",
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! A host that keeps what a session says and writes, to be looked at after.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use linkwork::diag::{Diagnostic, Paint, Sources, render};
+use linkwork::session::Host;
+
+/// What was said and written so far.
+#[derive(Default)]
+pub struct Notebook {
+    /// The lines printed.
+    pub printed: Vec<String>,
+    /// The notes and warnings.
+    pub told: Vec<Diagnostic>,
+    /// Both in their order, as a terminal would show them.
+    pub said: String,
+    /// The files written, the last of a name.
+    pub files: BTreeMap<PathBuf, String>,
+    /// Where files are read that were not written before.
+    pub folder: PathBuf,
+    /// How far the clock goes on whenever it is looked at, seconds.
+    pub tick: f64,
+    /// How often the clock was looked at.
+    pub n_looks: Cell<u64>,
+    /// The user wants to stop once the clock was looked at more often than that.
+    pub patience: Option<u64>,
+}
+
+impl Notebook {
+    /// Adds to what a terminal would show.
+    pub fn say(&mut self, text: &str) {
+        writeln!(self.said, "{text}").expect("writing to a string");
+    }
+
+    /// The first lines of the notes and warnings since this was last asked for.
+    pub fn told(&mut self) -> Vec<String> {
+        let told = std::mem::take(&mut self.told);
+        told.into_iter().map(|what| what.message.to_string()).collect()
+    }
+}
+
+impl Host for Notebook {
+    fn print(&mut self, line: &str) {
+        self.say(line);
+        self.printed.push(line.to_owned());
+    }
+
+    fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
+        self.say(&render(what, sources, Paint::Plain));
+        self.told.push(what.clone());
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.patience.is_some_and(|most| self.n_looks.get() > most)
+    }
+
+    fn read(&mut self, path: &Path) -> io::Result<String> {
+        if let Some(text) = self.files.get(path) {
+            return Ok(text.clone());
+        }
+        String::from_utf8(std::fs::read(self.folder.join(path))?)
+            .map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if path.starts_with("locked") {
+            return Err(io::Error::from(io::ErrorKind::PermissionDenied));
+        }
+        let text = String::from_utf8(bytes.to_vec()).expect("all that is written is text");
+        self.files.insert(path.to_path_buf(), text);
+        Ok(())
+    }
+
+    fn seconds(&self) -> f64 {
+        self.n_looks.set(self.n_looks.get() + 1);
+        self.n_looks.get() as f64 * self.tick
+    }
+}
