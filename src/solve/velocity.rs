@@ -51,31 +51,52 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
 
 /// Works out the rates of the free points of an island.
 fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
+    let ids = island.ids.clone();
+    let drive = |c: usize, field: Field, value: f64| {
+        let first = fields.partition_point(|(other, ..)| *other < ids[c]);
+        let mut own = fields[first..].iter().take_while(|(other, ..)| *other == ids[c]);
+        let driven = own.find(|(_, f, _)| *f == field);
+        driven.map_or(Jet::constant(value), |(_, _, jet)| Jet::new(value, jet.d, jet.dd))
+    };
+    let motion = motion(island, &drive, &|_| Vector::ZERO);
+    for (id, [velocity, acceleration]) in island.points[..island.n_free].iter().zip(motion) {
+        rates.velocity[id.idx()] = velocity;
+        rates.acceleration[id.idx()] = acceleration;
+    }
+}
+
+/// Velocity and acceleration of each point of an island at a solution: `drive` gives the rates of
+/// the values of a constraint, `hand` the velocity of a frozen point.
+pub(super) fn motion(
+    island: &mut Island,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    hand: &impl Fn(usize) -> Vector,
+) -> Vec<[Vector; 2]> {
     let mut workspace = island.take_workspace();
     let mut work = Counters::default();
     workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, &mut work);
     workspace.assemble(Stiffness::None).factor(FLOOR);
     let mut motion = vec![[Vector::ZERO; 2]; island.x.len()];
+    for (p, motion) in motion.iter_mut().enumerate().skip(island.n_free) {
+        motion[0] = hand(p);
+    }
     for order in 0..2 {
-        let rhs = right_side(island, &workspace, fields, &motion, order);
+        let rhs = right_side(island, &workspace, drive, &motion, order);
         let y = shortest(&mut workspace, &rhs);
         let (y, _) = y.as_chunks::<2>();
         for (p, y) in y.iter().enumerate() {
             motion[p][order] = Vector::new(y[0], y[1]) * island.w[p].sqrt();
         }
     }
-    for (id, [velocity, acceleration]) in island.points[..island.n_free].iter().zip(motion) {
-        rates.velocity[id.idx()] = velocity;
-        rates.acceleration[id.idx()] = acceleration;
-    }
     island.put_workspace(workspace);
+    motion
 }
 
 /// What the rows of J times the unknown rates have to be.
 fn right_side(
     island: &Island,
     workspace: &Workspace,
-    fields: &FieldRates,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
     motion: &[[Vector; 2]],
     order: usize,
 ) -> Vec<f64> {
@@ -84,13 +105,8 @@ fn right_side(
         Vec2 { x: Jet::new(x.x, v.x, 0.0), y: Jet::new(x.y, v.y, 0.0) }
     };
     let mut rhs = Vec::with_capacity(workspace.equations.n_rows());
-    for (id, constraint) in island.ids.iter().zip(&island.constraints) {
-        let first = fields.partition_point(|(other, ..)| other < id);
-        let own = fields[first..].iter().take_while(|(other, ..)| other == id);
-        let field = |field: Field, value: f64| {
-            let driven = own.clone().find(|(_, f, _)| *f == field);
-            driven.map_or(Jet::constant(value), |(_, _, jet)| Jet::new(value, jet.d, jet.dd))
-        };
+    for (c, constraint) in island.constraints.iter().enumerate() {
+        let field = |field: Field, value: f64| drive(c, field, value);
         constraint.equations(&place, &field, &mut |f: Jet| {
             rhs.push(-if order == 0 { f.d } else { f.dd });
         });

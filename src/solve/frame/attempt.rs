@@ -1,6 +1,7 @@
 //! An attempt at a pose from an expected one: block by block, then the parts that are solved as a
 //! whole.
 
+use super::branch::{Volume, may_cross};
 use super::dyad;
 use crate::constraint::Point;
 use crate::solve::island::Island;
@@ -21,7 +22,7 @@ pub(crate) const NO_MOTION: f64 = 1e-6;
 const RANK_CUT: f64 = 1e-10;
 
 /// How an attempt at a pose from an expected one went.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Attempt {
     /// The largest distance to satisfaction, length units.
     pub worst: f64,
@@ -29,14 +30,16 @@ pub(crate) struct Attempt {
     pub n_iterations: u32,
     /// How far the farthest point ended from where it was expected.
     pub correction: f64,
-    /// Whether a block changed sides of its singular pose.
+    /// Whether a singular pose lies on the way, or may.
+    pub may_cross: bool,
+    /// Whether something is on the other side of its singular pose.
     pub has_flipped: bool,
 }
 
 impl Attempt {
     /// Whether the pose, reached by `motion` from the last one, follows from it.
     pub fn is_safe(&self, motion: f64, limits: &Limits) -> bool {
-        !self.has_flipped
+        !self.may_cross
             && (self.correction <= SURPRISE * motion || motion <= NO_MOTION * limits.size)
     }
 }
@@ -55,7 +58,7 @@ pub(crate) fn attempt(
     limits: &Limits,
     work: &mut Counters,
 ) -> Option<Attempt> {
-    let mut sum = Attempt { worst: 0.0, n_iterations: 0, correction: 0.0, has_flipped: false };
+    let mut sum = Attempt::default();
     let Island { plan, constraints, x, .. } = island;
     for block in &mut plan.blocks {
         let which = &plan.constraints[block.first as usize..block.end as usize];
@@ -66,6 +69,7 @@ pub(crate) fn attempt(
             sum.correction = sum.correction.max(found.correction);
         }
         sum.has_flipped |= found.side * block.side < 0.0;
+        sum.may_cross |= block.has_branches() && may_cross(block.side, found.side);
         block.next_side = found.side;
     }
     if !island.plan.is_complete() {
@@ -110,6 +114,16 @@ fn attempt_rest(
         }
         let correction =
             workspaces.iter().map(|workspace| workspace.correction(&island.x)).fold(0.0, f64::max);
+        if island.is_smooth() {
+            for (k, workspace) in workspaces.iter().enumerate() {
+                let now = Volume::of(&workspace.equations, &workspace.rows);
+                island.watch.next_volumes[k] = now;
+                if let (Some(before), Some(now)) = (island.watch.volumes[k], now) {
+                    sum.may_cross |= before.may_cross(now);
+                    sum.has_flipped |= before.value * now.value < 0.0;
+                }
+            }
+        }
         // What is free to choose where it goes has no branch to lose.
         if island.is_smooth() || correction > FREE_SURPRISE * limits.size {
             sum.correction = sum.correction.max(correction);

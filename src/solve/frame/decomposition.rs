@@ -60,6 +60,14 @@ pub(crate) struct Part {
     pub constraints: Vec<u32>,
 }
 
+impl Block {
+    /// Whether there is more than one place where its constraints hold, and a way of telling them
+    /// apart.
+    pub fn has_branches(&self) -> bool {
+        self.is_determined && self.form != Form::Assignment
+    }
+}
+
 impl Plan {
     /// The plan for constraints over `n_points` points, the first `n_free` of them unknown.
     pub fn new(constraints: &[Constraint], n_free: usize, n_points: usize) -> Self {

@@ -32,7 +32,8 @@ pub(crate) struct Found {
     /// How far the point is from where it started, or from where the first step led if the
     /// start was no prediction.
     pub correction: f64,
-    /// On which side of the singular pose it is.
+    /// On which side of the singular pose it is: the sine of the angle between the first two
+    /// gradients.
     pub side: f64,
 }
 
@@ -244,6 +245,7 @@ fn meet(
         if shortest > 0.0 && left <= limits.tolerance {
             let moved = at - start;
             let correction = moved.x.abs().max(moved.y.abs());
+            let side = side / (l * m);
             return Some((at, Found { worst: left, n_steps, correction, side }));
         }
     }

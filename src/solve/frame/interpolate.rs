@@ -1,7 +1,8 @@
 //! What drives an island in a frame, between its beginning and its end.
 
-use crate::constraint::{Constraint, ConstraintKind, Field, Point, Turns};
+use crate::constraint::{Constraint, ConstraintKind, Field, Jet, Point, Real, Turns, Vector};
 use crate::solve::island::Island;
+use crate::solve::velocity;
 
 /// The values that change in a frame, at both of its ends.
 pub(crate) struct Ends {
@@ -29,13 +30,46 @@ impl Ends {
         Self { constraints, points, states: states.collect() }
     }
 
-    /// Puts the island's values where they are at instant `t` of the frame, 0 to 1.
+    /// Puts the island's values where they are at instant `t` of the frame: 0 is its beginning, 1
+    /// its end, and what drives it goes on beyond that.
     pub fn interpolate(&self, island: &mut Island, t: f64) {
         for (c, before, after) in &self.constraints {
             between(&mut island.constraints[*c as usize], before, after, t);
         }
         for (p, before, after) in &self.points {
-            island.x[*p as usize] = if t < 1.0 { *before + (*after - *before) * t } else { *after };
+            island.x[*p as usize] =
+                if t == 1.0 { *after } else { *before + (*after - *before) * t };
+        }
+    }
+
+    /// Velocities and accelerations of the free points at the present pose, per frame.
+    pub fn motion(&self, island: &mut Island) -> Vec<[Vector; 2]> {
+        let n_free = island.n_free;
+        let drive = |c: usize, field: Field, value: f64| self.rate(c, field, value);
+        let hand = |p: usize| {
+            let of_point = self.points.iter().find(|(q, ..)| *q as usize == p);
+            of_point.map_or(Vector::ZERO, |(_, before, after)| *after - *before)
+        };
+        let mut motion = velocity::motion(island, &drive, &hand);
+        motion.truncate(n_free);
+        motion
+    }
+
+    /// How a value of a constraint changes in the frame.
+    fn rate(&self, c: usize, field: Field, value: f64) -> Jet {
+        let place = self.constraints.binary_search_by_key(&(c as u32), |(c, ..)| *c);
+        let Ok(place) = place else {
+            return Jet::constant(if field == Field::Speed { 0.0 } else { value });
+        };
+        let (_, before, after) = &self.constraints[place];
+        if let (Field::Speed, Constraint::Motor(before), Constraint::Motor(after)) =
+            (field, before, after)
+        {
+            return Jet::constant(after.turned().total() - before.turned().total());
+        }
+        match (before.get(field), after.get(field)) {
+            (Some(a), Some(b)) if a.is_finite() && b.is_finite() => Jet::new(value, b - a, 0.0),
+            _ => Jet::constant(value),
         }
     }
 
@@ -51,7 +85,7 @@ impl Ends {
 fn between(now: &mut Constraint, before: &Constraint, after: &Constraint, t: f64) {
     for field in FIELDS {
         if let (Some(a), Some(b)) = (before.get(field), after.get(field)) {
-            let is_between = t < 1.0 && a.is_finite() && b.is_finite();
+            let is_between = t != 1.0 && a.is_finite() && b.is_finite();
             let value = if is_between { a + (b - a) * t } else { b };
             // Setting the ratio of wheels makes them go on from where they stand: not idle.
             if now.get(field) != Some(value) {
@@ -64,6 +98,6 @@ fn between(now: &mut Constraint, before: &Constraint, after: &Constraint, t: f64
     {
         let (from, to) = (before.turned(), after.turned());
         let way = (to.total() - from.total()) * t;
-        now.set_turned(if t < 1.0 { from.plus(Turns::from_radians(way)) } else { to });
+        now.set_turned(if t == 1.0 { to } else { from.plus(Turns::from_radians(way)) });
     }
 }

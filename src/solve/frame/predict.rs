@@ -21,13 +21,17 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         return settle(island, limits, work);
     }
     let n_free = island.n_free;
+    island.measure_volumes(work);
     island.history.begin(&island.x[..n_free], island.highest_degree());
+    // A motion that begins at a change point may go on along any branch.
+    let is_open = island.history.n_past() == 0 && island.is_singular();
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
         project_prediction(island, limits, work);
     }
     if let Some(attempt) = attempt(island, is_predicted, limits, work)
         && (island.has_velocities()
+            || is_open
             || island.plan.is_linear()
             || attempt.is_safe(motion_since(island, island.history.origin()), limits)
                 && island.watched_point_over().is_none())
@@ -44,7 +48,13 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     island.turned_over = None;
     island.set_sides(sides);
     island.x[..n_free].copy_from_slice(island.history.origin());
-    settle(island, limits, work)
+    let outcome = settle(island, limits, work);
+    if outcome.is_converged() && !is_open && !island.has_velocities() && !island.is_singular() {
+        // It could not be followed here: whatever side it is on, it may be another branch. At a
+        // singular pose all of them meet.
+        island.turned_over = island.turned_over.or_else(|| island.point_with_branches());
+    }
+    outcome
 }
 
 /// Solves a frame that does not follow from the one before, and notes what changed sides.

@@ -358,6 +358,7 @@ impl Island {
             block.side = block.next_side;
         }
         self.watch.update(&self.x);
+        self.watch.keep_volumes();
     }
 
     /// Tells the constraints that this pose counts: angles are unwrapped from here on.
@@ -393,6 +394,7 @@ impl Island {
             self.plan.blocks[k].side = side;
         }
         self.watch.update(&self.x);
+        self.watch.forget_volumes();
     }
 }
 
