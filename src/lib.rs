@@ -1,5 +1,6 @@
 //! Planar mechanisms: a command language, a session and a batch interpreter.
 
+#[cfg(feature = "terminal")]
 pub mod cli;
 pub mod constraint;
 pub mod diag;
@@ -7,7 +8,8 @@ pub mod lang;
 pub mod linalg;
 pub mod mobility;
 pub mod render;
-pub mod repl;
+#[cfg(feature = "terminal")]
+mod repl;
 pub mod session;
 pub mod solve;
 pub mod study;

@@ -25,6 +25,7 @@ mod method;
 pub use cost::{Effect, is_inequality, is_wheel};
 pub use dead_point::Halt;
 pub use island::memory::Memory;
+pub use parallel::limit_cores;
 pub use report::{Budget, Counters, Report, Status};
 pub use settings::{CogForm, Method, Settings};
 pub use solver::Solver;
