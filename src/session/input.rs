@@ -40,6 +40,15 @@ impl Input {
         id
     }
 
+    /// Keeps a text, unless it is the one that was kept last: a program may say the same again
+    /// and again.
+    pub fn add_once(&mut self, name: &str, text: &str) -> SourceId {
+        match self.sources.last() {
+            Some((id, last)) if *last.name == *name && *last.text == *text => id,
+            _ => self.add_piece(name, text, 1, None),
+        }
+    }
+
     /// Where what a text includes is looked for.
     pub fn folder(&self, text: SourceId) -> PathBuf {
         self.folders.get(&text).cloned().unwrap_or_default()
