@@ -20,7 +20,9 @@ pub struct Input {
 /// A value from outside and whether some `let` took it.
 #[derive(Debug, Clone)]
 pub struct Override {
+    /// What it is.
     pub value: f64,
+    /// Whether it was taken.
     pub is_used: bool,
 }
 
