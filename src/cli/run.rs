@@ -101,9 +101,7 @@ fn read_stdin() -> io::Result<String> {
 /// An empty session.
 pub(super) fn begin(outside: &Outside) -> Session {
     if let Some(n) = outside.threads {
-        // Fails only where it was said before: a process has one crew.
-        let crew = rayon::ThreadPoolBuilder::new().num_threads(n.into());
-        let _ = crew.build_global();
+        crate::solve::limit_cores(n.into());
     }
     let mut session = Session::new();
     for (name, value) in &outside.set {

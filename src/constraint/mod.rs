@@ -36,10 +36,14 @@ pub use kinds::rack::Rack;
 pub use kinds::rigid::Rigid;
 pub use kinds::{Constraint, Kind};
 pub use parts::bounds::Bounds;
+#[doc(hidden)]
 pub use parts::geometry;
 pub use parts::geometry::{Point, Vector};
+#[doc(hidden)]
 pub use parts::jet::{Jet, Real};
-pub use parts::row::{PointIdx, Row};
+pub use parts::row::PointIdx;
+#[doc(hidden)]
+pub use parts::row::Row;
 pub use parts::turns::Turns;
 pub use parts::vec2::Vec2;
 

@@ -1,5 +1,7 @@
 //! One problem: a message, the places it is about, and what to do.
 
+use std::error::Error;
+use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use super::Span;
@@ -74,6 +76,28 @@ pub struct Label {
     /// Is it where the problem is, or does it only explain?
     pub primary: bool,
 }
+
+/// The message and what stands at its place, in one line; [`render`](fn@super::render) draws the
+/// whole of it, with the text it is about.
+///
+/// ```
+/// use linkwork::diag::{Diagnostic, SourceId, Span};
+///
+/// let place = Span::new(SourceId(0), 0..6);
+/// let problem = Diagnostic::error("unknown command `lenght`").at(place, "not a command");
+/// assert_eq!(problem.to_string(), "unknown command `lenght`: not a command");
+/// ```
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        match self.labels.iter().find(|label| label.primary && !label.text.is_empty()) {
+            Some(label) => write!(f, ": {}", label.text),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Error for Diagnostic {}
 
 impl Deref for Diagnostic {
     type Target = Problem;

@@ -11,11 +11,15 @@ mod render;
 mod source;
 
 pub use diagnostic::{Diagnostic, Kind, Label, Severity};
+#[doc(hidden)]
 pub use list::{listed, listed_first, listed_ways};
+#[doc(hidden)]
 pub use nearest::{nearest, suggest};
+pub use number::format_number;
+#[doc(hidden)]
 pub use number::{
-    format_count, format_decimals, format_degrees, format_digits, format_exponent, format_number,
-    format_rounded, format_seconds, push_decimals, push_integer,
+    format_count, format_decimals, format_degrees, format_digits, format_exponent, format_rounded,
+    format_seconds, push_decimals, push_integer,
 };
 pub use render::{Paint, render};
 pub use source::{Place, Source, SourceId, Sources, Span};

@@ -59,7 +59,8 @@ pub struct Source {
     pub first_line: usize,
 }
 
-/// Every text read so far. Nothing is ever taken out, so a [`Span`] stays good.
+/// Every text read so far. What may still be pointed at is never taken out, so a [`Span`] stays
+/// good.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {
     all: Vec<Source>,
@@ -86,6 +87,17 @@ impl Sources {
         let id = SourceId(u32::try_from(self.all.len()).expect("fewer than 2^32 texts"));
         self.all.push(Source { name: name.into(), text: text.into(), first_line });
         id
+    }
+
+    /// Forgets the text that was added last, where no place in it is kept by anybody.
+    pub fn forget_last(&mut self) {
+        self.all.pop();
+    }
+
+    /// The text that was added last.
+    pub fn last(&self) -> Option<(SourceId, &Source)> {
+        let source = self.all.last()?;
+        Some((SourceId(self.all.len() as u32 - 1), source))
     }
 
     /// The text that was added first.

@@ -33,6 +33,7 @@ mod style;
 mod view;
 
 // Numbers in lines.
+#[doc(hidden)]
 pub mod chart;
 
 // Figures that stand still, as a document.

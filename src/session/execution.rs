@@ -28,9 +28,13 @@ pub enum Flow {
 /// A command on its way, with the parts of the session that it may touch and the host that it
 /// talks to. What only it needs ends with it, however it ends.
 pub struct Execution<'a> {
+    /// What it changes.
     pub state: &'a mut State,
+    /// What it was read from.
     pub input: &'a mut Input,
+    /// What takes it back.
     pub history: &'a mut History,
+    /// Who it talks to.
     pub host: &'a mut dyn Host,
     /// The blocks and instances around the statement.
     pub scopes: Scopes,

@@ -10,7 +10,8 @@ pub trait Host {
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
 
-    /// Takes talk: notes and warnings. Errors are returned, not told.
+    /// Takes talk: notes and warnings. An error is returned to who asked for the statement; who
+    /// gave a whole text to carry out is told of it here.
     fn tell(&mut self, what: &Diagnostic, sources: &Sources);
 
     /// Whether notes and warnings reach anybody: what is worked out for their sake alone is left

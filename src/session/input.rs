@@ -20,7 +20,9 @@ pub struct Input {
 /// A value from outside and whether some `let` took it.
 #[derive(Debug, Clone)]
 pub struct Override {
+    /// What it is.
     pub value: f64,
+    /// Whether it was taken.
     pub is_used: bool,
 }
 
@@ -38,6 +40,15 @@ impl Input {
             self.folders.insert(id, folder);
         }
         id
+    }
+
+    /// Keeps a text, unless it is the one that was kept last: a program may say the same again
+    /// and again.
+    pub fn add_once(&mut self, name: &str, text: &str) -> SourceId {
+        match self.sources.last() {
+            Some((id, last)) if *last.name == *name && *last.text == *text => id,
+            _ => self.add_piece(name, text, 1, None),
+        }
     }
 
     /// Where what a text includes is looked for.

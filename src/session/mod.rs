@@ -7,6 +7,8 @@
 //! Its parts: `state` is all that commands change, `input` what they are read from, `undo` what
 //! takes them back; `execution` is the command under way, the only one who meets the host.
 
+mod answer;
+mod ask;
 mod commands;
 mod completion;
 mod dispatch;
@@ -14,7 +16,6 @@ mod execution;
 mod host;
 mod input;
 mod json;
-mod overrides;
 mod preferences;
 mod quotas;
 mod report;
@@ -30,29 +31,35 @@ mod undo;
 
 use std::path::PathBuf;
 
+pub use answer::Answer;
+pub use ask::evaluate_binding;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, Unsatisfiable};
 pub use commands::effects::{Effects, Row as EffectRow};
-pub use commands::settings::SETTINGS;
 pub use completion::Completion;
 pub use execution::Flow;
 pub use host::{Host, Nowhere, contained, reason};
-pub use overrides::evaluate_binding;
 pub use preferences::{AtDeadPoint, Preferences};
 pub use silent::Silent;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
+pub use crate::mobility::{End, Pose, Range, Reach};
+
+use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
-use crate::mobility::Range;
-use crate::world::{ConstraintId, World};
+use crate::world::{ConstraintId, Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
 use state::State;
 use undo::history::History;
 
 /// A world with everything that a user can say to it.
+///
+/// What a session says goes to a [`Host`], which it is lent with each statement; [`run`](Self::run)
+/// brings one that keeps it all. Questions that need none take the session alone. A session is
+/// [`Send`]: it may be made on one thread and go on on another.
 pub struct Session {
     state: State,
     input: Input,
@@ -69,6 +76,71 @@ impl Session {
     /// An empty world.
     pub fn new() -> Self {
         Self { state: State::new(), input: Input::default(), history: History::default() }
+    }
+
+    /// Carries out a text, statement by statement, up to the first error; gives what it printed,
+    /// told and wrote. What it `include`s or `load`s it has to have written itself: who has files
+    /// brings a [`Host`] and calls [`execute_all`](Self::execute_all).
+    ///
+    /// # Errors
+    /// The first thing that is wrong. The statements before it keep their effect.
+    ///
+    /// ```
+    /// use linkwork::Session;
+    ///
+    /// let mut session = Session::new();
+    /// let answer = session.run("let r = 2; print \"r is\", r; list points")?;
+    /// assert_eq!(answer.lines, ["r is 2"]);
+    /// assert_eq!(answer.told[0].to_string(), "no points");
+    ///
+    /// let problem = session.run("print r; lenght A B").unwrap_err();
+    /// assert_eq!(problem.helps, ["did you mean `length`?"]);
+    /// # Ok::<(), linkwork::Diagnostic>(())
+    /// ```
+    pub fn run(&mut self, text: &str) -> Result<Answer, Diagnostic> {
+        let mut answer = Answer::default();
+        let source = self.input.add_once("<text>", text);
+        self.execute_all(source, &mut answer)?;
+        Ok(answer)
+    }
+
+    /// The value of an expression now; looking changes nothing.
+    ///
+    /// # Errors
+    /// What is wrong with it, or why it has no value.
+    ///
+    /// ```
+    /// use linkwork::Session;
+    ///
+    /// let mut session = Session::new();
+    /// session.run("point A = (0, 0), B = (3, 4)")?;
+    /// assert_eq!(session.evaluate("distance(A, B)")?.number(), 5.0);
+    /// assert_eq!(session.evaluate("B - A")?.vector().y, 4.0);
+    /// assert!(session.evaluate("distance(A, C)").is_err());
+    /// # Ok::<(), linkwork::Diagnostic>(())
+    /// ```
+    pub fn evaluate(&mut self, expression: &str) -> Result<Value, Diagnostic> {
+        let source = self.input.add_piece("<expression>", &format!("print {expression}"), 1, None);
+        let value = ask::value(source, &self.input.sources, &mut self.state)?;
+        // Nobody holds a place in what had a value.
+        self.input.sources.forget_last();
+        Ok(value)
+    }
+
+    /// Where a point is.
+    pub fn position(&self, point: &str) -> Option<Point> {
+        match self.world().names().get(point)? {
+            Entity::Point(id) => Some(self.world().points().at(id)),
+            _ => None,
+        }
+    }
+
+    /// By how much a constraint that is switched on is missed, in its own unit: length units, or
+    /// radians.
+    pub fn residual(&self, constraint: &str) -> Option<f64> {
+        let Entity::Constraint(id) = self.world().names().get(constraint)? else { return None };
+        let record = self.world().constraint(id).filter(|record| record.is_on)?;
+        Some(record.constraint.residual(self.world().points().column()))
     }
 
     /// The texts read so far; places in diagnostics are places in these.

@@ -22,9 +22,16 @@ mod frame;
 mod island;
 mod method;
 
+#[doc(hidden)]
 pub use cost::{Effect, is_inequality, is_wheel};
+#[doc(hidden)]
 pub use dead_point::Halt;
+#[doc(hidden)]
 pub use island::memory::Memory;
-pub use report::{Budget, Counters, Report, Status};
+pub use parallel::limit_cores;
+pub use report::Status;
+#[doc(hidden)]
+pub use report::{Budget, Counters, Report};
 pub use settings::{CogForm, Method, Settings};
+#[doc(hidden)]
 pub use solver::Solver;

@@ -48,6 +48,7 @@ impl Hand {
 }
 
 /// Moves points to where hands have them after `share` of their ways.
+#[inline]
 pub fn move_by(hands: &[Hand], share: f64, world: &mut World) {
     for hand in hands {
         world.apply(Edit::Move(hand.point, hand.at(share)));

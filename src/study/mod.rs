@@ -23,6 +23,6 @@ pub use host::StudyHost;
 pub use measure::study;
 pub use picture::picture;
 pub use reference_run::freedoms;
-pub use report::{Cut, ErrorMeasure, RungResult, Study, Why};
-pub use setting_ladder::{Rung, Step, ladder};
+pub use report::{RungResult, Study};
+pub use setting_ladder::ladder;
 pub use table::{csv, json, table};

@@ -38,20 +38,24 @@ mod motion;
 mod same;
 mod unchanged;
 
-pub use arithmetic::{call, operate};
+pub(crate) use arithmetic::{call, operate};
+#[doc(hidden)]
 pub use batch::{Batch, BatchRecords};
 pub use clock::Clock;
 pub use edit::Edit;
+#[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
+#[doc(hidden)]
 pub use motion::Motion;
 pub use name::Word;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
 pub use state::World;
+#[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use user::User;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// The text of a name, cheap to clone. Up to [`SHORT`] bytes need no room of their own.
+/// The text of a name, cheap to clone. Up to 22 bytes need no room of their own.
 #[derive(Clone)]
 pub struct Word(Kept);
 

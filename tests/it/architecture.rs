@@ -2,6 +2,7 @@
 //! file is two.
 
 use std::collections::BTreeSet;
+use std::process::Command;
 
 use crate::support::sources::{Source, sources};
 
@@ -36,13 +37,47 @@ const HOMES: [(&str, &[&str]); 13] = [
     ("nalgebra", &["linalg/", "mobility/"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/lower/"]),
-    ("rayon", &["solve/parallel.rs", "cli/run.rs"]),
+    ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
-    ("serde_json", &["cli/", "session/"]),
+    ("serde_json", &["session/json.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
 ];
+
+/// All that the library builds on without its features, where there is neither a thread nor a
+/// file nor a clock. A crate more is a crate more for every user of the library.
+const LIBRARY: [&str; 26] = [
+    "annotate-snippets",
+    "anstyle",
+    "approx",
+    "bytemuck",
+    "itoa",
+    "libm",
+    "matrixmultiply",
+    "memchr",
+    "nalgebra",
+    "num-complex",
+    "num-integer",
+    "num-rational",
+    "num-traits",
+    "pest",
+    "pest_stack_guard",
+    "rawpointer",
+    "rustc-hash",
+    "serde_core",
+    "serde_json",
+    "simba",
+    "svg",
+    "typenum",
+    "ucd-trie",
+    "unicode-width",
+    "wide",
+    "zmij",
+];
+
+/// What a page in a browser does not have.
+const OUTSIDE: [&str; 6] = ["env", "fs", "net", "process", "thread", "time"];
 
 /// Lines of a file that is still one thing, its tests left out.
 const MOST_LINES: usize = 500;
@@ -70,6 +105,37 @@ fn a_foreign_crate_has_one_home() {
             assert!(is_at_home || !is_named, "{path} names `{name}`, which lives in {homes:?}");
         }
     }
+}
+
+#[test]
+fn the_library_needs_no_system() {
+    for source in sources() {
+        if ["cli", "main", "repl"].contains(&room_of(&source.path).as_str()) {
+            continue;
+        }
+        for module in OUTSIDE {
+            assert!(!names_std(&source.code(), module), "{} names std::{module}", source.path);
+        }
+    }
+    assert!(names_std("use std::fs;", "fs") && names_std("use std::{\n    io, fs::File};", "fs"));
+    assert!(!names_std("use std::{fmt, io};", "fs") && !names_std("std::fmt::x", "fs"));
+}
+
+#[test]
+fn the_library_builds_on_these_crates_alone() {
+    let target = ["--target", "wasm32-unknown-unknown", "--offline", "--locked"];
+    let tree = Command::new(env!("CARGO"))
+        .args(["tree", "--no-default-features", "--edges", "normal,no-proc-macro"])
+        .args(["--prefix", "none"])
+        .args(target)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo runs");
+    let names = String::from_utf8(tree.stdout).expect("names are text");
+    let names = names.lines().filter_map(|line| line.split(' ').next());
+    let names: BTreeSet<&str> = names.filter(|name| *name != "linkwork").collect();
+    let why = String::from_utf8_lossy(&tree.stderr).into_owned();
+    assert_eq!(names, BTreeSet::from(LIBRARY), "{why}");
 }
 
 #[test]
@@ -140,4 +206,16 @@ fn is_word(c: char) -> bool {
 fn names_crate(line: &str, name: &str) -> bool {
     line.match_indices(&format!("{name}::"))
         .any(|(at, _)| !line[..at].ends_with(|c: char| is_word(c) || c == ':'))
+}
+
+/// Whether code names a module of the standard library: `std::name` or `std::{name, ...}`.
+fn names_std(code: &str, module: &str) -> bool {
+    code.match_indices("std::").any(|(at, found)| {
+        let rest = &code[at + found.len()..];
+        let list = match rest.strip_prefix('{') {
+            Some(list) => list.split_once("};").map_or(list, |(list, _)| list),
+            None => rest.split(|c: char| !is_word(c)).next().unwrap_or_default(),
+        };
+        list.split(|c: char| !is_word(c)).any(|word| word == module)
+    })
 }

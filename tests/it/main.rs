@@ -6,6 +6,8 @@
 
 mod architecture;
 mod circles;
+mod examples;
+mod front_door;
 mod golden;
 mod hard_cases;
 mod laws;

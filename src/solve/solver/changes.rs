@@ -19,7 +19,7 @@ impl Solver {
         cause: Cause,
         work: &mut Counters,
     ) -> Vec<u32> {
-        if !self.is_stale && world.is_untouched() && self.settings.as_ref() == Some(settings) {
+        if self.is_up_to_date(world, settings) {
             return Vec::new();
         }
         let before = self.settings.replace(*settings);

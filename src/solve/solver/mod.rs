@@ -132,7 +132,16 @@ impl Solver {
     /// Takes in what the user edited. To be called before the clock goes on and before a point
     /// is dragged along with it, so that a frame knows what it began with.
     pub fn sync(&mut self, world: &mut World, settings: &Settings) {
-        self.apply_changes(world, settings, Cause::Hand, &mut Counters::default());
+        // Asked here as well: each frame asks, and few find anything.
+        if !self.is_up_to_date(world, settings) {
+            self.apply_changes(world, settings, Cause::Hand, &mut Counters::default());
+        }
+    }
+
+    /// Whether nothing was edited or set since the last call.
+    #[inline]
+    fn is_up_to_date(&self, world: &World, settings: &Settings) -> bool {
+        !self.is_stale && world.is_untouched() && self.settings.as_ref() == Some(settings)
     }
 
     /// All that later results depend on besides the world and the settings.

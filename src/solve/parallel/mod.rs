@@ -4,7 +4,18 @@
 //! shared out here is such that nothing is added up in another order: the bits of a result do
 //! not depend on how many cores there are.
 
-use rayon::prelude::*;
+#[cfg(feature = "parallel")]
+mod cores;
+#[cfg(not(feature = "parallel"))]
+mod one_core;
+
+#[cfg(feature = "parallel")]
+use cores as work;
+#[cfg(not(feature = "parallel"))]
+use one_core as work;
+
+pub use work::limit_cores;
+pub(super) use work::{for_each_chunk, map_reduce};
 
 /// Less work than so many evaluations of constraints is done sooner than others are called; see
 /// docs/performance.md.
@@ -33,27 +44,22 @@ pub(super) struct Effort {
 pub(super) fn pays(last: &Effort) -> bool {
     last.n_evaluations >= ENOUGH
         && last.n_evaluations >= ENOUGH_EACH * last.n_constraints
-        && rayon::current_num_threads() > 1
+        && work::n_cores() > 1
 }
 
-/// Does something with each item, at least `n_least` of them on one core, and puts together what
-/// came out. The order in which that is put together depends on the cores: `reduce` must not
-/// care.
-pub(super) fn map_reduce<I: Send, T: Send + Sync + Copy>(
-    items: &mut [I],
-    n_least: usize,
-    map: impl Fn(&mut I) -> T + Send + Sync,
-    identity: T,
-    reduce: impl Fn(T, T) -> T + Send + Sync,
-) -> T {
-    items.par_iter_mut().with_min_len(n_least).map(map).reduce(|| identity, reduce)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Does something with each piece of so many items, by its number.
-pub(super) fn for_each_chunk<T: Send>(
-    items: &mut [T],
-    n_each: usize,
-    work: impl Fn(usize, &mut [T]) + Send + Sync,
-) {
-    items.par_chunks_mut(n_each).enumerate().for_each(|(k, chunk)| work(k, chunk));
+    #[test]
+    fn sharing_does_what_one_after_the_other_does() {
+        let mut items: Vec<u64> = (0..1000).collect();
+        let take = |item: &mut u64| {
+            *item += 1;
+            *item
+        };
+        assert_eq!(map_reduce(&mut items, 7, take, 0, u64::max), 1000);
+        for_each_chunk(&mut items, 300, |k, chunk| chunk.fill(k as u64));
+        assert_eq!([0, 299, 300, 999].map(|k| items[k]), [0, 0, 1, 3]);
+    }
 }

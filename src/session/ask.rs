@@ -1,9 +1,29 @@
-//! A value given from outside the scripts, as it is written: `r=90deg`.
+//! Questions without a statement of their own: what an expression is worth, what `r=90deg` says.
 
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
-use crate::diag::{Diagnostic, Sources};
-use crate::lang::ast::Command;
+use crate::diag::{Diagnostic, SourceId, Sources};
+use crate::lang::ast::{Command, Expr, PrintItem};
+use crate::lang::parse;
+use crate::world::Value;
+
+/// The value now of the expression that the text `source` prints.
+pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<Value, Diagnostic> {
+    let text = sources.get(source).map(|source| source.text.clone()).unwrap_or_default();
+    let mut statements = parse(source, &text);
+    let (statement, next) = (statements.next().transpose()?, statements.next());
+    let expr: Option<&Expr> = match statement.as_ref().map(|statement| &statement.command) {
+        Some(Command::Print(items)) => match &items[..] {
+            [PrintItem::Value(expr)] => Some(expr),
+            _ => None,
+        },
+        _ => None,
+    };
+    match (expr, next) {
+        (Some(expr), None) => Resolver::new(state, &mut Scopes::default(), sources).value(expr),
+        _ => Err(Diagnostic::error("expected one expression")),
+    }
+}
 
 /// The name and the number of `r = 90deg`, as a `let` would take it: no other names, one
 /// parameter.
@@ -22,7 +42,7 @@ pub fn evaluate_binding(text: &str) -> Result<(String, f64), Diagnostic> {
     let statement = format!("let {text}");
     let mut sources = Sources::new();
     let source = sources.add("value", statement.as_str());
-    let mut statements = crate::lang::parse(source, &statement);
+    let mut statements = parse(source, &statement);
     let (Some(Ok(statement)), None) = (statements.next(), statements.next()) else {
         return Err(expected());
     };
