@@ -22,7 +22,7 @@ mod frame;
 mod island;
 mod method;
 
-pub use cost::{Effect, is_inequality, is_wheel};
+pub use cost::{is_inequality, is_wheel};
 pub use dead_point::Halt;
 pub use island::memory::Memory;
 pub use report::{Budget, Counters, Report, Status};

@@ -7,6 +7,7 @@ pub mod constrain;
 pub mod dead_point;
 pub mod delete;
 pub mod diagnose;
+mod effect_table;
 pub mod effects;
 pub mod motor_range;
 pub mod plot;
