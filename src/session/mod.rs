@@ -33,7 +33,6 @@ use std::path::PathBuf;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
-pub use commands::settings::SETTINGS;
 pub use completion::Completion;
 pub use execution::Flow;
 pub use host::{Host, Nowhere, contained, reason};

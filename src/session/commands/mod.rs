@@ -15,6 +15,7 @@ pub mod points;
 pub mod restore;
 pub mod run;
 pub mod save;
+pub mod setting_table;
 pub mod settings;
 pub mod show;
 pub mod trace_record;

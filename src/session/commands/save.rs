@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::settings::SETTINGS;
+use super::setting_table::SETTINGS;
 use crate::constraint::{Constraint, ConstraintKind as _};
 use crate::diag::Diagnostic;
 use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
@@ -89,9 +89,9 @@ impl State {
     }
 
     fn save_settings(&self, script: &mut String) {
-        for (name, _) in SETTINGS {
+        for setting in &SETTINGS {
             // Writing to a string cannot fail.
-            let _ = writeln!(script, "set {name} {}", self.setting_text(name));
+            let _ = writeln!(script, "set {} {}", setting.name, (setting.text)(self));
         }
         let clock = self.world.clock();
         if clock.frame > 0 || clock.base_time != 0.0 {
