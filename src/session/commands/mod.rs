@@ -12,6 +12,7 @@ pub mod effects;
 pub mod motor_range;
 pub mod plot;
 pub mod points;
+pub mod restorable;
 pub mod restore;
 pub mod run;
 pub mod save;
