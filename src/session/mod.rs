@@ -44,7 +44,7 @@ pub use transcript::{Outcome, Transcript};
 
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
-use crate::mobility::Range;
+use crate::mobility::MotorRange;
 use crate::world::{ConstraintId, World};
 use execution::Execution;
 use input::{Input, Override};
@@ -176,7 +176,7 @@ impl Session {
     }
 
     /// How far a motor that is switched on can turn, the rest held as it is now.
-    pub fn range(&self, motor: ConstraintId) -> Option<Range> {
+    pub fn range(&self, motor: ConstraintId) -> Option<MotorRange> {
         self.state.range(motor)
     }
 

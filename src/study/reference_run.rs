@@ -6,7 +6,7 @@ use super::reference::Reference;
 use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
 use crate::diag::{Diagnostic, format_digits};
-use crate::mobility::{self, Analysis, Directions, Scene, analyse, freedom};
+use crate::mobility::{self, Analysis, ConstraintSystem, Directions, analyse, freedom};
 use crate::solve::{Budget, Method, Report, Settings, Status};
 use crate::world::{PointId, World};
 
@@ -212,7 +212,11 @@ pub fn freedoms(world: &World, held: &[PointId]) -> Analysis {
     with_scene(world, held, |scene| analyse(scene, 1e-9))
 }
 
-fn with_scene<T>(world: &World, held: &[PointId], f: impl FnOnce(&mobility::Scene) -> T) -> T {
+fn with_scene<T>(
+    world: &World,
+    held: &[PointId],
+    f: impl FnOnce(&mobility::ConstraintSystem) -> T,
+) -> T {
     let points = world.points();
     let mut w = vec![0.0; points.column().len()];
     for p in points.ids() {
@@ -220,7 +224,7 @@ fn with_scene<T>(world: &World, held: &[PointId], f: impl FnOnce(&mobility::Scen
     }
     let constraints: Vec<&Constraint> =
         world.constraints().filter(|(_, r)| r.is_on).map(|(_, r)| &r.constraint).collect();
-    f(&Scene { constraints: &constraints, x: points.column(), w: &w })
+    f(&ConstraintSystem { constraints: &constraints, x: points.column(), w: &w })
 }
 
 fn movable(world: &World) -> Vec<PointId> {
