@@ -47,7 +47,7 @@ pub use formula::{Depends, Environment, Formula, Mention, Node};
 pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 pub use motion::Motion;
-pub use name::Word;
+pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
