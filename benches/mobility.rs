@@ -2,7 +2,7 @@
 #![allow(clippy::disallowed_methods)]
 
 use linkwork::constraint::{Bounds, Constraint, Length, Point};
-use linkwork::mobility::{Scene, analyse};
+use linkwork::mobility::{ConstraintSystem, analyse};
 use std::time::Instant;
 
 fn bar(x: &[Point], a: u32, b: u32) -> Constraint {
@@ -112,7 +112,7 @@ fn main() {
     );
     for (name, (x, w, bars)) in scenes {
         let constraints: Vec<_> = bars.iter().collect();
-        let scene = Scene { constraints: &constraints, x: &x, w: &w };
+        let scene = ConstraintSystem { constraints: &constraints, x: &x, w: &w };
         let mut found = analyse(&scene, 1e-9);
         let mut times: Vec<_> = (0..5)
             .map(|_| {

@@ -13,31 +13,31 @@ use clap::{Args, Parser, Subcommand};
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<Invocation>,
     /// How a session talks and where it writes.
     #[command(flatten)]
-    pub session: Outside,
+    pub session: HostArguments,
 }
 
 /// What to do.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum Invocation {
     /// Run scripts, one after the other, each in a world of its own.
-    Run(Batch),
+    Run(RunArguments),
     /// Tell what accuracy costs in time on a script's own motion: a table, `accuracy.csv` and
     /// `accuracy.svg`.
-    Accuracy(Study),
+    Accuracy(AccuracyArguments),
     /// Run a script and examine what is there at its end: freedoms, redundant and conflicting
     /// constraints, singular poses. Exit status 1 if something conflicts.
-    Check(Examination),
+    Check(ExamineArguments),
     /// Run a script and tell which effects its scene has switched on at the end, why, and what
     /// each costs.
-    Effects(Examination),
+    Effects(ExamineArguments),
 }
 
 /// A script to be examined.
 #[derive(Debug, Args)]
-pub struct Examination {
+pub struct ExamineArguments {
     /// The script; `-` is standard input.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -46,12 +46,12 @@ pub struct Examination {
     pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
-    pub outside: Outside,
+    pub host: HostArguments,
 }
 
 /// A script to study.
 #[derive(Debug, Args)]
-pub struct Study {
+pub struct AccuracyArguments {
     /// The script; `-` is standard input. What it prints and writes is left out.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -63,23 +63,23 @@ pub struct Study {
     pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
-    pub outside: Outside,
+    pub host: HostArguments,
 }
 
 /// Scripts to run.
 #[derive(Debug, Args)]
-pub struct Batch {
+pub struct RunArguments {
     /// Scripts; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// How it talks and where it writes.
     #[command(flatten)]
-    pub outside: Outside,
+    pub host: HostArguments,
 }
 
 /// How a session talks and where it writes.
 #[derive(Debug, Clone, Args)]
-pub struct Outside {
+pub struct HostArguments {
     /// The folder that pictures, recordings and saved sessions are written to.
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub out: PathBuf,

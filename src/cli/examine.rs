@@ -3,55 +3,55 @@
 
 use std::path::Path;
 
-use super::args::{Examination, Outside, Study};
+use super::args::{AccuracyArguments, ExamineArguments, HostArguments};
 use super::output;
-use super::process_host::Process;
-use super::run::{Status, begin, script};
+use super::process_host::ProcessHost;
+use super::run::{ExitStatus, begin, script};
 use crate::session::{Flow, Session, Silent, Telling};
 
 /// Says what there is to know about the mechanism at a script's end.
-pub fn check(examination: &Examination) -> Status {
-    let (session, _) = match rehearse(&examination.file, &examination.outside) {
+pub fn check(arguments: &ExamineArguments) -> ExitStatus {
+    let (session, _) = match run_in_silence(&arguments.file, &arguments.host) {
         Ok(run) => run,
         Err(status) => return status,
     };
     let check = session.examine();
-    if examination.json {
+    if arguments.json {
         output::answer(&check.to_json());
     } else {
         check.lines().iter().for_each(|line| output::answer(line));
     }
-    if check.is_sound() { Status::Fine } else { Status::BrokenPromise }
+    if check.is_sound() { ExitStatus::Fine } else { ExitStatus::BrokenPromise }
 }
 
 /// Says which effects a script's scene has switched on at its end, why, and what each costs.
-pub fn effects(examination: &Examination) -> Status {
-    let (session, process) = match rehearse(&examination.file, &examination.outside) {
+pub fn effects(arguments: &ExamineArguments) -> ExitStatus {
+    let (session, process) = match run_in_silence(&arguments.file, &arguments.host) {
         Ok(run) => run,
         Err(status) => return status,
     };
     let effects = session.effects_on(&process);
-    if examination.json {
+    if arguments.json {
         output::answer(&effects.to_json());
     } else {
         effects.lines().iter().for_each(|line| output::answer(line));
     }
-    Status::Fine
+    ExitStatus::Fine
 }
 
 /// Studies a script's motion.
-pub fn accuracy(wish: &Study) -> Status {
-    let (mut session, mut process) = match rehearse(&wish.file, &wish.outside) {
+pub fn accuracy(wish: &AccuracyArguments) -> ExitStatus {
+    let (mut session, mut process) = match run_in_silence(&wish.file, &wish.host) {
         Ok(run) => run,
         Err(status) => return status,
     };
     let telling = if wish.json { Telling::Json } else { Telling::Table };
     match session.study_accuracy(wish.frames, telling, &mut process) {
-        Ok(Flow::Stopped) => Status::Interrupted,
-        Ok(_) => Status::Fine,
+        Ok(Flow::Stopped) => ExitStatus::Interrupted,
+        Ok(_) => ExitStatus::Fine,
         Err(problem) => {
             output::show(&problem, session.sources());
-            Status::of(&problem)
+            ExitStatus::of(&problem)
         }
     }
 }
@@ -61,11 +61,11 @@ pub fn accuracy(wish: &Study) -> Status {
 ///
 /// # Errors
 /// The status of a script that failed, which has said why.
-fn rehearse(file: &Path, outside: &Outside) -> Result<(Session, Process), Status> {
-    let mut session = begin(outside);
-    let mut process = Process::new(outside);
+fn run_in_silence(file: &Path, host: &HostArguments) -> Result<(Session, ProcessHost), ExitStatus> {
+    let mut session = begin(host);
+    let mut process = ProcessHost::new(host);
     match script(file, &mut session, &mut Silent::new(&mut process)) {
-        Status::Fine => Ok((session, process)),
+        ExitStatus::Fine => Ok((session, process)),
         status => Err(status),
     }
 }

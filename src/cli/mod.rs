@@ -16,10 +16,10 @@ pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
     let status = match args.command {
-        Some(args::Command::Run(batch)) => run::batch(&batch),
-        Some(args::Command::Accuracy(wish)) => examine::accuracy(&wish),
-        Some(args::Command::Check(examination)) => examine::check(&examination),
-        Some(args::Command::Effects(examination)) => examine::effects(&examination),
+        Some(args::Invocation::Run(batch)) => run::batch(&batch),
+        Some(args::Invocation::Accuracy(wish)) => examine::accuracy(&wish),
+        Some(args::Invocation::Check(arguments)) => examine::check(&arguments),
+        Some(args::Invocation::Effects(arguments)) => examine::effects(&arguments),
         None => run::session(&args.session),
     };
     output::flush();

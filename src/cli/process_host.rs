@@ -1,38 +1,38 @@
-//! The outside of a session that runs in a process: files, a clock, Ctrl-C.
+//! The host of a session that runs in a process: files, a clock, Ctrl-C.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::args::Outside;
-use super::progress::Bar;
+use super::args::HostArguments;
+use super::progress::ProgressBar;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::session::{Host, contained};
 
 /// The process as a session sees it.
-pub struct Process {
+pub struct ProcessHost {
     out: PathBuf,
     is_quiet: bool,
     allows_any_path: bool,
     begun: Instant,
-    bar: Bar,
+    bar: ProgressBar,
 }
 
-impl Process {
+impl ProcessHost {
     /// The process with the user's wishes.
-    pub fn new(outside: &Outside) -> Self {
+    pub fn new(host: &HostArguments) -> Self {
         Self {
-            out: outside.out.clone(),
-            is_quiet: outside.quiet,
-            allows_any_path: outside.allow_any_path,
+            out: host.out.clone(),
+            is_quiet: host.quiet,
+            allows_any_path: host.allow_any_path,
             begun: Instant::now(),
-            bar: Bar::default(),
+            bar: ProgressBar::default(),
         }
     }
 }
 
-impl Host for Process {
+impl Host for ProcessHost {
     fn print(&mut self, line: &str) {
         output::answer(line);
     }

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 
 /// The bar; nothing on what is not a terminal.
 #[derive(Debug, Default)]
-pub struct Bar {
+pub struct ProgressBar {
     /// What it shows, per cent.
     shown: Cell<Option<u32>>,
 }
@@ -13,7 +13,7 @@ pub struct Bar {
 /// Its length, in characters.
 const LENGTH: usize = 40;
 
-impl Bar {
+impl ProgressBar {
     /// Shows a share from 0 to 1; at 1 it goes away.
     pub fn show(&self, share: f64) {
         let per_cent = (100.0 * share.clamp(0.0, 1.0)) as u32;

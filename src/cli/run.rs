@@ -5,8 +5,8 @@ use std::io::{self, BufRead, IsTerminal, Read};
 use std::path::Path;
 use std::process::ExitCode;
 
-use super::args::{Batch, Outside};
-use super::process_host::Process;
+use super::args::{HostArguments, RunArguments};
+use super::process_host::ProcessHost;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
 use crate::lang::is_incomplete;
@@ -14,7 +14,7 @@ use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Status {
+pub enum ExitStatus {
     /// Everything was done.
     Fine = 0,
     /// An `assert` failed, or what a run promised did not hold.
@@ -27,7 +27,7 @@ pub enum Status {
     Interrupted = interrupt::STATUS as isize,
 }
 
-impl Status {
+impl ExitStatus {
     pub fn of(problem: &Diagnostic) -> Self {
         match problem.kind {
             Kind::Promise => Self::BrokenPromise,
@@ -38,19 +38,19 @@ impl Status {
     }
 }
 
-impl From<Status> for ExitCode {
-    fn from(status: Status) -> Self {
+impl From<ExitStatus> for ExitCode {
+    fn from(status: ExitStatus) -> Self {
         Self::from(status as u8)
     }
 }
 
 /// Runs scripts up to the first error.
-pub fn batch(batch: &Batch) -> Status {
+pub fn batch(batch: &RunArguments) -> ExitStatus {
     let mut unused: Option<BTreeSet<String>> = None;
     for (k, file) in batch.files.iter().enumerate() {
-        let mut session = begin(&batch.outside);
-        let status = script(file, &mut session, &mut Process::new(&batch.outside));
-        if status != Status::Fine {
+        let mut session = begin(&batch.host);
+        let status = script(file, &mut session, &mut ProcessHost::new(&batch.host));
+        if status != ExitStatus::Fine {
             return status;
         }
         let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
@@ -63,13 +63,13 @@ pub fn batch(batch: &Batch) -> Status {
     }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        Process::new(&batch.outside).tell(&warning, &Sources::new());
+        ProcessHost::new(&batch.host).tell(&warning, &Sources::new());
     }
-    Status::Fine
+    ExitStatus::Fine
 }
 
 /// Runs one script, `-` from standard input, and says what went wrong.
-pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> Status {
+pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
     let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };
@@ -79,16 +79,16 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> Status
             let why = reason(&e);
             let problem = Diagnostic::error(format!("cannot read `{name}`: {why}"));
             output::show(&problem, session.sources());
-            return Status::Unreadable;
+            return ExitStatus::Unreadable;
         }
     };
     let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
     let source = session.add_source(&name, &text, Some(folder));
     let Outcome { flow, failure } = session.run_script(source, host);
     match (failure, flow) {
-        (Some(problem), _) => Status::of(&problem),
-        (None, Flow::Stopped) => Status::Interrupted,
-        (None, _) => Status::Fine,
+        (Some(problem), _) => ExitStatus::of(&problem),
+        (None, Flow::Stopped) => ExitStatus::Interrupted,
+        (None, _) => ExitStatus::Fine,
     }
 }
 
@@ -99,24 +99,24 @@ fn read_stdin() -> io::Result<String> {
 }
 
 /// An empty session.
-pub(super) fn begin(outside: &Outside) -> Session {
-    if let Some(n) = outside.threads {
+pub(super) fn begin(host: &HostArguments) -> Session {
+    if let Some(n) = host.threads {
         crate::solve::limit_cores(n.into());
     }
     let mut session = Session::new();
-    for (name, value) in &outside.set {
+    for (name, value) in &host.set {
         session.override_parameter(name, *value);
     }
     session
 }
 
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
-pub fn session(outside: &Outside) -> Status {
-    let mut session = begin(outside);
-    let mut process = Process::new(outside);
+pub fn session(host: &HostArguments) -> ExitStatus {
+    let mut session = begin(host);
+    let mut process = ProcessHost::new(host);
     let status = if io::stdin().is_terminal() {
         crate::repl::converse(&mut session, &mut process);
-        Status::Fine
+        ExitStatus::Fine
     } else {
         typed_ahead(&mut session, &mut process)
     };
@@ -124,7 +124,7 @@ pub fn session(outside: &Outside) -> Status {
         Ok(()) => status,
         Err(problem) => {
             output::show(&problem, session.sources());
-            Status::of(&problem)
+            ExitStatus::of(&problem)
         }
     }
 }
@@ -135,9 +135,9 @@ const LINES_WATCHED: usize = 64;
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
-fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> Status {
+fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
-    let mut status = Status::Fine;
+    let mut status = ExitStatus::Fine;
     let mut piece = String::new();
     let mut n_lines = 0;
     let mut is_first = true;
@@ -148,7 +148,7 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> Status {
             Err(e) => {
                 let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
                 output::show(&problem, session.sources());
-                return Status::Unreadable;
+                return ExitStatus::Unreadable;
             }
         }
         let is_end = line.is_empty();
@@ -165,14 +165,14 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> Status {
         output::flush();
         piece.clear();
         n_lines = 0;
-        if status == Status::Fine {
-            status = failure.as_ref().map_or(Status::Fine, Status::of);
+        if status == ExitStatus::Fine {
+            status = failure.as_ref().map_or(ExitStatus::Fine, ExitStatus::of);
         }
         match flow {
             Flow::On if is_end => return status,
             Flow::On => {}
             Flow::Quit => return status,
-            Flow::Stopped => return Status::Interrupted,
+            Flow::Stopped => return ExitStatus::Interrupted,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Which constraints contradict each other, and what would settle it.
 
 use super::dependence::{Dependence, dependences};
-use super::scene::{Scene, UnitRow, UnitRows};
 use super::settle::can_hold_alone;
+use super::system::{ConstraintSystem, UnitRow, UnitRows};
 
 /// Constraints that cannot all hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ const MOST_TRIED: usize = 200;
 /// At a best fit the residuals are a stress that the rows bear among themselves. Each
 /// dependent row with those it depends on is a smallest set that can bear one, so to first
 /// order it contradicts itself if its residuals do work on that stress.
-pub fn conflicts(scene: &Scene, island: &UnitRows, tolerance: f64) -> Vec<Conflict> {
+pub fn conflicts(scene: &ConstraintSystem, island: &UnitRows, tolerance: f64) -> Vec<Conflict> {
     let mut apart: Vec<Conflict> = Vec::new();
     for set in contradictions(island, tolerance) {
         let is_apart =
@@ -55,7 +55,11 @@ pub fn conflicts(scene: &Scene, island: &UnitRows, tolerance: f64) -> Vec<Confli
 }
 
 /// The smallest set of constraints found that `constraint` contradicts at the best fit, if any.
-pub fn conflict_with(scene: &Scene, constraint: usize, tolerance: f64) -> Option<Conflict> {
+pub fn conflict_with(
+    scene: &ConstraintSystem,
+    constraint: usize,
+    tolerance: f64,
+) -> Option<Conflict> {
     let (rows, _) = scene.rows(tolerance);
     let has_it = |island: &UnitRows| island.rows.iter().any(|row| row.source.0 == constraint);
     let mut island = rows.islands().into_iter().find(has_it)?;
@@ -76,7 +80,12 @@ pub fn conflict_with(scene: &Scene, constraint: usize, tolerance: f64) -> Option
 
 /// Leaves out, the latest first, what a set contradicts itself without (a deletion filter);
 /// never `kept`.
-fn smallest(scene: &Scene, mut set: Vec<usize>, kept: Option<usize>, tolerance: f64) -> Vec<usize> {
+fn smallest(
+    scene: &ConstraintSystem,
+    mut set: Vec<usize>,
+    kept: Option<usize>,
+    tolerance: f64,
+) -> Vec<usize> {
     if set.len() > MOST_TRIED {
         return set;
     }

@@ -1,7 +1,7 @@
 //! Which rows say nothing that earlier ones do not say already, and which those are.
 
 use super::projector::Projector;
-use super::scene::{UnitRow, UnitRows};
+use super::system::{UnitRow, UnitRows};
 use crate::linalg::RowBasis;
 
 /// A row that is a sum of multiples of earlier, independent ones.

@@ -1,7 +1,7 @@
 //! Where a single point can still go, and what keeps it from going elsewhere.
 
 use super::projector::Projector;
-use super::scene::{Scene, UnitRow, UnitRows};
+use super::system::{ConstraintSystem, UnitRow, UnitRows};
 use crate::constraint::{PointIdx, Vector};
 
 /// What is left of the two freedoms of a point, at first order.
@@ -28,7 +28,7 @@ pub struct Freedom {
 const NO_SHARE: f64 = 1e-5;
 
 /// How the point can move with everything that must move with it.
-pub fn freedom(scene: &Scene, point: PointIdx) -> Freedom {
+pub fn freedom(scene: &ConstraintSystem, point: PointIdx) -> Freedom {
     let (rows, _) = scene.rows(0.0);
     let holds = |island: &UnitRows| island.points.binary_search(&point).is_ok();
     let Some(island) = rows.islands().into_iter().find(holds) else {

@@ -8,25 +8,25 @@ mod conflict;
 mod dependence;
 mod freedom;
 mod motions;
-mod pose;
+mod pose_class;
 mod projector;
 mod range;
 mod repair;
-mod scene;
 mod settle;
+mod system;
 mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
 pub use freedom::{Directions, Freedom, freedom};
 pub use motions::motion_of;
-pub use pose::Pose;
-pub use range::{End, Range, Reach, dead_end, range};
+pub use pose_class::PoseClass;
+pub use range::{MotorRange, RangeEnd, Reach, dead_end, range};
 pub use repair::repair;
-pub use scene::Scene;
+pub use system::ConstraintSystem;
 
 use dependence::dependences;
 use projector::Projector;
-use scene::UnitRows;
+use system::UnitRows;
 
 /// What there is to say about a scene at a pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +42,7 @@ pub struct Analysis {
     /// Those that hold frozen points only, and do not hold.
     pub unsatisfiable: Vec<usize>,
     /// Whether some motion is not what it seems.
-    pub pose: Pose,
+    pub pose: PoseClass,
     /// The smallest and the largest singular value of the rows, if there are any; dependences
     /// do not count. Of islands the one where they are farthest apart.
     pub singular_values: Option<(f64, f64)>,
@@ -84,19 +84,19 @@ impl Analysis {
 ///
 /// ```
 /// use linkwork::constraint::{Bounds, Constraint, Length, Point};
-/// use linkwork::mobility::{Scene, analyse};
+/// use linkwork::mobility::{ConstraintSystem, analyse};
 ///
 /// let bar = |a, b, l| Constraint::from(Length { points: [a, b], bounds: Bounds::exactly(l) });
 /// let x = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)].map(|(x, y)| Point::new(x, y));
 /// let triangle = [bar(0, 1, 4.0), bar(1, 2, 3.0), bar(2, 0, 5.0), bar(2, 0, 5.0)];
 /// let constraints: Vec<&Constraint> = triangle.iter().collect();
 ///
-/// let found = analyse(&Scene { constraints: &constraints, x: &x, w: &[1.0; 3] }, 1e-9);
+/// let found = analyse(&ConstraintSystem { constraints: &constraints, x: &x, w: &[1.0; 3] }, 1e-9);
 /// assert_eq!(found.degrees_of_freedom, 3);
 /// assert_eq!(found.redundant[0].constraint, 3);
 /// assert_eq!(found.redundant[0].depends_on, [2]);
 /// ```
-pub fn analyse(scene: &Scene, tolerance: f64) -> Analysis {
+pub fn analyse(scene: &ConstraintSystem, tolerance: f64) -> Analysis {
     let (rows, unsatisfiable) = scene.rows(tolerance);
     let mut analysis = Analysis {
         degrees_of_freedom: 0,
@@ -104,7 +104,7 @@ pub fn analyse(scene: &Scene, tolerance: f64) -> Analysis {
         redundant: Vec::new(),
         conflicts: Vec::new(),
         unsatisfiable,
-        pose: Pose::Regular,
+        pose: PoseClass::Regular,
         singular_values: None,
     };
     for island in rows.islands() {
@@ -127,7 +127,7 @@ pub fn analyse(scene: &Scene, tolerance: f64) -> Analysis {
 }
 
 impl Analysis {
-    fn add(&mut self, scene: &Scene, island: &UnitRows, tolerance: f64) {
+    fn add(&mut self, scene: &ConstraintSystem, island: &UnitRows, tolerance: f64) {
         let mut projector = Projector::of(island);
         let n_free = projector.nullity();
         let n_redundant = (island.rows.len() + n_free).saturating_sub(island.n_unknowns());
@@ -157,7 +157,7 @@ impl Analysis {
             self.redundant.push(Redundant { constraint, depends_on });
         }
         if island.worst() <= tolerance {
-            self.pose = self.pose.max(pose::classify(scene, island, &dependences));
+            self.pose = self.pose.max(pose_class::classify(scene, island, &dependences));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The motions that change no row.
 
 use super::projector::Projector;
-use super::scene::{Scene, UnitRows};
+use super::system::{ConstraintSystem, UnitRows};
 use crate::constraint::{PointIdx, Vector};
 use nalgebra::DVector;
 
@@ -11,7 +11,7 @@ use nalgebra::DVector;
 ///
 /// Its sign is arbitrary: who follows a motion turns it to go on as before. Where the rate of
 /// a motor along it changes its sign, the motor is at a dead point.
-pub fn motion_of(scene: &Scene, point: PointIdx) -> Option<Vec<Vector>> {
+pub fn motion_of(scene: &ConstraintSystem, point: PointIdx) -> Option<Vec<Vector>> {
     let (rows, _) = scene.rows(0.0);
     let holds = |island: &UnitRows| island.points.binary_search(&point).is_ok();
     let island = rows.islands().into_iter().find(holds)?;

@@ -1,6 +1,6 @@
 //! Projections onto motions that change no row, and onto what rows can bear among themselves.
 
-use super::scene::{UnitRow, UnitRows};
+use super::system::{UnitRow, UnitRows};
 use crate::linalg::NormalMatrix;
 
 /// Eigenvalues of J^T J below this count as 0: singular values below 1e-5.

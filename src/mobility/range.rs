@@ -3,13 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use super::scene::Scene;
+use super::system::ConstraintSystem;
 use super::travel::{Mechanism, Waypoint};
 use crate::constraint::{Constraint, Point};
 
 /// What ends the way of a motor in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum End {
+pub enum RangeEnd {
     /// The motion folds back: the motor is at its farthest angle.
     DeadPoint(f64),
     /// An inequality comes into play, the constraint at this place of the scene.
@@ -20,7 +20,7 @@ pub enum End {
     Endless(f64),
 }
 
-impl End {
+impl RangeEnd {
     /// The angle against the x axis, radians, whole turns included.
     pub const fn angle(self) -> f64 {
         match self {
@@ -38,7 +38,7 @@ pub enum Reach {
     /// All the way round; after this many turns the pose is the one it began with.
     Full(u32),
     /// From here, clockwise, to there, counter-clockwise.
-    Between(End, End),
+    Between(RangeEnd, RangeEnd),
     /// What the motor drives does not satisfy its constraints now.
     Unsatisfied,
     /// The motor cannot turn at all: what it drives is rigid.
@@ -51,7 +51,7 @@ pub enum Reach {
 
 /// What is known of a motor's way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Range {
+pub struct MotorRange {
     /// The angle now, radians in (-pi, pi].
     pub now: f64,
     /// How far it can turn.
@@ -83,11 +83,12 @@ const SAME: f64 = 1e-6;
 
 /// How far the motor at place `motor` of a scene can turn, everything else standing as it is.
 /// Distances up to `tolerance` count as none.
-pub fn range(scene: &Scene, motor: usize, tolerance: f64) -> Range {
+pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRange {
     let Constraint::Motor(it) = scene.constraints[motor] else {
         unreachable!("the range of a motor was asked for")
     };
-    let mut range = Range { now: it.angle(), reach: Reach::Full(1), change_points: Vec::new() };
+    let mut range =
+        MotorRange { now: it.angle(), reach: Reach::Full(1), change_points: Vec::new() };
     let mut mechanism = Mechanism::new(scene, motor);
     if !mechanism.can_move() {
         range.reach = Reach::Rigid;
@@ -102,7 +103,7 @@ pub fn range(scene: &Scene, motor: usize, tolerance: f64) -> Range {
         range.reach = if is_solved { Reach::Rigid } else { Reach::Unsatisfied };
         return range;
     };
-    let mut ends = [End::Lost(0.0); 2];
+    let mut ends = [RangeEnd::Lost(0.0); 2];
     for (end, way) in ends.iter_mut().zip([1.0, -1.0]) {
         let mut tour = Tour::new(Mechanism::new(scene, motor), first.clone(), way);
         let arrived = tour.go(f64::INFINITY);
@@ -131,7 +132,7 @@ pub fn range(scene: &Scene, motor: usize, tolerance: f64) -> Range {
 
 /// What stops the motor at place `motor` within the turn `way`, radians, from this pose; none
 /// if nothing does, or if it cannot be told. Its angle is counted with whole turns.
-pub fn dead_end(scene: &Scene, motor: usize, way: f64) -> Option<End> {
+pub fn dead_end(scene: &ConstraintSystem, motor: usize, way: f64) -> Option<RangeEnd> {
     let Constraint::Motor(it) = scene.constraints[motor] else { return None };
     let mut mechanism = Mechanism::new(scene, motor);
     if !mechanism.can_move() || mechanism.has_velocities() {
@@ -140,18 +141,20 @@ pub fn dead_end(scene: &Scene, motor: usize, way: f64) -> Option<End> {
     let first = mechanism.begin(scene.x)?;
     let mut tour = Tour::new(mechanism, first, way.signum());
     match tour.go(way.abs()) {
-        Arrival::End(end @ (End::DeadPoint(_) | End::Stop(..))) => Some(turned(end, it.total())),
+        Arrival::End(end @ (RangeEnd::DeadPoint(_) | RangeEnd::Stop(..))) => {
+            Some(turned(end, it.total()))
+        }
         _ => None,
     }
 }
 
 /// The end with its angle counted from the x axis instead of from the start.
-fn turned(end: End, start: f64) -> End {
+fn turned(end: RangeEnd, start: f64) -> RangeEnd {
     match end {
-        End::DeadPoint(turn) => End::DeadPoint(start + turn),
-        End::Stop(turn, by) => End::Stop(start + turn, by),
-        End::Lost(turn) => End::Lost(start + turn),
-        End::Endless(turn) => End::Endless(start + turn),
+        RangeEnd::DeadPoint(turn) => RangeEnd::DeadPoint(start + turn),
+        RangeEnd::Stop(turn, by) => RangeEnd::Stop(start + turn, by),
+        RangeEnd::Lost(turn) => RangeEnd::Lost(start + turn),
+        RangeEnd::Endless(turn) => RangeEnd::Endless(start + turn),
     }
 }
 
@@ -160,7 +163,7 @@ enum Arrival {
     /// To the first pose again, after so many turns.
     Home(u32),
     /// To an end, at a turn from the start.
-    End(End),
+    End(RangeEnd),
     /// To where so many freedoms decide what comes next.
     Open(usize),
 }
@@ -201,7 +204,7 @@ impl<'a> Tour<'a> {
         let size = self.mechanism.size;
         for _ in 0..MOST_STEPS {
             if self.waypoint.stand.turn * self.way > most {
-                return Arrival::End(End::Endless(self.waypoint.stand.turn));
+                return Arrival::End(RangeEnd::Endless(self.waypoint.stand.turn));
             }
             let is_leap = self.note_change_point();
             let pace = self.waypoint.pace().abs() / size;
@@ -215,7 +218,7 @@ impl<'a> Tour<'a> {
             };
             if next.pace() * self.way <= 0.0 {
                 return match next.n_freedoms {
-                    1 => Arrival::End(End::DeadPoint(self.fold(h))),
+                    1 => Arrival::End(RangeEnd::DeadPoint(self.fold(h))),
                     n => Arrival::Open(n - 1),
                 };
             }
@@ -313,7 +316,7 @@ impl<'a> Tour<'a> {
         if farthest.fold(0.0, f64::max) <= SAME * mechanism.size {
             return Some(Arrival::Home(self.n_turns));
         }
-        (self.n_turns == MOST_TURNS).then_some(Arrival::End(End::Endless(next.stand.turn)))
+        (self.n_turns == MOST_TURNS).then_some(Arrival::End(RangeEnd::Endless(next.stand.turn)))
     }
 
     /// What to say where no step is short enough.
@@ -324,7 +327,7 @@ impl<'a> Tour<'a> {
         let active = self.mechanism.active_beyond(&self.waypoint, 1e-6 * size);
         let new = active.into_iter().find(|row| !self.waypoint.active.contains(row));
         match new {
-            Some((constraint, _)) => Arrival::End(End::Stop(turn, constraint)),
+            Some((constraint, _)) => Arrival::End(RangeEnd::Stop(turn, constraint)),
             None => self.lost(),
         }
     }
@@ -333,7 +336,7 @@ impl<'a> Tour<'a> {
     /// is not said which of them goes on.
     fn lost(&self) -> Arrival {
         match self.waypoint.n_freedoms {
-            0 | 1 => Arrival::End(End::Lost(self.waypoint.stand.turn)),
+            0 | 1 => Arrival::End(RangeEnd::Lost(self.waypoint.stand.turn)),
             n => Arrival::Open(n - 1),
         }
     }

@@ -1,7 +1,7 @@
 //! By how much a single constraint has to change so that all hold, beyond the first order.
 
-use super::scene::Scene;
 use super::settle::Subset;
+use super::system::ConstraintSystem;
 use crate::constraint::ConstraintKind;
 
 /// How much the constraint to be changed still counts, from round to round: less and less, so
@@ -11,7 +11,12 @@ const COUNTS: [f64; 4] = [0.3, 0.1, 1e-2, 1e-3];
 /// The change of the value of `constraint`, in its own unit, with which all of `among` hold,
 /// itself included; none if the others do not hold whatever its value. It is the smallest
 /// change near this pose: where the others leave a choice, they go as far as they can.
-pub fn repair(scene: &Scene, constraint: usize, among: &[usize], tolerance: f64) -> Option<f64> {
+pub fn repair(
+    scene: &ConstraintSystem,
+    constraint: usize,
+    among: &[usize],
+    tolerance: f64,
+) -> Option<f64> {
     let subset = Subset::new(*scene, among);
     let mut x = scene.x.to_vec();
     for counts in COUNTS {

@@ -1,7 +1,7 @@
 //! Solving a few constraints by themselves, some of them counted less than others.
 
 use super::projector::Projector;
-use super::scene::{Scene, UnitRows};
+use super::system::{ConstraintSystem, UnitRows};
 use crate::constraint::{ConstraintKind, Point, PointIdx};
 
 const N_STEPS: usize = 40;
@@ -14,7 +14,7 @@ const NOWHERE_NEARLY: f64 = 1e-15;
 
 /// Some constraints of a scene and the points of theirs that move.
 pub struct Subset<'a> {
-    scene: Scene<'a>,
+    scene: ConstraintSystem<'a>,
     constraints: &'a [usize],
     points: Vec<PointIdx>,
 }
@@ -29,7 +29,7 @@ pub struct Reached {
 
 impl<'a> Subset<'a> {
     /// These constraints of a scene, given by their places in it, ascending.
-    pub fn new(scene: Scene<'a>, constraints: &'a [usize]) -> Self {
+    pub fn new(scene: ConstraintSystem<'a>, constraints: &'a [usize]) -> Self {
         let held = constraints.iter().flat_map(|&c| scene.constraints[c].points());
         let mut points: Vec<_> = held.copied().collect();
         points.sort_unstable();
@@ -70,7 +70,7 @@ impl<'a> Subset<'a> {
     }
 
     fn rows(&self, x: &[Point], (which, counts): (usize, f64)) -> UnitRows {
-        let here = Scene { x, ..self.scene };
+        let here = ConstraintSystem { x, ..self.scene };
         let mut rows = here.rows_over(self.points.clone(), self.constraints);
         if counts == 0.0 {
             rows.rows.retain(|row| row.source.0 != which);
@@ -82,7 +82,7 @@ impl<'a> Subset<'a> {
 }
 
 /// Whether these constraints can hold, from this pose, when all others are forgotten.
-pub fn can_hold_alone(scene: &Scene, constraints: &[usize], tolerance: f64) -> bool {
+pub fn can_hold_alone(scene: &ConstraintSystem, constraints: &[usize], tolerance: f64) -> bool {
     let subset = Subset::new(*scene, constraints);
     subset.settle(scene.x.to_vec(), (usize::MAX, 1.0), tolerance).worst <= tolerance
 }

@@ -2,7 +2,7 @@
 //! that nothing is special about a pose at which the motor can go no further.
 
 use super::projector::Projector;
-use super::scene::{Scene, UnitRows};
+use super::system::{ConstraintSystem, UnitRows};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point, PointIdx, Vector};
 
 /// Newton steps near a solution double the digits; more than this are none.
@@ -65,7 +65,7 @@ impl Waypoint {
 
 impl<'a> Mechanism<'a> {
     /// What hangs together with the constraint at place `motor` of a scene, which is a motor.
-    pub fn new(scene: &Scene<'a>, motor: usize) -> Self {
+    pub fn new(scene: &ConstraintSystem<'a>, motor: usize) -> Self {
         let moves = |p: &&PointIdx| scene.w[**p as usize] > 0.0;
         let sources = scene.neighbours(motor);
         let constraints: Vec<_> =
@@ -129,7 +129,7 @@ impl<'a> Mechanism<'a> {
             _ => (0.0, 0.0),
         };
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
-        let scene = Scene { constraints: &constraints, x: &stand.x, w: self.w };
+        let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: self.w };
         let all: Vec<usize> = (0..constraints.len()).collect();
         let mut rows = scene.rows_over(self.points.clone(), &all);
         // An inequality that is met exactly stops nothing that leads away from it.

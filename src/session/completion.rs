@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::commands::settings::SETTINGS;
+use super::commands::setting_table::Setting;
 use crate::lang::ast::Function;
 use crate::lang::catalogue;
 use crate::solve::Method;
@@ -44,7 +44,7 @@ impl Completion {
             [] => commands().collect(),
             [label] if label.ends_with(':') => commands().collect(),
             ["help"] => commands().chain(catalogue::topics().map(|entry| entry.keyword)).collect(),
-            ["set"] => SETTINGS.iter().map(|(name, _)| *name).chain(["weight"]).collect(),
+            ["set"] => Setting::names().collect(),
             ["set", "method"] => Method::ALL.iter().map(|method| method.word()).collect(),
             ["list"] => vec!["points", "constraints", "traces", "parameters", "definitions"],
             _ => self.names.iter().map(String::as_str).collect(),

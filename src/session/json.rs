@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::commands::diagnose::Check;
-use super::commands::effects::{Effects, Row};
+use super::commands::effects::{EffectRow, Effects};
 
 impl Check {
     /// The findings as one JSON object, indented.
@@ -30,7 +30,7 @@ impl Check {
 impl Effects {
     /// The effects as one JSON object, indented.
     pub fn to_json(&self) -> String {
-        let row = |row: &Row| {
+        let row = |row: &EffectRow| {
             json!({
                 "name": row.name,
                 "on": row.is_on,

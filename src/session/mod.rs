@@ -35,7 +35,7 @@ pub use answer::Answer;
 pub use ask::evaluate_binding;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, Unsatisfiable};
-pub use commands::effects::{Effects, Row as EffectRow};
+pub use commands::effects::{EffectRow, Effects};
 pub use completion::Completion;
 pub use execution::Flow;
 pub use host::{Host, Nowhere, contained, reason};
@@ -44,7 +44,7 @@ pub use silent::Silent;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
-pub use crate::mobility::{End, Pose, Range, Reach};
+pub use crate::mobility::{MotorRange, PoseClass, RangeEnd, Reach};
 
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
@@ -249,7 +249,7 @@ impl Session {
     }
 
     /// How far a motor that is switched on can turn, the rest held as it is now.
-    pub fn range(&self, motor: ConstraintId) -> Option<Range> {
+    pub fn range(&self, motor: ConstraintId) -> Option<MotorRange> {
         self.state.range(motor)
     }
 

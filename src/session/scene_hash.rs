@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::commands::settings::SETTINGS;
+use super::commands::setting_table::SETTINGS;
 use super::resolve::unbind::Unbind;
 use super::state::State;
 use super::summary::Summary;
@@ -22,8 +22,8 @@ impl State {
     pub fn scene_hash(&self) -> u64 {
         let mut text = String::new();
         // Writing to a string cannot fail.
-        for (name, _) in SETTINGS {
-            let _ = writeln!(text, "set {name} {}", self.setting_text(name));
+        for setting in &SETTINGS {
+            let _ = writeln!(text, "set {} {}", setting.name, (setting.text)(self));
         }
         let points = self.world.points();
         for id in points.ids() {

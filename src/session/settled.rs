@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::constraint::{Constraint, ConstraintKind as _, Kind};
 use crate::diag::format_rounded;
-use crate::mobility::Scene;
+use crate::mobility::ConstraintSystem;
 use crate::solve::{Budget, Report, Settings, Solver};
 use crate::world::{ConstraintId, Entity, PointId, World};
 
@@ -41,9 +41,13 @@ impl Parts {
         self.ids.binary_search(&id).ok()
     }
 
-    pub fn with<T>(&self, x: &[crate::constraint::Point], ask: impl FnOnce(&Scene) -> T) -> T {
+    pub fn with<T>(
+        &self,
+        x: &[crate::constraint::Point],
+        ask: impl FnOnce(&ConstraintSystem) -> T,
+    ) -> T {
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
-        ask(&Scene { constraints: &constraints, x, w: &self.w })
+        ask(&ConstraintSystem { constraints: &constraints, x, w: &self.w })
     }
 }
 
@@ -62,7 +66,7 @@ impl Settled {
         Self::new(world, &self.settings)
     }
 
-    pub fn with<T>(&self, ask: impl FnOnce(&Scene) -> T) -> T {
+    pub fn with<T>(&self, ask: impl FnOnce(&ConstraintSystem) -> T) -> T {
         self.parts.with(self.world.points().column(), ask)
     }
 

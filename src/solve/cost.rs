@@ -4,17 +4,6 @@ use super::Solver;
 use super::island::history::History;
 use crate::constraint::{Bounds, Constraint, ConstraintKind, Kind, Point};
 
-/// An effect that the solver has to do with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Effect {
-    /// Expecting the next pose from the ones before.
-    Prediction,
-    /// Angles of cog wheels and racks, counted on beyond half a turn.
-    Wheels,
-    /// Bounds that act on one side only: cords, telescopes, end stops.
-    Inequalities,
-}
-
 /// Whether a constraint is a wheel: its angles are unwrapped.
 pub fn is_wheel(constraint: &Constraint) -> bool {
     matches!(constraint.kind(), Kind::Cog | Kind::CogVelocity | Kind::Rack)
@@ -33,41 +22,30 @@ pub fn is_inequality(constraint: &Constraint) -> bool {
     }
 }
 
-impl Effect {
-    fn holds(self, constraint: &Constraint) -> bool {
-        match self {
-            Self::Prediction => false,
-            Self::Wheels => is_wheel(constraint),
-            Self::Inequalities => is_inequality(constraint),
-        }
-    }
-}
-
 impl Solver {
-    /// The bytes kept for an effect: 0 where the scene does not call for it.
-    pub fn bytes_of(&self, effect: Effect) -> usize {
-        let islands = self.islands();
-        match effect {
-            Effect::Prediction => islands.map(|island| island.history.n_bytes()).sum(),
-            Effect::Wheels => {
-                let wheels = islands.flat_map(|island| &island.constraints);
-                wheels.filter(|c| is_wheel(c)).count() * size_of::<Constraint>()
-            }
-            // An inequality keeps no more than an equality does.
-            Effect::Inequalities => 0,
-        }
+    /// The bytes kept to expect the next pose from the ones before.
+    pub fn history_bytes(&self) -> usize {
+        self.islands().map(|island| island.history.n_bytes()).sum()
     }
 
-    /// Does the work that an effect makes in one visit of each island, once more, to no end
-    /// but to be timed; gives the number of times something was evaluated.
-    pub fn rehearse(&self, effect: Effect) -> u64 {
+    /// The bytes kept for constraints of some kind.
+    pub fn constraint_bytes(&self, is_one: fn(&Constraint) -> bool) -> usize {
+        let constraints = self.islands().flat_map(|island| &island.constraints);
+        constraints.filter(|c| is_one(c)).count() * size_of::<Constraint>()
+    }
+
+    /// Expects the next pose of each island once more, to no end but to be timed; gives how
+    /// many of them had one to expect.
+    pub fn rehearse_predictions(&self) -> u64 {
+        self.islands().map(|island| rehearse_prediction(&island.history, &island.degree)).sum()
+    }
+
+    /// Does the work that constraints of some kind make in one visit of each island once more,
+    /// to no end but to be timed; gives how many of them there are.
+    pub fn rehearse_constraints(&self, is_one: fn(&Constraint) -> bool) -> u64 {
         let mut n_done = 0;
         for island in self.islands() {
-            if effect == Effect::Prediction {
-                n_done += rehearse_prediction(&island.history, &island.degree);
-                continue;
-            }
-            for constraint in island.constraints.iter().filter(|c| effect.holds(c)) {
+            for constraint in island.constraints.iter().filter(|c| is_one(c)) {
                 constraint.jacobian(&island.x, &mut |row| {
                     std::hint::black_box(row);
                 });

@@ -5,7 +5,7 @@ use super::island::Island;
 use super::island::before::Before;
 use super::report::Status;
 use crate::constraint::Constraint;
-use crate::mobility::{End, Scene, dead_end};
+use crate::mobility::{ConstraintSystem, RangeEnd, dead_end};
 use crate::world::ConstraintId;
 
 /// What keeps a motor from going on; angles as they are against the x axis, radians, with
@@ -42,10 +42,10 @@ impl Island {
         for (c, was) in &before.constraints {
             constraints[*c as usize] = was;
         }
-        let scene = Scene { constraints: &constraints, x: &before.x, w: &self.w };
+        let scene = ConstraintSystem { constraints: &constraints, x: &before.x, w: &self.w };
         match dead_end(&scene, c, way) {
-            Some(End::DeadPoint(turned)) => Some(Halt::DeadPoint(turned)),
-            Some(End::Stop(turned, by)) => Some(Halt::Stop(turned, self.ids[by])),
+            Some(RangeEnd::DeadPoint(turned)) => Some(Halt::DeadPoint(turned)),
+            Some(RangeEnd::Stop(turned, by)) => Some(Halt::Stop(turned, self.ids[by])),
             _ if before.is_first || self.status != Status::BestFit => None,
             _ => Some(Halt::Unclear(now.angle())),
         }

@@ -1,9 +1,9 @@
 //! The study itself: reference, one look at every rung, then rounds of timings.
 
-use super::course::Course;
 use super::host::StudyHost;
 use super::reference::Reference;
 use super::reference_run::{self, FoundReference};
+use super::repeatable_motion::RepeatableMotion;
 use super::report::{Cut, ErrorMeasure, RungResult, Study, Why};
 use super::sample::Subject;
 use super::setting_ladder::{Rung, Step};
@@ -21,17 +21,21 @@ const RUNG_SHARE: f64 = 0.04;
 /// The share of the progress told when all rungs have been looked at.
 const LOOKED: f64 = 0.4;
 
-/// Repeats a course with every rung of a ladder.
+/// Repeats a motion with every rung of a ladder.
 ///
 /// # Errors
 /// A live expression that has no value in the reference run.
-pub fn study(course: &Course, ladder: &[Rung], host: &StudyHost) -> Result<Study, Diagnostic> {
+pub fn study(
+    motion: &RepeatableMotion,
+    ladder: &[Rung],
+    host: &StudyHost,
+) -> Result<Study, Diagnostic> {
     let begun = (host.now)();
     (host.progress)(0.0);
-    let mut found = reference_run::of_motion(course, host, REFERENCE_SHARE * host.seconds)?;
+    let mut found = reference_run::of_motion(motion, host, REFERENCE_SHARE * host.seconds)?;
     let mut notes = std::mem::take(&mut found.notes);
     let start;
-    let mut subject = Subject { course, is_still: false, n_frames: found.n_frames };
+    let mut subject = Subject { motion, is_still: false, n_frames: found.n_frames };
     if found.is_still {
         notes.insert(
             0,
@@ -39,8 +43,8 @@ pub fn study(course: &Course, ladder: &[Rung], host: &StudyHost) -> Result<Study
                          was given"
                 .to_owned(),
         );
-        start = course.at_the_start();
-        subject = Subject { course: &start, is_still: true, n_frames: 1 };
+        start = motion.at_the_start();
+        subject = Subject { motion: &start, is_still: true, n_frames: 1 };
         found = reference_run::of_pose(&subject, host)?;
         notes.append(&mut found.notes);
     }
@@ -97,7 +101,7 @@ fn look(
         match outcome {
             Ok(outcome) => study.rows.push(RungResult {
                 rung,
-                settings: rung.settings(&subject.course.settings),
+                settings: rung.settings(&subject.motion.settings),
                 seconds_per_frame: outcome.seconds,
                 spread: 0.0,
                 n_rounds: 1,

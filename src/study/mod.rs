@@ -1,28 +1,28 @@
 //! What accuracy costs in time: a motion done again with every method over a ladder of settings.
 //!
-//! A [`Course`] is the motion; [`study`] repeats it on copies of its world, once for each rung
-//! of the [`ladder`], and compares every frame with a reference solved as exactly as doubles
-//! allow. Nothing here knows statements, files or the clock on the wall: the time comes from
-//! the caller.
+//! A [`RepeatableMotion`] is what is studied; [`study`] repeats it on copies of its world, once for
+//! each rung of the [`ladder`], and compares every frame with a reference solved as exactly as
+//! doubles allow. Nothing here knows statements, files or the clock on the wall: the time comes
+//! from the caller.
 
 mod advice;
-mod course;
 mod host;
 mod measure;
 mod picture;
 mod reference;
 mod reference_run;
+mod repeatable_motion;
 mod report;
 mod sample;
 mod setting_ladder;
 mod table;
 
 pub use advice::{Advice, Wish};
-pub use course::{Course, Hand, Leg, move_by};
 pub use host::StudyHost;
 pub use measure::study;
 pub use picture::picture;
 pub use reference_run::freedoms;
+pub use repeatable_motion::{Hand, Leg, RepeatableMotion, move_by};
 pub use report::{RungResult, Study};
 pub use setting_ladder::ladder;
 pub use table::{csv, json, table};

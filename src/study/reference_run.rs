@@ -1,12 +1,12 @@
 //! The run that makes a reference, and what keeps it from being one.
 
-use super::course::{Course, Replay};
 use super::host::StudyHost;
 use super::reference::Reference;
+use super::repeatable_motion::{RepeatableMotion, Replay};
 use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
 use crate::diag::{Diagnostic, format_digits};
-use crate::mobility::{self, Analysis, Directions, Scene, analyse, freedom};
+use crate::mobility::{self, Analysis, ConstraintSystem, Directions, analyse, freedom};
 use crate::solve::{Budget, Method, Report, Settings, Status};
 use crate::world::{PointId, World};
 
@@ -49,22 +49,22 @@ struct Recording {
     world: World,
 }
 
-/// Runs the course as exactly as possible; `seconds` is what that may take.
+/// Repeats the motion as exactly as possible; `seconds` is what that may take.
 ///
 /// # Errors
 /// A live expression that has no value at some frame.
 pub(super) fn of_motion(
-    course: &Course,
+    motion: &RepeatableMotion,
     host: &StudyHost,
     seconds: f64,
 ) -> Result<FoundReference, Diagnostic> {
-    let points = movable(course.world());
+    let points = movable(motion.world());
     let most = (MOST_PLACES / points.len().max(1) as u64).max(1);
-    let n_asked = course.n_frames;
+    let n_asked = motion.n_frames;
     let mut best: Option<Recording> = None;
     for tolerance in TOLERANCES {
         let n = best.as_ref().map_or(n_asked.min(most), |best| best.n_frames);
-        let run = record(course, &points, tolerance, n, 1, host, seconds)?;
+        let run = record(motion, &points, tolerance, n, 1, host, seconds)?;
         let is_better = best.as_ref().is_none_or(|best| run.n_bad < best.n_bad);
         if is_better && run.n_frames > 0 {
             best = Some(run);
@@ -104,11 +104,11 @@ pub(super) fn of_motion(
         ));
         return Ok(found);
     }
-    let held: Vec<PointId> = course.held().collect();
+    let held: Vec<PointId> = motion.held().collect();
     let Some(mut reference) = compared(best.reference, &best.world, &held, &mut found.notes) else {
         return Ok(found);
     };
-    if course.has_velocity_cogs() {
+    if motion.has_velocity_cogs() {
         found.notes.push(
             "cog wheels in velocity form go astray by the length of a frame; the reference has \
              the same frames and goes astray with them"
@@ -119,7 +119,7 @@ pub(super) fn of_motion(
     }
     if 2.0 * best.seconds < seconds {
         let finer =
-            record(course, &reference.points, 1e-12, best.n_frames, 2, host, seconds)?.reference;
+            record(motion, &reference.points, 1e-12, best.n_frames, 2, host, seconds)?.reference;
         let pairs = reference.at.iter().zip(&finer.at);
         let off = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / reference.size;
         if off > BRANCHES {
@@ -139,13 +139,13 @@ pub(super) fn of_motion(
 
 /// Solves the pose as exactly as possible.
 pub(super) fn of_pose(subject: &Subject, host: &StudyHost) -> Result<FoundReference, Diagnostic> {
-    let course = subject.course;
-    let points = movable(course.world());
+    let motion = subject.motion;
+    let points = movable(motion.world());
     let mut found =
         FoundReference { reference: None, notes: Vec::new(), n_frames: 1, is_still: true };
     let mut last = None;
     for tolerance in TOLERANCES {
-        let settings = Settings { method: Method::Auto, tolerance, ..course.settings };
+        let settings = Settings { method: Method::Auto, tolerance, ..motion.settings };
         let (world, report) = subject.solve_pose(&settings, host)?;
         let is_done = report.status == Status::Converged || report.residual > HOPELESS;
         last = Some((world, report));
@@ -165,7 +165,7 @@ pub(super) fn of_pose(subject: &Subject, host: &StudyHost) -> Result<FoundRefere
     }
     let at: Vec<Point> = points.iter().map(|&p| world.points().at(p)).collect();
     let reference = Reference { size: size_of(&world, &at), points, at, error: 0.0 };
-    let held: Vec<PointId> = course.held().collect();
+    let held: Vec<PointId> = motion.held().collect();
     found.reference = compared(reference, &world, &held, &mut found.notes);
     Ok(found)
 }
@@ -212,7 +212,11 @@ pub fn freedoms(world: &World, held: &[PointId]) -> Analysis {
     with_scene(world, held, |scene| analyse(scene, 1e-9))
 }
 
-fn with_scene<T>(world: &World, held: &[PointId], f: impl FnOnce(&mobility::Scene) -> T) -> T {
+fn with_scene<T>(
+    world: &World,
+    held: &[PointId],
+    f: impl FnOnce(&mobility::ConstraintSystem) -> T,
+) -> T {
     let points = world.points();
     let mut w = vec![0.0; points.column().len()];
     for p in points.ids() {
@@ -220,7 +224,7 @@ fn with_scene<T>(world: &World, held: &[PointId], f: impl FnOnce(&mobility::Scen
     }
     let constraints: Vec<&Constraint> =
         world.constraints().filter(|(_, r)| r.is_on).map(|(_, r)| &r.constraint).collect();
-    f(&Scene { constraints: &constraints, x: points.column(), w: &w })
+    f(&ConstraintSystem { constraints: &constraints, x: points.column(), w: &w })
 }
 
 fn movable(world: &World) -> Vec<PointId> {
@@ -241,7 +245,7 @@ fn size_of(world: &World, at: &[Point]) -> f64 {
 }
 
 fn record(
-    course: &Course,
+    motion: &RepeatableMotion,
     points: &[PointId],
     tolerance: f64,
     n_frames: u64,
@@ -250,10 +254,10 @@ fn record(
     seconds: f64,
 ) -> Result<Recording, Diagnostic> {
     let begun = (host.now)();
-    let settings = Settings { method: Method::Auto, tolerance, ..course.settings };
+    let settings = Settings { method: Method::Auto, tolerance, ..motion.settings };
     let is_over = || (host.stop)() || (host.now)() - begun > seconds;
     let budget = Budget { tolerance: None, stop: Some(&is_over) };
-    let mut replay = Replay::new(course, n_parts);
+    let mut replay = Replay::new(motion, n_parts);
     let mut at = Vec::new();
     let (mut n_done, mut n_bad) = (0, 0);
     let mut worst = Report::default();

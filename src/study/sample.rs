@@ -1,8 +1,8 @@
 //! One run of one rung: what it comes to, and how long it takes.
 
-use super::course::{Course, Replay};
 use super::host::StudyHost;
 use super::reference::Reference;
+use super::repeatable_motion::{RepeatableMotion, Replay};
 use super::report::Why;
 use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
@@ -20,7 +20,7 @@ const MOST_SOLVES: usize = 100;
 
 /// What is done again and again: a motion, or one solve of a pose.
 pub(super) struct Subject<'a> {
-    pub course: &'a Course,
+    pub motion: &'a RepeatableMotion,
     pub is_still: bool,
     pub n_frames: u64,
 }
@@ -46,7 +46,7 @@ impl Subject<'_> {
         host: &StudyHost,
         seconds: f64,
     ) -> Result<RunOutcome, Why> {
-        let settings = rung.settings(&self.course.settings);
+        let settings = rung.settings(&self.motion.settings);
         let begun = (host.now)();
         let is_over = || (host.stop)() || (host.now)() - begun > seconds;
         let budget = Budget { tolerance: None, stop: Some(&is_over) };
@@ -81,7 +81,7 @@ impl Subject<'_> {
                 Err(Why::Blown)
             };
         }
-        let mut replay = Replay::new(self.course, 1);
+        let mut replay = Replay::new(self.motion, 1);
         let mut times = Vec::with_capacity(self.n_frames as usize);
         for k in 0..self.n_frames {
             let before = (host.now)();
@@ -101,7 +101,7 @@ impl Subject<'_> {
     /// Runs a rung by the clock alone; gives the median of the times of its frames, seconds. A
     /// mean would tell of what else the machine was doing: that falls on few frames, but hard.
     pub fn time(&self, rung: Rung, host: &StudyHost) -> Result<f64, Diagnostic> {
-        let settings = rung.settings(&self.course.settings);
+        let settings = rung.settings(&self.motion.settings);
         let overhead = overhead(host);
         let mut times;
         if self.is_still {
@@ -114,7 +114,7 @@ impl Subject<'_> {
             }
         } else {
             times = Vec::with_capacity(self.n_frames as usize);
-            let mut replay = Replay::new(self.course, 1);
+            let mut replay = Replay::new(self.motion, 1);
             let mut before = (host.now)();
             for _ in 0..self.n_frames {
                 replay.frame(&settings, &Budget::default())?;
@@ -145,7 +145,7 @@ impl Subject<'_> {
         budget: &Budget,
         host: &StudyHost,
     ) -> Result<(World, Report, f64), Diagnostic> {
-        let mut world = self.course.world().clone();
+        let mut world = self.motion.world().clone();
         let is_measured = world.is_measured();
         if is_measured {
             world.refresh_measured()?;

@@ -2,7 +2,8 @@
 
 use super::environments::{Here, Moving};
 use super::{
-    ConstraintId, Edit, Formula, Parameter, ParameterId, Rates, Record, User, Value, Word, World,
+    ConstraintId, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User, Value,
+    World,
 };
 use crate::constraint::{ConstraintKind, Field, Jet, Real};
 use crate::diag::Diagnostic;
@@ -32,7 +33,7 @@ impl World {
     pub fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: Word,
+        name: NameText,
         formula: Formula,
         undo: &mut Vec<Edit>,
     ) -> Result<(), Diagnostic> {

@@ -50,7 +50,7 @@ pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
 pub use motion::Motion;
-pub use name::Word;
+pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};

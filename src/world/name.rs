@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The text of a name, cheap to clone. Up to 22 bytes need no room of their own.
 #[derive(Clone)]
-pub struct Word(Kept);
+pub struct NameText(Kept);
 
 /// The longest text that is kept in place: as much as fits beside a pointer and its length.
 const SHORT: usize = 22;
@@ -17,7 +17,7 @@ enum Kept {
     Long(Arc<str>),
 }
 
-impl Word {
+impl NameText {
     /// The bytes of the text.
     pub fn as_bytes(&self) -> &[u8] {
         match &self.0 {
@@ -27,7 +27,7 @@ impl Word {
     }
 }
 
-impl From<&str> for Word {
+impl From<&str> for NameText {
     fn from(text: &str) -> Self {
         let mut bytes = [0; SHORT];
         match bytes.get_mut(..text.len()) {
@@ -40,13 +40,13 @@ impl From<&str> for Word {
     }
 }
 
-impl From<String> for Word {
+impl From<String> for NameText {
     fn from(text: String) -> Self {
         Self::from(text.as_str())
     }
 }
 
-impl Deref for Word {
+impl Deref for NameText {
     type Target = str;
 
     fn deref(&self) -> &str {
@@ -57,21 +57,21 @@ impl Deref for Word {
     }
 }
 
-impl PartialEq for Word {
+impl PartialEq for NameText {
     fn eq(&self, other: &Self) -> bool {
         self.as_bytes() == other.as_bytes()
     }
 }
 
-impl Eq for Word {}
+impl Eq for NameText {}
 
-impl fmt::Display for Word {
+impl fmt::Display for NameText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self)
     }
 }
 
-impl fmt::Debug for Word {
+impl fmt::Debug for NameText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&**self, f)
     }
@@ -86,10 +86,10 @@ mod tests {
         for text in
             ["", "p", "p[123456]", "ähnlich", "left.right[17].above.B", "a name that is longer"]
         {
-            assert_eq!(&*Word::from(text), text);
+            assert_eq!(&*NameText::from(text), text);
             let long = text.repeat(7);
-            assert_eq!(&*Word::from(long.as_str()), long);
+            assert_eq!(&*NameText::from(long.as_str()), long);
         }
-        assert_eq!(size_of::<Option<Word>>(), 24);
+        assert_eq!(size_of::<Option<NameText>>(), 24);
     }
 }

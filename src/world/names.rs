@@ -10,7 +10,7 @@ pub struct Namespace<'a>(&'a World);
 impl<'a> Namespace<'a> {
     /// What has this name.
     pub fn get(self, name: &str) -> Option<Entity> {
-        self.0.index.find(name, |entity| self.0.word_of(entity).as_bytes() == name.as_bytes())
+        self.0.index.find(name, |entity| self.0.name_text_of(entity).as_bytes() == name.as_bytes())
     }
 
     /// Whether names `name.something` exist.

@@ -1,6 +1,6 @@
 //! The points, as columns of numbers.
 
-use super::{PointId, Word};
+use super::{NameText, PointId};
 use crate::constraint::Point;
 
 /// Everything about the points; a handle is an index into each column.
@@ -14,7 +14,7 @@ pub struct Points {
     /// How strongly a point resists being moved; 1 where the user did not say, and beyond the end.
     weight: Vec<f64>,
     /// None for a point that was deleted.
-    pub(super) name: Vec<Option<Word>>,
+    pub(super) name: Vec<Option<NameText>>,
     pub(super) n_alive: usize,
 }
 
@@ -22,7 +22,7 @@ pub struct Points {
 #[derive(Debug, Clone)]
 pub struct PointRecord {
     /// Its name.
-    pub name: Word,
+    pub name: NameText,
     /// Where it is.
     pub at: Point,
     /// Where `reset` puts it.
@@ -97,10 +97,10 @@ impl Points {
 
     /// Its name.
     pub fn name(&self, id: PointId) -> &str {
-        self.word(id)
+        self.name_text(id)
     }
 
-    pub(super) fn word(&self, id: PointId) -> &Word {
+    pub(super) fn name_text(&self, id: PointId) -> &NameText {
         self.name[id.idx()].as_ref().expect("a handle of a living point")
     }
 

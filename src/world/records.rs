@@ -1,6 +1,6 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
-use super::{Depends, Formula, Value, Word};
+use super::{Depends, Formula, NameText, Value};
 use crate::constraint::{Bounds, Constraint, ConstraintKind, Field};
 use crate::diag::{Diagnostic, format_number};
 
@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, format_number};
 #[derive(Debug, Clone)]
 pub struct Record {
     /// Its name.
-    pub name: Word,
+    pub name: NameText,
     /// The relation, over handles of points, with its values as of now.
     pub constraint: Constraint,
     /// Whether it is in the active list.
@@ -28,7 +28,7 @@ struct Extra {
 
 impl Record {
     /// A constraint that is switched on, driven by these expressions.
-    pub fn new(name: Word, constraint: Constraint, drivers: Drivers) -> Self {
+    pub fn new(name: NameText, constraint: Constraint, drivers: Drivers) -> Self {
         let extra = (!drivers.is_empty()).then(|| Box::new(Extra { drivers, rho: None }));
         Self { name, constraint, is_on: true, extra }
     }
@@ -109,7 +109,7 @@ impl Record {
 #[derive(Debug, Clone)]
 pub struct Parameter {
     /// Its name.
-    pub name: Word,
+    pub name: NameText,
     /// What it stands for.
     pub formula: Formula,
     /// The value now; none while it needs velocities, which are computed when asked for.

@@ -7,8 +7,8 @@ use super::name_index::NameIndex;
 use super::point_users::PointUsers;
 use super::records::Table;
 use super::{
-    Clock, ConstraintId, Entity, Ghost, Parameter, ParameterId, PointId, Points, Record, Touched,
-    Trace, Word,
+    Clock, ConstraintId, Entity, Ghost, NameText, Parameter, ParameterId, PointId, Points, Record,
+    Touched, Trace,
 };
 use crate::constraint::{Constraint, Point};
 
@@ -69,12 +69,12 @@ impl World {
 
     /// The name of an entity.
     pub fn name_of(&self, entity: Entity) -> &str {
-        self.word_of(entity)
+        self.name_text_of(entity)
     }
 
-    pub(super) fn word_of(&self, entity: Entity) -> &Word {
+    pub(super) fn name_text_of(&self, entity: Entity) -> &NameText {
         match entity {
-            Entity::Point(id) => self.points.word(id),
+            Entity::Point(id) => self.points.name_text(id),
             Entity::Constraint(id) => {
                 &self.constraint(id).expect("a handle of a living constraint").name
             }

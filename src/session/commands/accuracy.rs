@@ -7,7 +7,8 @@ use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
 use crate::session::resolve::unbind::NOWHERE;
 use crate::study::{
-    Advice, Course, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture, study, table,
+    Advice, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture,
+    study, table,
 };
 
 /// How long a study takes at most, roughly, seconds: longer and nobody would ask.
@@ -59,7 +60,7 @@ impl Execution<'_> {
             return Err(Diagnostic::error("there is nothing to study")
                 .at(span, "the scene has no constraint that is switched on"));
         }
-        let course = self.course(n_frames);
+        let motion = self.repeatable_motion(n_frames);
         let host = &self.host;
         let host = StudyHost {
             now: &|| host.seconds(),
@@ -67,30 +68,30 @@ impl Execution<'_> {
             progress: &|share| host.progress(share),
             seconds: SECONDS,
         };
-        study(&course, &ladder(), &host)
+        study(&motion, &ladder(), &host)
     }
 
     /// The motion to study.
-    fn course(&mut self, n_frames: Option<u64>) -> Course {
-        let course = if let Some(course) = self.history.last_motion.course(self.state) {
-            let goes_on = course.n_frames < FEW_FRAMES && course.is_without_hands();
-            let n = if goes_on { FRAMES } else { course.n_frames };
-            course.with_frames(n)
+    fn repeatable_motion(&mut self, n_frames: Option<u64>) -> RepeatableMotion {
+        let motion = if let Some(motion) = self.history.last_motion.repeatable_motion(self.state) {
+            let goes_on = motion.n_frames < FEW_FRAMES && motion.is_without_hands();
+            let n = if goes_on { FRAMES } else { motion.n_frames };
+            motion.with_frames(n)
         } else {
             self.note("nothing has moved since the scene last changed: studied is what comes next");
             let memory = self.state.solver.memory();
-            Course::ahead(&self.state.world, memory, self.state.preferences.solve, FRAMES)
+            RepeatableMotion::ahead(&self.state.world, memory, self.state.preferences.solve, FRAMES)
         };
         match n_frames {
-            Some(n) => course.with_frames(n),
-            None if course.n_frames > MOST_FRAMES => {
+            Some(n) => motion.with_frames(n),
+            None if motion.n_frames > MOST_FRAMES => {
                 self.note(format!(
                     "studied are the first {MOST_FRAMES} of {} frames",
-                    course.n_frames
+                    motion.n_frames
                 ));
-                course.with_frames(MOST_FRAMES)
+                motion.with_frames(MOST_FRAMES)
             }
-            None => course,
+            None => motion,
         }
     }
 

@@ -4,7 +4,7 @@ use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind, Pe
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
 use crate::lang::ast::{ChangePart, Command, Name};
 use crate::mobility::{
-    Analysis, Conflict, Directions, Pose, analyse, conflict_with, freedom, repair,
+    Analysis, Conflict, Directions, PoseClass, analyse, conflict_with, freedom, repair,
 };
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::{Unbind, named, text_of};
@@ -28,7 +28,7 @@ pub struct Check {
     /// Constraints of frozen points only that do not hold.
     pub unsatisfiable: Vec<Unsatisfiable>,
     /// What the pose is.
-    pub pose: Pose,
+    pub pose: PoseClass,
     /// How solving this pose ended.
     pub status: Status,
     /// The largest residual, relative to the scene's size.
@@ -57,10 +57,10 @@ impl Check {
     /// The word for the pose.
     pub const fn pose_word(&self) -> &'static str {
         match self.pose {
-            Pose::Regular => "regular",
-            Pose::MobileSingular => "mobile-singular",
-            Pose::ChangePoint => "change-point",
-            Pose::Locked => "locked",
+            PoseClass::Regular => "regular",
+            PoseClass::MobileSingular => "mobile-singular",
+            PoseClass::ChangePoint => "change-point",
+            PoseClass::Locked => "locked",
         }
     }
 
@@ -85,14 +85,14 @@ impl Check {
             lines.push(format!("unsatisfiable: {constraint}, off by {miss}: {frozen} are frozen"));
         }
         lines.push(match (self.pose, self.near_singular) {
-            (Pose::Regular, None) => "pose: regular".to_owned(),
-            (Pose::Regular, Some(ratio)) => {
+            (PoseClass::Regular, None) => "pose: regular".to_owned(),
+            (PoseClass::Regular, Some(ratio)) => {
                 let growth = format_rounded(1.0 / ratio);
                 format!("pose: nearly singular, small errors grow {growth}-fold")
             }
-            (Pose::MobileSingular, _) => "pose: singular, and truly mobile".to_owned(),
-            (Pose::ChangePoint, _) => "pose: a change point, where motions cross".to_owned(),
-            (Pose::Locked, _) => "pose: locked, mobile at the first instant only".to_owned(),
+            (PoseClass::MobileSingular, _) => "pose: singular, and truly mobile".to_owned(),
+            (PoseClass::ChangePoint, _) => "pose: a change point, where motions cross".to_owned(),
+            (PoseClass::Locked, _) => "pose: locked, mobile at the first instant only".to_owned(),
         });
         let status = self.status.phrase();
         lines.push(format!("status: {status}, residual {}", format_rounded(self.residual)));

@@ -4,7 +4,7 @@ use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
 use crate::diag::{Diagnostic, format_degrees, listed};
 use crate::lang::ast::Name;
-use crate::mobility::{End, Range, Reach, range};
+use crate::mobility::{MotorRange, RangeEnd, Reach, range};
 use crate::session::execution::Execution;
 use crate::session::settled::Parts;
 use crate::session::state::State;
@@ -44,7 +44,7 @@ impl State {
     }
 
     /// How far a motor that is switched on can turn, the rest held as it is now.
-    pub fn range(&self, motor: ConstraintId) -> Option<Range> {
+    pub fn range(&self, motor: ConstraintId) -> Option<MotorRange> {
         let subject = self.settled();
         let place = subject.parts.place(motor)?;
         if subject.parts.constraints[place].kind() != Kind::Motor {
@@ -59,20 +59,22 @@ impl State {
         if let Some(measured) = self.measured() {
             return cannot(format!("{measured} is measured on the pose"));
         }
-        let Some(Range { now, reach, change_points }) = self.range(motor) else {
+        let Some(MotorRange { now, reach, change_points }) = self.range(motor) else {
             return cannot("it is switched off".to_owned());
         };
-        let end = |end: End, which: &str| match end {
-            End::DeadPoint(angle) => format!("{which} {}, a dead point", format_degrees(angle)),
-            End::Stop(angle, by) => {
+        let end = |end: RangeEnd, which: &str| match end {
+            RangeEnd::DeadPoint(angle) => {
+                format!("{which} {}, a dead point", format_degrees(angle))
+            }
+            RangeEnd::Stop(angle, by) => {
                 let by = Parts::of(&self.world).ids[by];
                 let by = self.world.name_of(Entity::Constraint(by));
                 format!("{which} {}, where {by} stops it", format_degrees(angle))
             }
-            End::Lost(angle) => {
+            RangeEnd::Lost(angle) => {
                 format!("{which} at least {}, where the motion was lost", format_degrees(angle))
             }
-            End::Endless(angle) => format!("{which} {} and on", format_degrees(angle)),
+            RangeEnd::Endless(angle) => format!("{which} {} and on", format_degrees(angle)),
         };
         let text = match reach {
             Reach::Full(1) => format!("{name} turns fully"),

@@ -5,7 +5,9 @@ use crate::diag::Diagnostic;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::{ALL, RESERVED};
-use crate::world::{ConstraintId, Edit, Entity, Formula, ParameterId, PointId, PointRecord, Word};
+use crate::world::{
+    ConstraintId, Edit, Entity, Formula, NameText, ParameterId, PointId, PointRecord,
+};
 
 impl Execution<'_> {
     pub(crate) fn make_points(&mut self, declarations: &[PointDecl]) -> Result<(), Diagnostic> {
@@ -70,7 +72,7 @@ impl Execution<'_> {
     fn set_parameter(
         &mut self,
         id: ParameterId,
-        name: Word,
+        name: NameText,
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();

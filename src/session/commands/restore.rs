@@ -1,136 +1,171 @@
 //! `restore`: state that no other statement can bring back; `save` writes it.
 
-use super::save::{ordinals, what};
+use super::restorable::{Restorable, ordinals};
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
-use crate::world::{Clock, ConstraintId, Edit, Ghost, Record, Sample, Value};
+use crate::world::{Clock, Edit, Ghost, Record, Sample, Value};
+
+/// Why something cannot be restored.
+enum Unfit {
+    /// The values are not what `save` would write for it.
+    Values,
+    /// What is named is not there, or not of its kind.
+    Name(Diagnostic),
+}
+
+impl From<Diagnostic> for Unfit {
+    fn from(problem: Diagnostic) -> Self {
+        Self::Name(problem)
+    }
+}
+
+type Restored = Result<(), Unfit>;
 
 impl Execution<'_> {
     pub(crate) fn restore(
         &mut self,
-        kind: &Ident,
+        what: &Ident,
         name: Option<&Name>,
         values: &[Expr],
         span: Span,
     ) -> Result<(), Diagnostic> {
         let values =
             values.iter().map(|e| self.resolve().value(e)).collect::<Result<Vec<_>, _>>()?;
-        let bad = || {
-            Diagnostic::error("this does not restore anything").at(span, "written by `save` only")
+        let restored = match Restorable::named(&what.text) {
+            Some(what) => self.bring_back(what, name, &values),
+            None => Err(Unfit::Values),
         };
-        match (&*kind.text, name) {
-            (what::CLOCK, None) => {
-                let &[frame, dt, base_frame, base_time] = &numbers(&values).ok_or_else(bad)?[..]
-                else {
-                    return Err(bad());
-                };
-                let is_count = |n: f64| (0.0..=9e15).contains(&n) && n.fract() == 0.0;
-                if !is_count(frame) || !is_count(base_frame) || base_frame > frame || dt <= 0.0 {
-                    return Err(bad());
-                }
-                let (frame, base_frame) = (frame as u64, base_frame as u64);
-                self.edit(Edit::Clock(Box::new(Clock { frame, dt, base_frame, base_time })));
+        restored.map_err(|unfit| match unfit {
+            Unfit::Name(problem) => problem,
+            Unfit::Values => Diagnostic::error("this does not restore anything")
+                .at(span, "written by `save` only"),
+        })
+    }
+
+    fn bring_back(&mut self, what: Restorable, name: Option<&Name>, values: &[Value]) -> Restored {
+        match (what, name) {
+            (Restorable::Clock, None) => self.restore_clock(values),
+            (Restorable::Start, Some(name)) => self.restore_start(name, values),
+            (Restorable::State, Some(name)) => {
+                let state = numbers(values)?;
+                self.restore_record(name, |record| record.constraint.set_state(&state))
             }
-            (what::START, Some(name)) => {
-                let id = self.resolve().point(name)?;
-                let [Value::Vector(v)] = values[..] else { return Err(bad()) };
-                self.edit(Edit::Start(id, Point::new(v.x, v.y)));
-            }
-            (what::STATE, Some(name)) => {
-                let state = numbers(&values).ok_or_else(bad)?;
-                self.restore_record(name, |record| record.constraint.set_state(&state))?;
-            }
-            (what::CAPTURED, Some(name)) => {
-                let captured = numbers(&values).ok_or_else(bad)?;
-                self.restore_record(name, |record| record.constraint.set_captured(&captured))?;
-            }
-            (what::VALUES, Some(name)) => {
-                let values = numbers(&values).ok_or_else(bad)?;
-                self.restore_record(name, |record| {
-                    for (k, value) in values.iter().take(record.drivers().len()).enumerate() {
-                        record.constraint.set(record.drivers()[k].0, *value);
-                    }
-                })?;
-            }
-            (what::FIRST_STATE, Some(name)) => {
+            (Restorable::FirstState, Some(name)) => {
                 let id = self.resolve().constraint(name)?;
-                let state = numbers(&values).ok_or_else(bad)?;
-                self.edit(Edit::StartState(id, Some(state.into())));
+                self.edit(Edit::StartState(id, Some(numbers(values)?.into())));
+                Ok(())
             }
-            (what::TRACE, Some(name)) => self.restore_trace(name, &values).ok_or_else(bad)??,
-            (what::MISSED, Some(name)) => {
-                let missed = numbers(&values).ok_or_else(bad)?;
-                self.restore_missed(name, &missed)?;
+            (Restorable::Captured, Some(name)) => {
+                let captured = numbers(values)?;
+                self.restore_record(name, |record| record.constraint.set_captured(&captured))
             }
-            (what::GHOST, None) => {
-                let numbered = ordinals(&self.state.world);
-                let mut ghost = Ghost { at: Vec::new() };
-                for pair in values.chunks(2) {
-                    let [Value::Number(k), Value::Vector(v)] = *pair else { return Err(bad()) };
-                    let id = *numbered.get(k as usize).ok_or_else(bad)?;
-                    ghost.at.push((id, Point::new(v.x, v.y)));
-                }
-                self.edit(Edit::Ghost(Some(Box::new(ghost))));
-            }
-            (what::MEMORY, owner) => {
-                let id = owner.map(|name| self.resolve().point(name)).transpose()?;
-                let values = numbers(&values).ok_or_else(bad)?;
-                let mut memory = self.state.solver.memory();
-                if !memory.restore(id, &values) {
-                    return Err(bad());
-                }
-                self.set_memory(memory);
-            }
-            _ => return Err(bad()),
+            (Restorable::Values, Some(name)) => self.restore_values(name, values),
+            (Restorable::Trace, Some(name)) => self.restore_trace(name, values),
+            (Restorable::Missed, Some(name)) => self.restore_missed(name, values),
+            (Restorable::Ghost, None) => self.restore_ghost(values),
+            (Restorable::Memory, owner) => self.restore_memory(owner, values),
+            // These have an owner or none, and this is the other way.
+            (Restorable::Clock | Restorable::Ghost, Some(_))
+            | (
+                Restorable::Start
+                | Restorable::State
+                | Restorable::FirstState
+                | Restorable::Captured
+                | Restorable::Values
+                | Restorable::Trace
+                | Restorable::Missed,
+                None,
+            ) => Err(Unfit::Values),
         }
+    }
+
+    fn restore_clock(&mut self, values: &[Value]) -> Restored {
+        let &[frame, dt, base_frame, base_time] = &numbers(values)?[..] else {
+            return Err(Unfit::Values);
+        };
+        let is_count = |n: f64| (0.0..=9e15).contains(&n) && n.fract() == 0.0;
+        if !is_count(frame) || !is_count(base_frame) || base_frame > frame || dt <= 0.0 {
+            return Err(Unfit::Values);
+        }
+        let (frame, base_frame) = (frame as u64, base_frame as u64);
+        self.edit(Edit::Clock(Box::new(Clock { frame, dt, base_frame, base_time })));
         Ok(())
     }
 
-    fn restore_record(
-        &mut self,
-        name: &Name,
-        change: impl FnOnce(&mut Record),
-    ) -> Result<(), Diagnostic> {
-        let id: ConstraintId = self.resolve().constraint(name)?;
+    fn restore_start(&mut self, name: &Name, values: &[Value]) -> Restored {
+        let id = self.resolve().point(name)?;
+        let &[Value::Vector(v)] = values else { return Err(Unfit::Values) };
+        self.edit(Edit::Start(id, Point::new(v.x, v.y)));
+        Ok(())
+    }
+
+    fn restore_values(&mut self, name: &Name, values: &[Value]) -> Restored {
+        let values = numbers(values)?;
+        self.restore_record(name, |record| {
+            for (k, value) in values.iter().take(record.drivers().len()).enumerate() {
+                record.constraint.set(record.drivers()[k].0, *value);
+            }
+        })
+    }
+
+    fn restore_ghost(&mut self, values: &[Value]) -> Restored {
+        let numbered = ordinals(&self.state.world);
+        let mut ghost = Ghost { at: Vec::new() };
+        for pair in values.chunks(2) {
+            let [Value::Number(k), Value::Vector(v)] = *pair else { return Err(Unfit::Values) };
+            let id = *numbered.get(k as usize).ok_or(Unfit::Values)?;
+            ghost.at.push((id, Point::new(v.x, v.y)));
+        }
+        self.edit(Edit::Ghost(Some(Box::new(ghost))));
+        Ok(())
+    }
+
+    fn restore_memory(&mut self, owner: Option<&Name>, values: &[Value]) -> Restored {
+        let id = owner.map(|name| self.resolve().point(name)).transpose()?;
+        let values = numbers(values)?;
+        let mut memory = self.state.solver.memory();
+        if !memory.restore(id, &values) {
+            return Err(Unfit::Values);
+        }
+        self.set_memory(memory);
+        Ok(())
+    }
+
+    fn restore_record(&mut self, name: &Name, change: impl FnOnce(&mut Record)) -> Restored {
+        let id = self.resolve().constraint(name)?;
         let mut record = self.state.world.constraint(id).expect("a named constraint lives").clone();
         change(&mut record);
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         Ok(())
     }
 
-    /// None where the values are not places.
-    fn restore_trace(&mut self, name: &Name, values: &[Value]) -> Option<Result<(), Diagnostic>> {
-        let samples = values
-            .iter()
-            .map(|value| match value {
-                Value::Vector(v) => Some(Sample { at: Point::new(v.x, v.y), missed: false }),
-                Value::Number(_) => None,
-            })
-            .collect::<Option<Vec<_>>>()?;
-        Some(self.restore_samples(name, |kept| *kept = samples))
+    fn restore_trace(&mut self, name: &Name, values: &[Value]) -> Restored {
+        let samples = values.iter().map(|value| match value {
+            Value::Vector(v) => Ok(Sample { at: Point::new(v.x, v.y), missed: false }),
+            Value::Number(_) => Err(Unfit::Values),
+        });
+        let samples = samples.collect::<Result<Vec<_>, _>>()?;
+        self.restore_samples(name, |kept| *kept = samples)
     }
 
-    fn restore_missed(&mut self, name: &Name, missed: &[f64]) -> Result<(), Diagnostic> {
+    fn restore_missed(&mut self, name: &Name, values: &[Value]) -> Restored {
+        let missed = numbers(values)?;
         self.restore_samples(name, |samples| {
             for k in missed {
-                if let Some(sample) = samples.get_mut(*k as usize) {
+                if let Some(sample) = samples.get_mut(k as usize) {
                     sample.missed = true;
                 }
             }
         })
     }
 
-    fn restore_samples(
-        &mut self,
-        name: &Name,
-        change: impl FnOnce(&mut Vec<Sample>),
-    ) -> Result<(), Diagnostic> {
+    fn restore_samples(&mut self, name: &Name, change: impl FnOnce(&mut Vec<Sample>)) -> Restored {
         let point = self.resolve().point(name)?;
         let traces = self.state.world.traces();
         let Some(k) = traces.iter().position(|t| t.point == point) else {
-            return Err(Diagnostic::error("this point is not traced").at(name.span, ""));
+            return Err(Diagnostic::error("this point is not traced").at(name.span, "").into());
         };
         let mut trace = traces[k].clone();
         change(&mut trace.samples);
@@ -141,12 +176,10 @@ impl Execution<'_> {
 }
 
 /// The numbers, if all values are.
-fn numbers(values: &[Value]) -> Option<Vec<f64>> {
-    values
-        .iter()
-        .map(|value| match value {
-            Value::Number(n) => Some(*n),
-            Value::Vector(_) => None,
-        })
-        .collect()
+fn numbers(values: &[Value]) -> Result<Vec<f64>, Unfit> {
+    let number = |value: &Value| match value {
+        Value::Number(n) => Ok(*n),
+        Value::Vector(_) => Err(Unfit::Values),
+    };
+    values.iter().map(number).collect()
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::settings::SETTINGS;
+use super::restorable::{Restorable, ordinals};
+use super::setting_table::SETTINGS;
 use crate::constraint::{Constraint, ConstraintKind as _};
 use crate::diag::Diagnostic;
 use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
@@ -10,34 +11,9 @@ use crate::session::execution::Execution;
 use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
 use crate::session::state::State;
 use crate::solve::CogForm;
-use crate::world::{PointId, World};
 
 /// How a file that `save` wrote begins.
 const FIRST_WORDS: &str = "# A linkwork session.";
-
-/// What `restore` brings back.
-pub(crate) mod what {
-    /// Frame, time of a frame, and the frame and time at which that took its value.
-    pub const CLOCK: &str = "clock";
-    /// Where `reset` puts a point.
-    pub const START: &str = "start";
-    /// What running changes of a constraint.
-    pub const STATE: &str = "state";
-    /// The state that `reset` brings back.
-    pub const FIRST_STATE: &str = "firststate";
-    /// What a constraint took from the pose at its creation.
-    pub const CAPTURED: &str = "captured";
-    /// The values of a driven constraint.
-    pub const VALUES: &str = "values";
-    /// The places of a trace.
-    pub const TRACE: &str = "trace";
-    /// The places of a trace that missed the tolerance, by index.
-    pub const MISSED: &str = "missed";
-    /// A ghost: number of a point, its place, and so on.
-    pub const GHOST: &str = "ghost";
-    /// What the solver remembers.
-    pub const MEMORY: &str = "memory";
-}
 
 impl Execution<'_> {
     pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
@@ -83,20 +59,20 @@ impl State {
             else {
                 continue;
             };
-            restore(&mut script, what::MEMORY, Some(name), numbers(&values));
+            restore(&mut script, Restorable::Memory, Some(name), numbers(&values));
         }
         script
     }
 
     fn save_settings(&self, script: &mut String) {
-        for (name, _) in SETTINGS {
+        for setting in &SETTINGS {
             // Writing to a string cannot fail.
-            let _ = writeln!(script, "set {name} {}", self.setting_text(name));
+            let _ = writeln!(script, "set {} {}", setting.name, (setting.text)(self));
         }
         let clock = self.world.clock();
         if clock.frame > 0 || clock.base_time != 0.0 {
             let values = [clock.frame as f64, clock.dt, clock.base_frame as f64, clock.base_time];
-            restore(script, what::CLOCK, None, numbers(&values));
+            restore(script, Restorable::Clock, None, numbers(&values));
         }
     }
 
@@ -125,7 +101,7 @@ impl State {
             let (at, start) = (points.at(id), points.start(id));
             if self.world.clock().frame > 0 && at != start {
                 let place = vec![vector(start.x, start.y)];
-                restore(script, what::START, Some(points.name(id)), place);
+                restore(script, Restorable::Start, Some(points.name(id)), place);
             }
         }
     }
@@ -153,14 +129,14 @@ impl State {
             if !record.drivers().is_empty() {
                 let value = |field| record.constraint.get(field).unwrap_or_default();
                 let values: Vec<f64> = record.drivers().iter().map(|d| value(d.0)).collect();
-                restore(script, what::VALUES, name, numbers(&values));
+                restore(script, Restorable::Values, name, numbers(&values));
             }
             let captured = record.constraint.captured();
             if !captured.is_empty() {
-                restore(script, what::CAPTURED, name, numbers(&captured));
+                restore(script, Restorable::Captured, name, numbers(&captured));
             }
             if let Some(state) = record.constraint.state() {
-                restore(script, what::STATE, name, numbers(&state));
+                restore(script, Restorable::State, name, numbers(&state));
             }
             if !record.is_on {
                 line(script, Command::Off(vec![named(&record.name)]));
@@ -171,7 +147,7 @@ impl State {
         }
         for (id, state) in self.world.start_states() {
             if let Some(record) = self.world.constraint(*id) {
-                restore(script, what::FIRST_STATE, Some(&record.name), numbers(state));
+                restore(script, Restorable::FirstState, Some(&record.name), numbers(state));
             }
         }
     }
@@ -184,14 +160,14 @@ impl State {
             line(script, Command::Trace { names: vec![named(name)], every });
             if !trace.samples.is_empty() {
                 let places = trace.samples.iter().map(|s| vector(s.at.x, s.at.y)).collect();
-                restore(script, what::TRACE, Some(name), places);
+                restore(script, Restorable::Trace, Some(name), places);
             }
             let missed: Vec<f64> = (0..trace.samples.len())
                 .filter(|&k| trace.samples[k].missed)
                 .map(|k| k as f64)
                 .collect();
             if !missed.is_empty() {
-                restore(script, what::MISSED, Some(name), numbers(&missed));
+                restore(script, Restorable::Missed, Some(name), numbers(&missed));
             }
         }
         let numbered = ordinals(&self.world);
@@ -200,7 +176,7 @@ impl State {
                 let k = numbered.binary_search(id).ok()?;
                 Some([literal(k as f64), vector(at.x, at.y)])
             });
-            restore(script, what::GHOST, None, places.flatten().collect());
+            restore(script, Restorable::Ghost, None, places.flatten().collect());
         }
         for (series, values) in &self.series {
             let series = quoted(series);
@@ -210,11 +186,6 @@ impl State {
             line(script, Command::Expose(Expose::Every(literal(every as f64))));
         }
     }
-}
-
-/// The living points in order: a saved world numbers them so.
-pub(crate) fn ordinals(world: &World) -> Vec<PointId> {
-    world.points().ids().collect()
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
@@ -232,6 +203,6 @@ fn numbers(values: &[f64]) -> Vec<Expr> {
     values.iter().map(|&value| literal(value)).collect()
 }
 
-fn restore(script: &mut String, what: &str, name: Option<&str>, values: Vec<Expr>) {
-    line(script, Command::Restore { what: ident(what), name: name.map(named), values });
+fn restore(script: &mut String, what: Restorable, name: Option<&str>, values: Vec<Expr>) {
+    line(script, Command::Restore { what: ident(what.word()), name: name.map(named), values });
 }

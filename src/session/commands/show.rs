@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::settings::SETTINGS;
+use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
 use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
@@ -267,9 +267,8 @@ impl State {
         for function in Function::named(word) {
             let _ = writeln!(text, "{word}: {}", function.help());
         }
-        let setting = SETTINGS.iter().find(|(name, _)| *name == word);
-        if let Some((name, what)) = setting {
-            let _ = writeln!(text, "set {name}: {what}; now {}", self.setting_text(name));
+        if let Some(Setting { name, what, text: now, .. }) = Setting::named(word) {
+            let _ = writeln!(text, "set {name}: {what}; now {}", now(self));
         }
         if text.is_empty()
             && let Some(entry) = catalogue::about(word)
@@ -283,7 +282,7 @@ impl State {
                 .chain(catalogue::topics())
                 .map(|entry| entry.keyword)
                 .chain(Function::ALL.iter().map(|f| f.name()))
-                .chain(SETTINGS.iter().map(|(name, _)| *name));
+                .chain(SETTINGS.iter().map(|setting| setting.name));
             return Err(suggest(problem, word, known).help("`help` alone lists the commands"));
         }
         Ok(text)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::state::State;
-use crate::world::{ConstraintId, Entity, Formula, PointId, Word};
+use crate::world::{ConstraintId, Entity, Formula, NameText, PointId};
 
 /// Names that have a meaning of their own in every expression.
 pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -265,7 +265,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The full text of a name to be given to something new.
-    pub(crate) fn declare(&mut self, name: &Name) -> Result<Word, Diagnostic> {
+    pub(crate) fn declare(&mut self, name: &Name) -> Result<NameText, Diagnostic> {
         if self.binding(name).is_some() {
             return Err(Diagnostic::error(format!(
                 "`{}` stands for a value in this block",
@@ -279,7 +279,7 @@ impl<'a> Resolver<'a> {
             text.insert_str(0, prefix);
         }
         self.must_be_free(&text, name.span)?;
-        let name = Word::from(text.as_str());
+        let name = NameText::from(text.as_str());
         self.scopes.spelling = text;
         Ok(name)
     }

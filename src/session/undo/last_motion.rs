@@ -2,7 +2,7 @@
 
 use crate::session::state::State;
 use crate::solve::Memory;
-use crate::study::{Course, Hand, Leg};
+use crate::study::{Hand, Leg, RepeatableMotion};
 use crate::world::Motion;
 
 /// The motions that are kept.
@@ -82,15 +82,16 @@ impl LastMotion {
     }
 
     /// The longest motion since the structure changed, if there was one.
-    pub fn course(&self, state: &State) -> Option<Course> {
+    pub fn repeatable_motion(&self, state: &State) -> Option<RepeatableMotion> {
         let lap = self.longest.as_ref()?;
         if lap.revision != state.world.revision() {
             return None;
         }
         let (motion, memory) = (lap.motion.clone(), lap.memory.clone());
         let settings = state.preferences.solve;
-        let course = Course::back(&state.world, motion, memory, settings, lap.legs.clone());
-        Some(course.with_frames(lap.n_frames))
+        let repeatable =
+            RepeatableMotion::back(&state.world, motion, memory, settings, lap.legs.clone());
+        Some(repeatable.with_frames(lap.n_frames))
     }
 
     fn n_longest(&self, revision: u64) -> u64 {

@@ -5,7 +5,7 @@ use linkwork::constraint::{
     Point,
 };
 use linkwork::mobility::{
-    Analysis, Directions, Pose, Scene, analyse, conflict_with, freedom, motion_of,
+    Analysis, ConstraintSystem, Directions, PoseClass, analyse, conflict_with, freedom, motion_of,
 };
 
 const TOLERANCE: f64 = 1e-9;
@@ -83,9 +83,9 @@ impl Model {
         model
     }
 
-    fn with<R>(&self, then: impl FnOnce(&Scene) -> R) -> R {
+    fn with<R>(&self, then: impl FnOnce(&ConstraintSystem) -> R) -> R {
         let constraints: Vec<_> = self.constraints.iter().collect();
-        then(&Scene { constraints: &constraints, x: &self.x, w: &self.w })
+        then(&ConstraintSystem { constraints: &constraints, x: &self.x, w: &self.w })
     }
 
     fn analyse(&self) -> Analysis {
@@ -105,7 +105,12 @@ impl Model {
 }
 
 /// The counts and the pose are these.
-fn check(model: &Model, degrees_of_freedom: usize, n_redundant: usize, pose: Pose) -> Analysis {
+fn check(
+    model: &Model,
+    degrees_of_freedom: usize,
+    n_redundant: usize,
+    pose: PoseClass,
+) -> Analysis {
     let found = model.analyse();
     let counts = (found.degrees_of_freedom, found.n_redundant, found.pose);
     assert_eq!(counts, (degrees_of_freedom, n_redundant, pose), "{:?}", found.singular_values);
@@ -119,7 +124,7 @@ fn a_four_bar_has_one_freedom() {
         &Model::four_bar([[0.0, 0.0], [0.6, 0.8], [3.0, 2.5], [4.0, 0.0]]),
         1,
         0,
-        Pose::Regular,
+        PoseClass::Regular,
     );
     let (least, most) = found.singular_values.unwrap();
     assert!(least > 0.3 && most < 1.6, "{least} {most}");
@@ -153,16 +158,16 @@ fn singular_values_are_those_of_dense_algebra() {
 fn an_overbraced_net_names_a_diagonal_for_each_square_and_more() {
     let mut model = Model::default();
     let first = model.net(4) as usize;
-    check(&model, 3, 25, Pose::Regular);
+    check(&model, 3, 25, PoseClass::Regular);
     model.w[first] = 0.0;
     model.w[first + 1] = 0.0;
     // The bar between the two pinned corners holds nothing that moves and is left out; two
     // pins instead of the three freedoms of the whole leave one more bar too many.
-    let found = check(&model, 0, 25, Pose::Regular);
+    let found = check(&model, 0, 25, PoseClass::Regular);
     assert_eq!(found.redundant.len(), 25);
     model.w[first + 1] = 1.0;
     model.w[first + 4] = 0.0;
-    check(&model, 0, 26, Pose::Regular);
+    check(&model, 0, 26, PoseClass::Regular);
 }
 
 #[test]
@@ -173,7 +178,7 @@ fn the_later_of_two_equal_bars_is_redundant() {
             model.push(model.constraints[k].clone());
         }
     }
-    let found = check(&model, 1, 27, Pose::Regular);
+    let found = check(&model, 1, 27, PoseClass::Regular);
     for (k, redundant) in found.redundant.iter().enumerate() {
         assert_eq!((redundant.constraint, &*redundant.depends_on), (k + 3, &[k % 3][..]));
     }
@@ -185,7 +190,7 @@ fn a_vector_constraint_is_named_once() {
     let (a, b) = (model.point(1.0, 2.0), model.point(1.0, 2.0));
     let first = model.push(Coincidence { points: [a, b] });
     let second = model.push(Coincidence { points: [b, a] });
-    let found = check(&model, 2, 2, Pose::Regular);
+    let found = check(&model, 2, 2, PoseClass::Regular);
     assert_eq!(found.redundant.len(), 1);
     assert_eq!(found.redundant[0].constraint, second);
     assert_eq!(found.redundant[0].depends_on, [first]);
@@ -209,7 +214,7 @@ fn bars_with_ends_of_their_own_are_braced_as_any_others() {
             model.push(Coincidence { points: [joint[0], p] });
         }
     }
-    check(&model, 3, 1, Pose::Regular);
+    check(&model, 3, 1, PoseClass::Regular);
 }
 
 #[test]
@@ -217,7 +222,7 @@ fn a_slack_rope_asks_for_nothing() {
     let mut model = Model::default();
     let (a, b) = (model.ground(0.0, 0.0), model.point(1.0, 0.0));
     let rope = model.push(Length { points: [a, b], bounds: Bounds { lo: 0.0, hi: 2.0 } });
-    check(&model, 2, 0, Pose::Regular);
+    check(&model, 2, 0, PoseClass::Regular);
     model.x[b as usize] = Point::new(2.5, 0.0);
     let found = model.analyse();
     assert_eq!(found.degrees_of_freedom, 1);
@@ -230,7 +235,7 @@ fn a_straight_toggle_is_locked() {
     let (a, b, c) = (model.ground(0.0, 0.0), model.point(1.0, 0.0), model.ground(3.0, 0.0));
     model.bar(a, b);
     model.bar(b, c);
-    check(&model, 1, 1, Pose::Locked);
+    check(&model, 1, 1, PoseClass::Locked);
 }
 
 #[test]
@@ -242,7 +247,7 @@ fn a_taut_chain_is_locked_however_long() {
         model.bar(last, next);
         last = next;
     }
-    check(&model, 59, 1, Pose::Locked);
+    check(&model, 59, 1, PoseClass::Locked);
 }
 
 #[test]
@@ -251,9 +256,14 @@ fn a_flat_parallelogram_may_go_two_ways() {
         &Model::four_bar([[0.0, 0.0], [1.0, 0.0], [5.0, 0.0], [4.0, 0.0]]),
         2,
         1,
-        Pose::ChangePoint,
+        PoseClass::ChangePoint,
     );
-    check(&Model::four_bar([[0.0, 0.0], [0.6, 0.8], [4.6, 0.8], [4.0, 0.0]]), 1, 0, Pose::Regular);
+    check(
+        &Model::four_bar([[0.0, 0.0], [0.6, 0.8], [4.6, 0.8], [4.0, 0.0]]),
+        1,
+        0,
+        PoseClass::Regular,
+    );
 }
 
 #[test]
@@ -265,14 +275,14 @@ fn a_slider_crank_is_locked_at_its_dead_points_only_if_the_slider_drives() {
     model.bar(pivot, pin);
     model.bar(pin, slider);
     model.push(Glider { points: [rail[0], slider, rail[1]], bounded: false });
-    check(&model, 1, 0, Pose::Regular);
+    check(&model, 1, 0, PoseClass::Regular);
     let mut driven = model.clone();
     driven.push(Motor::new([pivot, pin], 1.0, 0.0, 1.0));
     // The motor holds the pin at its radius, as the crank does.
-    let found = check(&driven, 0, 1, Pose::Regular);
+    let found = check(&driven, 0, 1, PoseClass::Regular);
     assert_eq!((found.redundant[0].constraint, &*found.redundant[0].depends_on), (3, &[0][..]));
     model.w[slider as usize] = 0.0;
-    check(&model, 1, 1, Pose::Locked);
+    check(&model, 1, 1, PoseClass::Locked);
 }
 
 #[test]
@@ -288,7 +298,7 @@ fn the_third_of_three_parallels_is_implied() {
             side: 0.0,
         });
     }
-    let found = check(&model, 10, 1, Pose::Regular);
+    let found = check(&model, 10, 1, PoseClass::Regular);
     assert_eq!((found.redundant[0].constraint, &*found.redundant[0].depends_on), (2, &[0, 1][..]));
 }
 
@@ -300,7 +310,7 @@ fn weights_change_no_count() {
         for (p, w) in model.w.iter_mut().enumerate() {
             *w = [0.01, 0.1, 1.0, 10.0, 100.0][p * (k + 1) % 5];
         }
-        check(&model, 3, 13, Pose::Regular);
+        check(&model, 3, 13, PoseClass::Regular);
     }
 }
 
@@ -317,7 +327,7 @@ fn coupled_wheels_run_though_the_count_says_they_stick() {
         model.bar(pins[0].1, pins[1].1);
         model.bar(pins[1].1, pins[2].1);
         let last = model.bar(pins[0].1, pins[2].1);
-        let found = check(&model, 1, 1, Pose::MobileSingular);
+        let found = check(&model, 1, 1, PoseClass::MobileSingular);
         assert_eq!(found.redundant[0].constraint, last);
         assert_eq!(found.redundant[0].depends_on, [3, 4]);
     }
@@ -337,7 +347,7 @@ fn a_double_parallelogram_on_a_plate_runs() {
     for (pivot, pin) in pins {
         model.bar(pivot, pin);
     }
-    check(&model, 1, 1, Pose::MobileSingular);
+    check(&model, 1, 1, PoseClass::MobileSingular);
 }
 
 #[test]
@@ -357,12 +367,12 @@ fn a_shaky_prism_is_locked() {
         }
     }
     // Three freedoms of the whole, which go on, and one that does not.
-    check(&model, 4, 1, Pose::Locked);
+    check(&model, 4, 1, PoseClass::Locked);
     for p in triangles[0] {
         model.w[p as usize] = 0.0;
     }
     model.constraints.drain(3..6);
-    check(&model, 1, 1, Pose::Locked);
+    check(&model, 1, 1, PoseClass::Locked);
 }
 
 #[test]
@@ -376,7 +386,7 @@ fn dixons_linkage_of_nine_bars_runs() {
             model.bar(a, b);
         }
     }
-    check(&model, 4, 1, Pose::MobileSingular);
+    check(&model, 4, 1, PoseClass::MobileSingular);
     // Somewhere else the same nine bars are rigid.
     model.x[0] = Point::new(1.0, 0.4);
     model.constraints.clear();
@@ -385,7 +395,7 @@ fn dixons_linkage_of_nine_bars_runs() {
             model.bar(a, b);
         }
     }
-    check(&model, 3, 0, Pose::Regular);
+    check(&model, 3, 0, PoseClass::Regular);
 }
 
 #[test]

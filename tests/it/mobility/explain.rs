@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use crate::support::talk::Talking;
-use linkwork::mobility::Pose;
+use linkwork::mobility::PoseClass as Pose;
 
 /// `check` finds these counts and nothing that contradicts.
 #[track_caller]

@@ -2,11 +2,11 @@
 
 use crate::support::talk::Talking;
 use linkwork::constraint::geometry::wrap;
-use linkwork::mobility::{End, Range, Reach};
+use linkwork::mobility::{MotorRange, RangeEnd as End, Reach};
 use linkwork::session::Session;
 use linkwork::world::Entity;
 
-fn range(session: &Session, name: &str) -> Range {
+fn range(session: &Session, name: &str) -> MotorRange {
     let Some(Entity::Constraint(id)) = session.world().names().get(name) else {
         panic!("no constraint {name}")
     };

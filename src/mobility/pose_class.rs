@@ -3,13 +3,13 @@
 use super::dependence::Dependence;
 use super::motions::{Random, motions};
 use super::projector::Projector;
-use super::scene::{Scene, UnitRows};
+use super::system::{ConstraintSystem, UnitRows};
 use crate::constraint::{ConstraintKind, Kind, Point, Vector};
 use nalgebra::{DMatrix, DVector};
 
 /// What becomes of the motions a pose seems to allow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Pose {
+pub enum PoseClass {
     /// The rows are as independent here as anywhere near.
     Regular,
     /// They are less so, and yet all motions go on: the mechanism lives by its proportions.
@@ -32,28 +32,32 @@ const MOST_MOTIONS: usize = 24;
 /// `v^T (sum_a y_a hess f_a) v = 0` (Connelly and Whiteley, "Second-order rigidity and prestress
 /// stability for tensegrity frameworks", SIAM J. Discrete Math. 9, 1996). If some stress makes
 /// this form definite, nothing moves; if all forms vanish, everything does.
-pub fn classify(scene: &Scene, island: &UnitRows, dependences: &[Dependence]) -> Pose {
+pub fn classify(
+    scene: &ConstraintSystem,
+    island: &UnitRows,
+    dependences: &[Dependence],
+) -> PoseClass {
     let mut projector = Projector::of(island);
     let n_motions = projector.nullity();
     if dependences.is_empty() || n_motions == 0 || is_generic(scene, island, n_motions) {
-        return Pose::Regular;
+        return PoseClass::Regular;
     }
     let motions = motions(&mut projector, island.n_unknowns(), n_motions.min(MOST_MOTIONS));
     let forms = forms(scene, island, dependences, &motions);
     let size = extent(scene, island);
     let forms: Vec<_> = forms.into_iter().filter(|q| q.amax() * size > FLAT).collect();
     if forms.is_empty() {
-        Pose::MobileSingular
+        PoseClass::MobileSingular
     } else if some_sum_is_definite(&without_kernel(&forms, FLAT / size)) {
-        Pose::Locked
+        PoseClass::Locked
     } else {
-        Pose::ChangePoint
+        PoseClass::ChangePoint
     }
 }
 
 /// Whether there are as many motions at a pose chosen at random nearby, where coincident
 /// points and the like are left together.
-fn is_generic(scene: &Scene, island: &UnitRows, n_motions: usize) -> bool {
+fn is_generic(scene: &ConstraintSystem, island: &UnitRows, n_motions: usize) -> bool {
     let straight = island.filtered(|row| {
         matches!(
             scene.constraints[row.source.0].kind(),
@@ -72,12 +76,12 @@ fn is_generic(scene: &Scene, island: &UnitRows, n_motions: usize) -> bool {
     let k = 0.05 * extent(scene, island) / most;
     let moves = scene.displacements(&island.points, &y);
     let x: Vec<Point> = scene.x.iter().zip(&moves).map(|(x, d)| *x + *d * k).collect();
-    let nearby = Scene { x: &x, ..*scene }.rows_like(island);
+    let nearby = ConstraintSystem { x: &x, ..*scene }.rows_like(island);
     Projector::of(&nearby).nullity() >= n_motions
 }
 
 /// The largest distance of a point of the island from their middle.
-fn extent(scene: &Scene, island: &UnitRows) -> f64 {
+fn extent(scene: &ConstraintSystem, island: &UnitRows) -> f64 {
     let constraints = island.rows.chunk_by(|a, b| a.source.0 == b.source.0);
     let points = || {
         let held =
@@ -93,7 +97,7 @@ fn extent(scene: &Scene, island: &UnitRows) -> f64 {
 /// For each stress, scaled to length 1, the second derivatives of what it weighs the rows
 /// with, over the given motions.
 fn forms(
-    scene: &Scene,
+    scene: &ConstraintSystem,
     island: &UnitRows,
     dependences: &[Dependence],
     motions: &[DVector<f64>],

@@ -5,7 +5,7 @@ use crate::linalg::DisjointSets;
 
 /// Constraints, in order of creation, at a pose.
 #[derive(Clone, Copy)]
-pub struct Scene<'a> {
+pub struct ConstraintSystem<'a> {
     /// What must hold; results name constraints by their places here.
     pub constraints: &'a [&'a Constraint],
     /// The positions of all points.
@@ -137,7 +137,7 @@ impl UnitRows {
     }
 }
 
-impl Scene<'_> {
+impl ConstraintSystem<'_> {
     /// The active rows over all points that move, and the constraints that hold none of them
     /// and yet are off by more than `tolerance`.
     pub fn rows(&self, tolerance: f64) -> (UnitRows, Vec<usize>) {

@@ -7,7 +7,7 @@ use crate::world::{Edit, Motion, PointId, World};
 
 /// A motion that can be done again: a world as it was before, and what happened then.
 #[derive(Debug, Clone)]
-pub struct Course {
+pub struct RepeatableMotion {
     /// The world before the first frame; without traces, which nobody looks at here.
     world: World,
     /// What the solver remembered then.
@@ -55,8 +55,8 @@ pub fn move_by(hands: &[Hand], share: f64, world: &mut World) {
     }
 }
 
-impl Course {
-    /// The course of `world` from now on: time passes and nothing else happens.
+impl RepeatableMotion {
+    /// The motion of `world` from now on: time passes and nothing else happens.
     pub fn ahead(world: &World, memory: Memory, settings: Settings, n_frames: u64) -> Self {
         Self::back(world, world.motion(), memory, settings, Vec::new()).with_frames(n_frames)
     }
@@ -112,20 +112,20 @@ impl Course {
     /// The pose the scene was given: every point that can move where it stood when the clock
     /// left 0, or where it was made.
     pub(super) fn at_the_start(&self) -> Self {
-        let mut course = Self { legs: Vec::new(), n_frames: 1, ..self.clone() };
-        let points = course.world.points().ids();
-        let free: Vec<PointId> = points.filter(|&p| !course.world.points().is_frozen(p)).collect();
+        let mut motion = Self { legs: Vec::new(), n_frames: 1, ..self.clone() };
+        let points = motion.world.points().ids();
+        let free: Vec<PointId> = points.filter(|&p| !motion.world.points().is_frozen(p)).collect();
         for p in free {
-            let start = course.world.points().start(p);
-            course.world.apply(Edit::Move(p, start));
+            let start = motion.world.points().start(p);
+            motion.world.apply(Edit::Move(p, start));
         }
-        course
+        motion
     }
 }
 
-/// A course being done once more.
+/// A motion being done once more.
 pub(super) struct Replay<'a> {
-    course: &'a Course,
+    motion: &'a RepeatableMotion,
     /// The copy that moves.
     pub world: World,
     solver: Solver,
@@ -138,29 +138,29 @@ pub(super) struct Replay<'a> {
 
 impl<'a> Replay<'a> {
     /// At the beginning, with frames divided into `n_parts`.
-    pub fn new(course: &'a Course, n_parts: u32) -> Self {
-        let mut world = course.world.clone();
+    pub fn new(motion: &'a RepeatableMotion, n_parts: u32) -> Self {
+        let mut world = motion.world.clone();
         let mut solver = Solver::new();
         if n_parts == 1 {
-            solver.set_memory(course.memory.clone());
+            solver.set_memory(motion.memory.clone());
         } else {
             // What the solver remembers is from frames of another length.
             let clock = *world.clock();
             world.apply(Edit::Clock(Box::new(clock.with_dt(clock.dt / f64::from(n_parts)))));
         }
-        let mut replay = Self { course, world, solver, leg: 0, n_done: 0, n_parts };
+        let mut replay = Self { motion, world, solver, leg: 0, n_done: 0, n_parts };
         replay.take_up();
         replay
     }
 
     /// The hands at work now.
     fn hands(&self) -> &'a [Hand] {
-        self.course.legs.get(self.leg).map_or(&[], |leg| &leg.hands)
+        self.motion.legs.get(self.leg).map_or(&[], |leg| &leg.hands)
     }
 
     fn take_up(&mut self) {
         for hand in self.hands() {
-            if !self.course.world.points().is_frozen(hand.point) {
+            if !self.motion.world.points().is_frozen(hand.point) {
                 self.world.apply(Edit::Freeze(hand.point, true));
             }
         }
@@ -168,7 +168,7 @@ impl<'a> Replay<'a> {
 
     fn let_go(&mut self) {
         for hand in self.hands() {
-            if !self.course.world.points().is_frozen(hand.point) {
+            if !self.motion.world.points().is_frozen(hand.point) {
                 self.world.apply(Edit::Freeze(hand.point, false));
             }
         }
@@ -179,7 +179,7 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// A live expression that has no value then.
     pub fn frame(&mut self, settings: &Settings, budget: &Budget) -> Result<Report, Diagnostic> {
-        let leg = self.course.legs.get(self.leg);
+        let leg = self.motion.legs.get(self.leg);
         let hands = self.hands();
         let mut all: Option<Report> = None;
         for part in 1..=self.n_parts {

@@ -1,0 +1,132 @@
+//! The effects that a scene may call for: what switches each on, what it keeps, what it does.
+
+use crate::constraint::Kind;
+use crate::render::Scene;
+use crate::session::state::State;
+use crate::session::undo::recorder::Recorder;
+use crate::solve::{Solver, is_inequality, is_wheel};
+use crate::world::{Depends, Record, Sample, World};
+
+/// Something that only scenes pay for which call for it.
+pub struct Effect {
+    /// What it is called.
+    pub name: &'static str,
+    /// The statements that call for it, by name; it is switched on where there is one.
+    pub because: fn(&State) -> Vec<String>,
+    /// The memory kept for it, bytes.
+    pub n_bytes: fn(&State) -> usize,
+    /// Its work in one frame, done to no end but to be timed; none where it cannot be told apart
+    /// from that of others.
+    pub work: Option<fn(&mut Rehearsal)>,
+}
+
+/// A copy of a scene, to do work on that is timed.
+pub struct Rehearsal {
+    /// The mechanism.
+    pub world: World,
+    /// What solves it.
+    pub solver: Solver,
+}
+
+/// Every effect there is, in the order in which they are told.
+pub static EFFECTS: [Effect; 9] = [
+    Effect {
+        name: "clock",
+        because: |state| names(state, |record| is_timed(state, record)),
+        n_bytes: |state| {
+            let timed = records(state).filter(|record| is_timed(state, record));
+            timed.count() * size_of::<f64>() * 3
+        },
+        // A time at which something has no value costs no less.
+        work: Some(|copy| drop(copy.world.advance())),
+    },
+    Effect {
+        name: "measured values",
+        because: |state| names(state, |record| depends(state, record).on_points),
+        n_bytes: |_| 0,
+        work: None,
+    },
+    Effect {
+        name: "wheel angles",
+        because: |state| names(state, |record| is_wheel(&record.constraint)),
+        n_bytes: |state| state.solver.constraint_bytes(is_wheel),
+        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_wheel)),
+    },
+    Effect {
+        name: "previous positions",
+        because: |state| {
+            let frames = (state.solver.history_bytes() > 0).then_some("frames that were solved");
+            frames.into_iter().map(str::to_owned).collect()
+        },
+        n_bytes: |state| state.solver.history_bytes(),
+        work: Some(|copy| _ = copy.solver.rehearse_predictions()),
+    },
+    Effect {
+        name: "inequalities",
+        because: |state| names(state, |record| is_inequality(&record.constraint)),
+        // One keeps no more than an equality does.
+        n_bytes: |_| 0,
+        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_inequality)),
+    },
+    Effect {
+        name: "derivatives",
+        because: |state| {
+            let users = state.world.parameters().filter(|(_, p)| p.depends.on_rates);
+            users.map(|(_, parameter)| parameter.name.to_string()).collect()
+        },
+        n_bytes: |_| 0,
+        work: None,
+    },
+    Effect {
+        name: "traces",
+        because: |state| {
+            let name = |point| state.world.points().name(point);
+            let traces = state.world.traces().iter();
+            traces.map(|trace| format!("trace {}", name(trace.point))).collect()
+        },
+        n_bytes: |state| {
+            let traces = state.world.traces().iter();
+            traces.map(|trace| trace.samples.len()).sum::<usize>() * size_of::<Sample>()
+        },
+        work: Some(|copy| copy.world.sample_traces(false)),
+    },
+    Effect {
+        name: "ghosts",
+        because: |state| match state.preferences.expose_every {
+            Some(every) => vec![format!("expose every {every}")],
+            None if state.world.ghosts().is_empty() => Vec::new(),
+            None => vec!["expose".to_owned()],
+        },
+        n_bytes: |state| state.world.ghosts().iter().map(|ghost| size_of_val(&*ghost.at)).sum(),
+        work: Some(|copy| drop(std::hint::black_box(copy.world.expose()))),
+    },
+    Effect {
+        name: "recorded frames",
+        because: |state| {
+            let recorders = state.recorders.iter();
+            recorders.map(|r| format!("record \"{}\"", r.path.display())).collect()
+        },
+        n_bytes: |state| state.recorders.iter().map(Recorder::n_bytes).sum(),
+        work: Some(|copy| drop(std::hint::black_box(Scene::new(&copy.world)))),
+    },
+];
+
+/// The constraints that are switched on.
+fn records(state: &State) -> impl Iterator<Item = &Record> {
+    state.world.constraints().map(|(_, record)| record).filter(|record| record.is_on)
+}
+
+/// The names of those among them that are one.
+fn names(state: &State, is_one: impl Fn(&Record) -> bool) -> Vec<String> {
+    records(state).filter(|record| is_one(record)).map(|record| record.name.to_string()).collect()
+}
+
+/// What drives the values of a constraint.
+fn depends(state: &State, record: &Record) -> Depends {
+    let drivers = record.drivers().iter().map(|(_, formula)| state.world.depends(formula));
+    drivers.fold(Depends::default(), Depends::or)
+}
+
+fn is_timed(state: &State, record: &Record) -> bool {
+    record.constraint.kind() == Kind::Motor || depends(state, record).on_time
+}

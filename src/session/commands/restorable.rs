@@ -1,0 +1,70 @@
+//! What `restore` brings back: `save` writes it by the same words.
+
+use crate::world::{PointId, World};
+
+/// A piece of state that no other statement can bring back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Restorable {
+    /// Frame, time of a frame, and the frame and time at which that took its value.
+    Clock,
+    /// Where `reset` puts a point.
+    Start,
+    /// What running changes of a constraint.
+    State,
+    /// The state that `reset` brings back.
+    FirstState,
+    /// What a constraint took from the pose at its creation.
+    Captured,
+    /// The values of a driven constraint.
+    Values,
+    /// The places of a trace.
+    Trace,
+    /// The places of a trace that missed the tolerance, by index.
+    Missed,
+    /// A ghost: number of a point, its place, and so on.
+    Ghost,
+    /// What the solver remembers.
+    Memory,
+}
+
+impl Restorable {
+    /// All of them.
+    const ALL: [Self; 10] = [
+        Self::Clock,
+        Self::Start,
+        Self::State,
+        Self::FirstState,
+        Self::Captured,
+        Self::Values,
+        Self::Trace,
+        Self::Missed,
+        Self::Ghost,
+        Self::Memory,
+    ];
+
+    /// Its word in the statement.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Clock => "clock",
+            Self::Start => "start",
+            Self::State => "state",
+            Self::FirstState => "firststate",
+            Self::Captured => "captured",
+            Self::Values => "values",
+            Self::Trace => "trace",
+            Self::Missed => "missed",
+            Self::Ghost => "ghost",
+            Self::Memory => "memory",
+        }
+    }
+
+    /// What is meant by a word.
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|what| what.word() == word)
+    }
+}
+
+/// The living points in order: a saved world numbers them so.
+pub fn ordinals(world: &World) -> Vec<PointId> {
+    world.points().ids().collect()
+}
