@@ -59,7 +59,8 @@ impl Execution<'_> {
         self.warn(&warning.help("smaller frames (`set dt`) follow the motion"));
     }
 
-    /// The residual over the smallest singular value, where nothing is free.
+    /// The residual over the smallest singular value at the end, or what was worked out on the way
+    /// where the mechanism was next to a singular pose; where nothing is free.
     fn estimate_position_error(&self, summary: &Summary) -> Option<f64> {
         let n = self.state.world.n_constraints();
         let is_cheap = n <= SMALL || (n <= LARGE && summary.seconds >= LONG);
@@ -75,5 +76,6 @@ impl Execution<'_> {
         // The residual is relative to what hangs together; the scene is at least as large.
         freedoms(&self.state.world, &[])
             .position_error(summary.worst_residual * self.state.solver.size())
+            .map(|at_the_end| at_the_end.max(summary.error_on_the_way))
     }
 }

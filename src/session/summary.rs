@@ -38,6 +38,9 @@ pub struct Summary {
     /// How far points may be from where they belong, length units, where that can be said and
     /// somebody listens.
     pub position_error: Option<f64>,
+    /// The same, as it was worked out frame by frame where the mechanism was next to a singular
+    /// pose; 0 if it never was.
+    pub(super) error_on_the_way: f64,
     /// The statement whose frame was the first to miss.
     pub(super) missed_at: Option<Span>,
     /// The statement whose frame was the first to turn over.
@@ -77,6 +80,7 @@ impl Summary {
             seconds: 0.0,
             ways: Vec::new(),
             position_error: None,
+            error_on_the_way: 0.0,
             missed_at: None,
             turned_over_at: None,
         }
@@ -100,6 +104,7 @@ impl Summary {
         }
         self.n_iterations += report.iterations;
         self.worst_residual = self.worst_residual.max(report.residual);
+        self.error_on_the_way = self.error_on_the_way.max(report.position_error);
         self.worst_status = self.worst_status.max(report.status);
         self.n_late += u64::from(report.is_interrupted);
         if report.status != Status::Converged || report.is_interrupted {

@@ -56,6 +56,7 @@ pub(super) fn visit(
     work.islands_visited += 1;
     island.remembered.take();
     island.before = None;
+    island.position_error = 0.0;
     let is_driven = !island.inputs.is_empty();
     let is_at_rest = matches!(island.status, Status::Converged | Status::BestFit);
     if task == Task::Frame && !is_driven && is_at_rest {

@@ -53,6 +53,9 @@ pub struct Report {
     /// A point that may be on another branch than before: it changed sides, and no motion
     /// from there to here was found.
     pub turned_over: Option<PointId>,
+    /// How far points may be from where they belong, length units, in islands that ended next to a
+    /// singular pose; 0 if none did.
+    pub position_error: f64,
     /// How many islands are not at a solution.
     pub n_unsolved_islands: u32,
     /// Whether the caller's budget ran out before the work was done.

@@ -92,6 +92,25 @@ pub(super) fn motion(
     motion
 }
 
+/// How far the farthest free point of an island is from where its constraints say, to first
+/// order: the step that would meet what is left of them.
+pub(super) fn position_error(island: &mut Island) -> f64 {
+    let n_free = island.n_free;
+    let mut workspace = island.take_workspace();
+    let mut work = Counters::default();
+    workspace.rows.evaluate(&workspace.equations, &island.constraints, &island.x, &mut work);
+    workspace.assemble(Stiffness::None).factor(FLOOR);
+    let rows = workspace.rows.iter(&workspace.equations);
+    // What is met to the bit may be off by the rounding of its value all the same.
+    let rounding = f64::EPSILON * island.size();
+    let left: Vec<f64> = rows.map(|(f, ..)| -f.abs().max(rounding).copysign(f)).collect();
+    let y = shortest(&mut workspace, &left);
+    island.put_workspace(workspace);
+    let steps = y.as_chunks::<2>().0.iter().zip(&island.w[..n_free]);
+    let squares = steps.map(|(y, w)| (y[0] * y[0] + y[1] * y[1]) * w);
+    squares.fold(0.0, f64::max).sqrt()
+}
+
 /// What the rows of J times the unknown rates have to be.
 fn right_side(
     island: &Island,

@@ -17,6 +17,10 @@ const FREE_SURPRISE: f64 = 0.02;
 /// A motion that is smaller than this part of the size is not worth a second look.
 pub(crate) const NO_MOTION: f64 = 1e-6;
 
+/// On what is nearer to its singular pose than this, as the sine of an angle or as a volume, errors
+/// grow more than fivefold.
+const SENSITIVE: f64 = 0.2;
+
 /// Squares of singular values below this count as freedom: in the middle of the range in
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
 const RANK_CUT: f64 = 1e-10;
@@ -32,8 +36,9 @@ pub(crate) struct Attempt {
     pub correction: f64,
     /// Whether a singular pose lies on the way, or may.
     pub may_cross: bool,
-    /// Whether something is on the other side of its singular pose.
-    pub has_flipped: bool,
+    /// Whether the pose is next to a singular one: an error of a length is a much larger one of a
+    /// place there.
+    pub is_sensitive: bool,
 }
 
 impl Attempt {
@@ -68,8 +73,10 @@ pub(crate) fn attempt(
         if block.is_determined || found.correction > FREE_SURPRISE * limits.size {
             sum.correction = sum.correction.max(found.correction);
         }
-        sum.has_flipped |= found.side * block.side < 0.0;
-        sum.may_cross |= block.has_branches() && may_cross(block.side, found.side);
+        if block.has_branches() {
+            sum.may_cross |= may_cross(block.side, found.side);
+            sum.is_sensitive |= found.side.abs() < SENSITIVE;
+        }
         block.next_side = found.side;
     }
     if !island.plan.is_complete() {
@@ -120,7 +127,7 @@ fn attempt_rest(
                 island.watch.next_volumes[k] = now;
                 if let (Some(before), Some(now)) = (island.watch.volumes[k], now) {
                     sum.may_cross |= before.may_cross(now);
-                    sum.has_flipped |= before.value * now.value < 0.0;
+                    sum.is_sensitive |= now.value.abs() < SENSITIVE;
                 }
             }
         }

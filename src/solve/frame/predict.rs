@@ -9,6 +9,7 @@ use crate::solve::island::Island;
 use crate::solve::method::newton;
 use crate::solve::method::{Limits, Outcome, Pose};
 use crate::solve::report::{Counters, Status};
+use crate::solve::velocity;
 
 /// What is left of the energy where points with freedom left are well expected; it was below 1e-5
 /// in most frames of chains of 10 to 100 000 bars. Folds that are not yet to be seen show in more,
@@ -107,6 +108,9 @@ fn accept(island: &mut Island, attempt: Attempt) -> Outcome {
     island.history.advance();
     island.keep_sides();
     island.accept_pose();
+    if attempt.is_sensitive {
+        island.position_error = velocity::position_error(island);
+    }
     let Attempt { worst, n_iterations, .. } = attempt;
     Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }
 }

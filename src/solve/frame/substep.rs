@@ -322,5 +322,5 @@ fn through(island: &mut Island, walk: &mut Walk, work: &mut Counters) -> Option<
     island.update_sides();
     island.sides_are_next();
     let n_iterations = walk.n_iterations + outcome.n_iterations;
-    Some(Attempt { worst: outcome.worst, n_iterations, ..Attempt::default() })
+    Some(Attempt { worst: outcome.worst, n_iterations, is_sensitive: true, ..Attempt::default() })
 }

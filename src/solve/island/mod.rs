@@ -77,6 +77,9 @@ pub(crate) struct Island {
     pub watch: Watch,
     /// A point that may be on another branch since this frame.
     pub turned_over: Option<u32>,
+    /// How far points may be from where they belong after this frame, length units, if it ended
+    /// next to a singular pose; else 0.
+    pub position_error: f64,
     /// What drives the island in this frame, as it was before.
     pub inputs: Inputs,
     /// How it was before the last frame, if that could not be solved and the one before could.
@@ -156,6 +159,7 @@ impl Island {
             has_degree: plan.is_complete(),
             watch: Watch::new(&plan, &constraints),
             turned_over: None,
+            position_error: 0.0,
             constraints,
             plan,
             points,

@@ -128,6 +128,7 @@ impl Solver {
             let id = island.points[p as usize];
             report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
         }
+        report.position_error = report.position_error.max(island.position_error);
         if island.before.is_some() {
             self.missed.push(k);
         }
