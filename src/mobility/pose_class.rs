@@ -4,7 +4,7 @@ use super::dependence::Dependence;
 use super::motions::{Random, motions};
 use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRows};
-use crate::constraint::{ConstraintKind, Kind, Point, Vector};
+use crate::constraint::{ConstraintKind, Point, Traits, Vector};
 use nalgebra::{DMatrix, DVector};
 
 /// What becomes of the motions a pose seems to allow.
@@ -58,11 +58,10 @@ pub fn classify(
 /// Whether there are as many motions at a pose chosen at random nearby, where coincident
 /// points and the like are left together.
 fn is_generic(scene: &ConstraintSystem, island: &UnitRows, n_motions: usize) -> bool {
+    // What is linear and asks for no length holds in every affine image of the mechanism.
     let straight = island.filtered(|row| {
-        matches!(
-            scene.constraints[row.source.0].kind(),
-            Kind::Coordinate | Kind::Coincidence | Kind::Equivalence | Kind::Hinge
-        )
+        let Traits { is_linear, nominal_length, .. } = scene.constraints[row.source.0].traits();
+        is_linear && nominal_length == 0.0
     });
     let mut random = Random::new();
     let mut y: Vec<f64> = (0..island.n_unknowns()).map(|_| random.next()).collect();

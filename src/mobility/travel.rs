@@ -3,7 +3,9 @@
 
 use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRows};
-use crate::constraint::{Constraint, ConstraintKind, Field, Point, PointIdx, Vector};
+use crate::constraint::{
+    Activity, Carried, Constraint, ConstraintKind, Field, Point, PointIdx, Vector,
+};
 
 /// Newton steps near a solution double the digits; more than this are none.
 const MOST_STEPS: usize = 12;
@@ -113,7 +115,7 @@ impl<'a> Mechanism<'a> {
 
     /// The constraints of a kind that depends on more than the pose.
     pub fn has_velocities(&self) -> bool {
-        self.constraints.iter().any(|c| matches!(c, Constraint::CogVelocity(_)))
+        self.constraints.iter().any(|c| c.traits().carried == Carried::ByFrame)
     }
 
     /// From here on angles are unwrapped from this pose.
@@ -132,9 +134,11 @@ impl<'a> Mechanism<'a> {
         let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: self.w };
         let all: Vec<usize> = (0..constraints.len()).collect();
         let mut rows = scene.rows_over(self.points.clone(), &all);
-        // An inequality that is met exactly stops nothing that leads away from it.
+        // An inequality that is met exactly stops nothing that leads away from it. Of what stays
+        // on a line between end stops no row may go.
         rows.rows.retain(|row| {
-            row.f.abs() > self.tolerance || !is_inequality(constraints[row.source.0])
+            let activity = constraints[row.source.0].traits().activity;
+            row.f.abs() > self.tolerance || activity != Activity::Outside
         });
         let turn = rows.points.len() as u32;
         rows.points.push(PointIdx::MAX);
@@ -252,14 +256,6 @@ impl Mechanism<'_> {
         self.displace(&mut stand, h, &from.tangent);
         let rows = self.rows(&stand);
         rows.rows.iter().map(|row| (self.sources[row.source.0], row.source.1)).collect()
-    }
-}
-
-/// Whether a constraint asks for less than equality.
-fn is_inequality(constraint: &Constraint) -> bool {
-    match (constraint.get(Field::Lo), constraint.get(Field::Hi)) {
-        (Some(lo), Some(hi)) => lo < hi,
-        _ => false,
     }
 }
 

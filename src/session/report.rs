@@ -2,7 +2,7 @@
 
 use super::execution::Execution;
 use super::summary::Summary;
-use crate::constraint::Constraint;
+use crate::constraint::{Carried, Constraint, ConstraintKind as _};
 use crate::diag::{Diagnostic, listed};
 use crate::solve::Status;
 use crate::study::freedoms;
@@ -69,7 +69,7 @@ impl Execution<'_> {
             return None;
         }
         // Wheels in velocity form drift without any residual.
-        let is_drifting = |c: &Constraint| matches!(c, Constraint::CogVelocity(_));
+        let is_drifting = |c: &Constraint| c.traits().carried == Carried::ByFrame;
         if self.state.world.constraints().any(|(_, r)| r.is_on && is_drifting(&r.constraint)) {
             return None;
         }

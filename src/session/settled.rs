@@ -1,7 +1,7 @@
 //! A copy of the world at rest, for questions that must not touch the world itself.
 
 use super::state::State;
-use crate::constraint::{Constraint, ConstraintKind as _, Kind};
+use crate::constraint::{Constraint, ConstraintKind as _, Quantity};
 use crate::diag::format_rounded;
 use crate::mobility::ConstraintSystem;
 use crate::solve::{Budget, Report, Settings, Solver};
@@ -87,11 +87,9 @@ impl Settled {
     pub fn miss(&self, place: usize) -> String {
         let constraint = &self.parts.constraints[place];
         let missed = constraint.residual(self.world.points().column()).abs();
-        match constraint.kind() {
-            Kind::Orientation | Kind::Cog => {
-                format!("{} deg", format_rounded(missed.to_degrees()))
-            }
-            _ => format_rounded(missed),
+        match constraint.traits().quantity {
+            Quantity::Angle => format!("{} deg", format_rounded(missed.to_degrees())),
+            Quantity::Length => format_rounded(missed),
         }
     }
 

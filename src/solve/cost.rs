@@ -2,24 +2,16 @@
 
 use super::Solver;
 use super::island::history::History;
-use crate::constraint::{Bounds, Constraint, ConstraintKind, Kind, Point};
+use crate::constraint::{Activity, Constraint, ConstraintKind, Point};
 
 /// Whether a constraint is a wheel: its angles are unwrapped.
 pub fn is_wheel(constraint: &Constraint) -> bool {
-    matches!(constraint.kind(), Kind::Cog | Kind::CogVelocity | Kind::Rack)
+    constraint.traits().is_wheel
 }
 
-/// Whether a constraint asks for something at some poses and for nothing at others.
-pub fn is_inequality(constraint: &Constraint) -> bool {
-    let is_open = |bounds: Bounds| !bounds.is_equality();
-    match constraint {
-        Constraint::Length(c) => is_open(c.bounds),
-        Constraint::Equal(c) => is_open(c.bounds),
-        Constraint::Orientation(c) => is_open(c.bounds),
-        Constraint::Distance(c) => is_open(c.bounds),
-        Constraint::Glider(c) => c.bounded,
-        _ => false,
-    }
+/// Whether a constraint asks for something at some poses and for nothing, or less, at others.
+pub fn is_one_sided(constraint: &Constraint) -> bool {
+    constraint.traits().activity != Activity::Always
 }
 
 impl Solver {

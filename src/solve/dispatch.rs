@@ -1,7 +1,7 @@
 //! What a call of the solver does with one island.
 
 use super::frame::{predict, settle};
-use super::island::{Island, wanted_length};
+use super::island::Island;
 use super::method::{self, Limits, Outcome};
 use super::report::{Budget, Counters, Status};
 use super::settings::{Method, Settings};
@@ -228,6 +228,6 @@ pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
         hi - lo
     };
     let size = extent(|p| p.x).max(extent(|p| p.y));
-    let size = size.max(wanted_length(constraint));
+    let size = size.max(constraint.traits().nominal_length);
     (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
 }

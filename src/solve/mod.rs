@@ -23,7 +23,7 @@ mod island;
 mod method;
 
 #[doc(hidden)]
-pub use cost::{is_inequality, is_wheel};
+pub use cost::{is_one_sided, is_wheel};
 #[doc(hidden)]
 pub use dead_point::Halt;
 #[doc(hidden)]

@@ -1,6 +1,6 @@
 //! The motion to be repeated: where it starts, how long it takes, and what a hand moves.
 
-use crate::constraint::{Constraint, Point, Vector};
+use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, Vector};
 use crate::diag::Diagnostic;
 use crate::solve::{Budget, Memory, Report, Settings, Solver};
 use crate::world::{Edit, Motion, PointId, World};
@@ -105,7 +105,7 @@ impl RepeatableMotion {
 
     /// Whether some cog wheels are in the form that depends on the length of a frame.
     pub(super) fn has_velocity_cogs(&self) -> bool {
-        let is_one = |c: &Constraint| matches!(c, Constraint::CogVelocity(_));
+        let is_one = |c: &Constraint| c.traits().carried == Carried::ByFrame;
         self.world.constraints().any(|(_, record)| record.is_on && is_one(&record.constraint))
     }
 

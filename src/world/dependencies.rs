@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, User};
-use crate::constraint::Kind;
+use crate::constraint::{Carried, ConstraintKind as _};
 use crate::diag::Diagnostic;
 
 /// Who mentions what, and lists of what is live; a scene without live expressions keeps nothing
@@ -203,5 +203,5 @@ impl Dependencies {
 
 /// Whether a constraint is a motor.
 pub(super) fn is_motor(record: &Record) -> bool {
-    record.constraint.kind() == Kind::Motor
+    record.constraint.traits().carried == Carried::ByClock
 }

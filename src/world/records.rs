@@ -1,7 +1,7 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
 use super::{Depends, Formula, NameText, Value};
-use crate::constraint::{Bounds, Constraint, ConstraintKind, Field};
+use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, Traits};
 use crate::diag::{Diagnostic, format_number};
 
 /// A constraint with its name and what drives its values.
@@ -65,43 +65,28 @@ impl Record {
     /// What is wrong with the values that its live expressions gave it: no pose could have
     /// such a length, such an interval, such wheels.
     pub fn flaw(&self) -> Option<Diagnostic> {
-        let now = |field, what: &str| {
-            let problem = Diagnostic::error(format!("{what} in `{}`", self.name));
-            let value = self.constraint.get(field).map_or_else(String::new, format_number);
-            match self.driver(field) {
-                Some(formula) => problem.at(formula.span(), format!("this is now {value}")),
-                None => problem,
-            }
+        let Traits { flaw, bounds, .. } = self.constraint.traits();
+        let flaw = flaw?;
+        let ends = bounds.filter(|_| flaw == Flaw::EmptyRange);
+        let field = match ends {
+            Some(_) if self.driver(Field::Lo).is_some() => Field::Lo,
+            _ => flaw.field(),
         };
-        if let Some(bounds) = self.bounds()
-            && bounds.lo > bounds.hi
-        {
-            let end = if self.driver(Field::Lo).is_some() { Field::Lo } else { Field::Hi };
-            let ends = format!("{}..{}", format_number(bounds.lo), format_number(bounds.hi));
-            return Some(now(end, "an empty range").note(format!("the range is {ends}")));
-        }
-        match &self.constraint {
-            Constraint::Length(c) if c.bounds.hi < 0.0 => Some(now(Field::Hi, "a negative length")),
-            Constraint::Motor(c) if c.get(Field::Radius).is_some_and(|r| r < 0.0) => {
-                Some(now(Field::Radius, "a negative radius"))
+        let problem = Diagnostic::error(format!("{} in `{}`", flaw.noun(), self.name));
+        let problem = match self.driver(field) {
+            Some(formula) => {
+                let value = self.constraint.get(field).map_or_else(String::new, format_number);
+                problem.at(formula.span(), format!("this is now {value}"))
             }
-            c @ (Constraint::Cog(_) | Constraint::CogVelocity(_))
-                if c.get(Field::Ratio) == Some(0.0) =>
-            {
-                Some(now(Field::Ratio, "a ratio of 0"))
+            None => problem,
+        };
+        Some(match ends {
+            Some(Bounds { lo, hi }) => {
+                let ends = format!("{}..{}", format_number(lo), format_number(hi));
+                problem.note(format!("the range is {ends}"))
             }
-            _ => None,
-        }
-    }
-
-    fn bounds(&self) -> Option<Bounds> {
-        match &self.constraint {
-            Constraint::Length(c) => Some(c.bounds),
-            Constraint::Equal(c) => Some(c.bounds),
-            Constraint::Distance(c) => Some(c.bounds),
-            Constraint::Orientation(c) => Some(c.bounds),
-            _ => None,
-        }
+            None => problem,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{ConstraintId, Parameter, Record, Value};
-use crate::constraint::{Constraint, ConstraintKind, Field, Point};
+use crate::constraint::{Constraint, ConstraintKind, Point};
 
 /// By constraint, the numbers that running changes of it.
 pub(super) type States = BTreeMap<ConstraintId, Vec<f64>>;
@@ -37,14 +37,14 @@ pub(super) fn is_same_record(a: &Record, b: &Record) -> bool {
     is_plain
         && (a.is_on, a.rho()) == (b.is_on, b.rho())
         && a.constraint == b.constraint
-        && numbers(&a.constraint) == numbers(&b.constraint)
+        && content(&a.constraint) == content(&b.constraint)
 }
 
-/// The bits of all numbers of a constraint.
-fn numbers(constraint: &Constraint) -> Vec<u64> {
-    let values = Field::ALL.iter().filter_map(|&field| constraint.get(field));
-    let state = constraint.state().into_iter().flatten();
-    values.chain(state).chain(constraint.captured()).map(f64::to_bits).collect()
+/// The bits of all of a constraint but its points.
+fn content(constraint: &Constraint) -> Vec<u64> {
+    let mut words = Vec::new();
+    constraint.content(&mut |word| words.push(word));
+    words
 }
 
 /// Whether two parameters that nothing changes have the same number.

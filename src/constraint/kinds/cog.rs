@@ -5,10 +5,14 @@
 //! theta1 and theta2, `theta1 - alpha` and `r (alpha - theta2)` grow alike.
 
 use super::orientation::turning;
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::turns::simplest_fraction;
 use crate::constraint::parts::winding::Winding;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
+    Traits, Vec2, Vector,
+};
 use std::f64::consts::TAU;
 
 /// Two wheels in mesh: `theta1 - (1 + r) alpha + r theta2 = K`, in radians.
@@ -187,6 +191,32 @@ impl ConstraintKind for Cog {
         field == Field::Ratio
     }
 
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "cog",
+            quantity: Quantity::Angle,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 1,
+            is_linear: false,
+            is_wheel: true,
+            carried: Carried::ByPose,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        // The teeth follow from the ratio.
+        let Self { points: _, ratio, teeth: _, lifted, wound, k } = self;
+        add_all([*ratio], word);
+        lifted.iter().for_each(|winding| winding.content(word));
+        add_all([*wound, *k], word);
+    }
+}
+
+impl Stateful for Cog {
     fn state(&self) -> Option<Vec<f64>> {
         let windings = self.lifted.iter().flat_map(|w| w.to_numbers());
         Some(windings.chain([self.wound]).collect())
@@ -211,6 +241,10 @@ impl ConstraintKind for Cog {
 
     fn pick_up(&mut self, x: &[Point]) {
         *self = Self::new(self.points, self.ratio, x);
+    }
+
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
     }
 
     fn accept(&mut self, x: &[Point]) {

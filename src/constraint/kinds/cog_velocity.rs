@@ -2,9 +2,13 @@
 //!
 //! Kept to show its drift; [`crate::constraint::Cog`] is the same condition without.
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
+    Traits, Vec2, Vector,
+};
 
 /// In one frame the two wheels move alike where they touch.
 ///
@@ -119,10 +123,31 @@ impl ConstraintKind for CogVelocity {
         field == Field::Ratio
     }
 
-    fn begin_frame(&mut self, x: &[Point], _dt: f64) {
-        self.previous = self.points.map(|p| x[p as usize]);
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "cog",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            // Depends on how its points moved, not only on where they are.
+            n_firm_rows: 0,
+            is_linear: false,
+            is_wheel: true,
+            carried: Carried::ByFrame,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
+        }
     }
 
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, ratio, previous } = self;
+        add_all([*ratio], word);
+        previous.iter().for_each(|&Point { x, y }| add_all([x, y], word));
+    }
+}
+
+impl Stateful for CogVelocity {
     fn state(&self) -> Option<Vec<f64>> {
         Some(self.previous.iter().flat_map(|p| [p.x, p.y]).collect())
     }
@@ -134,6 +159,22 @@ impl ConstraintKind for CogVelocity {
             self.previous = [x1, x2, x3, x4].map(|[x, y]| Point::new(x, y));
         }
     }
+
+    fn captured(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn set_captured(&mut self, _captured: &[f64]) {}
+
+    fn pick_up(&mut self, _x: &[Point]) {}
+
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
+    }
+
+    fn accept(&mut self, x: &[Point]) {
+        self.previous = self.points.map(|p| x[p as usize]);
+    }
 }
 
 #[cfg(test)]
@@ -143,14 +184,13 @@ mod tests {
 
     /// The paper's planet, its centre led around a frozen ring; how far off the marker's
     /// angle is after one revolution, and how far out the marker.
-    fn planet(cog: &mut impl ConstraintKind, frames: u32) -> (f64, f64) {
+    fn planet(cog: &mut (impl ConstraintKind + Stateful), frames: u32) -> (f64, f64) {
         let centre = |i: u32| {
             Vector::polar(0.75, f64::from(i % frames) * std::f64::consts::TAU / f64::from(frames))
                 .to_point()
         };
         let mut x = [Point::ORIGIN, Point::new(1.0, 0.0), centre(0), Point::new(1.0, 0.0)];
         for i in 1..=frames {
-            cog.begin_frame(&x, 1.0);
             x[2] = centre(i);
             for _ in 0..8 {
                 let mut d = Vector::ZERO;

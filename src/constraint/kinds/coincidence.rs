@@ -1,7 +1,10 @@
 //! The coincidence constraint, section 3.2: two points in one place.
 
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
+    Traits, Vec2, Vector,
+};
 
 /// Two points lie in one place.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +24,8 @@ impl Coincidence {
         x1 - x2
     }
 }
+
+impl Stateless for Coincidence {}
 
 impl ConstraintKind for Coincidence {
     fn points(&self) -> &[PointIdx] {
@@ -57,5 +62,33 @@ impl ConstraintKind for Coincidence {
         let g = x1 - x2;
         equation(g.x);
         equation(g.y);
+    }
+
+    fn get(&self, _field: Field) -> Option<f64> {
+        None
+    }
+
+    fn set(&mut self, _field: Field, _value: f64) -> bool {
+        false
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "coincidence",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 2,
+            is_linear: true,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, _word: &mut impl FnMut(u64)) {
+        let Self { points: _ } = self;
     }
 }

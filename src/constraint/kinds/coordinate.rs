@@ -1,7 +1,11 @@
 //! The coordinate constraint, section 3.1: a point tied to a place.
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
+    Traits, Vec2, Vector,
+};
 
 /// A point stays at a place of the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +26,8 @@ impl Coordinate {
         x[self.points[0] as usize] - self.target
     }
 }
+
+impl Stateless for Coordinate {}
 
 impl ConstraintKind for Coordinate {
     fn points(&self) -> &[PointIdx] {
@@ -74,5 +80,26 @@ impl ConstraintKind for Coordinate {
             _ => return false,
         }
         true
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "coordinate",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 2,
+            is_linear: true,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, target: Point { x, y } } = self;
+        add_all([*x, *y], word);
     }
 }

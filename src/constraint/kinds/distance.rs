@@ -1,7 +1,10 @@
 //! The distance of a point to a line: the glider of section 3.8 at an offset.
 
 use crate::constraint::parts::line::Foot;
-use crate::constraint::{Bounds, ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
+    Stateless, Traits, Vec2, Vector,
+};
 
 /// The signed distance of the first point to the line from the second to the third lies in
 /// `bounds`.
@@ -20,6 +23,8 @@ impl Distance {
         Foot::new(self.points.map(|p| x[p as usize]))
     }
 }
+
+impl Stateless for Distance {}
 
 impl ConstraintKind for Distance {
     fn points(&self) -> &[PointIdx] {
@@ -87,7 +92,7 @@ impl ConstraintKind for Distance {
             return equation(T::constant(0.0));
         }
         let v = x3 - x2;
-        equation(crate::constraint::excess(self.bounds, v.cross(x1 - x2) / v.norm(), field));
+        equation(self.bounds.excess_of(v.cross(x1 - x2) / v.norm(), field));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
@@ -96,6 +101,27 @@ impl ConstraintKind for Distance {
 
     fn set(&mut self, field: Field, value: f64) -> bool {
         self.bounds.set(field, value)
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "distance",
+            quantity: Quantity::Length,
+            bounds: Some(self.bounds),
+            activity: Activity::within(self.bounds),
+            n_firm_rows: usize::from(self.bounds.is_equality()),
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: Flaw::of_range(self.bounds),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, bounds } = self;
+        bounds.content(word);
     }
 }
 

@@ -1,6 +1,9 @@
 //! The equal distance constraint, section 3.4: two segments of equal length.
 
-use crate::constraint::{Bounds, ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
+    Stateless, Traits, Vec2, Vector,
+};
 
 /// The distance of the first two points less that of the last two lies in `bounds`.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +56,8 @@ impl Equal {
         Row::new(f).with(a, -s.e12).with(b, s.e12).with(c, s.e34).with(d, -s.e34)
     }
 }
+
+impl Stateless for Equal {}
 
 impl ConstraintKind for Equal {
     fn points(&self) -> &[PointIdx] {
@@ -112,7 +117,7 @@ impl ConstraintKind for Equal {
         let [x1, x2, x3, x4] = self.points.map(x);
         let (v12, v34) = (x2 - x1, x4 - x3);
         let difference = v12.norm_or_along(v34.value()) - v34.norm_or_along(v12.value());
-        equation(crate::constraint::excess(self.bounds, difference, field));
+        equation(self.bounds.excess_of(difference, field));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
@@ -121,5 +126,26 @@ impl ConstraintKind for Equal {
 
     fn set(&mut self, field: Field, value: f64) -> bool {
         self.bounds.set(field, value)
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "equal",
+            quantity: Quantity::Length,
+            bounds: Some(self.bounds),
+            activity: Activity::within(self.bounds),
+            n_firm_rows: usize::from(self.bounds.is_equality()),
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: Flaw::of_range(self.bounds),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, bounds } = self;
+        bounds.content(word);
     }
 }

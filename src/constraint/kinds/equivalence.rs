@@ -1,7 +1,10 @@
 //! The equivalence constraint, section 3.3: two vectors of equal length and direction.
 
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
+    Traits, Vec2, Vector,
+};
 
 /// The vector from the first point to the second equals that from the third to the fourth.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +26,8 @@ impl Equivalence {
         (x4 - x3) - (x2 - x1)
     }
 }
+
+impl Stateless for Equivalence {}
 
 impl ConstraintKind for Equivalence {
     fn points(&self) -> &[PointIdx] {
@@ -59,5 +64,33 @@ impl ConstraintKind for Equivalence {
         let g = (x4 - x3) - (x2 - x1);
         equation(g.x);
         equation(g.y);
+    }
+
+    fn get(&self, _field: Field) -> Option<f64> {
+        None
+    }
+
+    fn set(&mut self, _field: Field, _value: f64) -> bool {
+        false
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "equivalence",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 2,
+            is_linear: true,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, _word: &mut impl FnMut(u64)) {
+        let Self { points: _ } = self;
     }
 }

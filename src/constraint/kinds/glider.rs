@@ -2,7 +2,10 @@
 
 use super::hinge;
 use crate::constraint::parts::line::Foot;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Flag, Point, PointIdx, Quantity, Real, Row,
+    Stateless, Traits, Vec2, Vector,
+};
 
 /// The first point lies on the segment between the second and the third, or on their line.
 ///
@@ -52,6 +55,8 @@ impl Glider {
         self.points.map(|p| x[p as usize])
     }
 }
+
+impl Stateless for Glider {}
 
 impl ConstraintKind for Glider {
     fn points(&self) -> &[PointIdx] {
@@ -118,6 +123,35 @@ impl ConstraintKind for Glider {
                 equation(g.y);
             }
         }
+    }
+
+    fn get(&self, _field: Field) -> Option<f64> {
+        None
+    }
+
+    fn set(&mut self, _field: Field, _value: f64) -> bool {
+        false
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "glider",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: if self.bounded { Activity::AtStops } else { Activity::Always },
+            n_firm_rows: 1,
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: if self.bounded { &[] } else { &[Flag::Unbounded] },
+            flaw: None,
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, bounded } = self;
+        word(u64::from(*bounded));
     }
 }
 

@@ -1,7 +1,11 @@
 //! The hinge constraint, section 3.9: a point that divides a segment in a fixed ratio.
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
+    Traits, Vec2, Vector,
+};
 
 /// The first point is `A + ratio (B - A)` for the second and third, A and B.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +34,8 @@ pub(crate) fn value([x1, x2, x3]: [Point; 3], mu: f64) -> Vector {
     // From the nearer end, so that mu = 1 is exactly that end.
     if mu <= 0.5 { (x1 - x2) - (x3 - x2) * mu } else { (x1 - x3) - (x2 - x3) * (1.0 - mu) }
 }
+
+impl Stateless for Hinge {}
 
 impl ConstraintKind for Hinge {
     fn points(&self) -> &[PointIdx] {
@@ -77,5 +83,26 @@ impl ConstraintKind for Hinge {
             self.ratio = value;
         }
         field == Field::Ratio
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "hinge",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 2,
+            is_linear: true,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, ratio } = self;
+        add_all([*ratio], word);
     }
 }

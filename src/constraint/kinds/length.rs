@@ -1,7 +1,9 @@
 //! The length constraint, section 3.5: a rod, a cord, a telescope.
 
+use crate::constraint::parts::geometry::direction;
 use crate::constraint::{
-    Bounds, ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector, direction,
+    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
+    Stateless, Traits, Vec2, Vector,
 };
 
 /// The distance between two points lies in `bounds`.
@@ -24,6 +26,8 @@ impl Length {
         is_plain.then(|| (l - self.bounds.lo, v / l))
     }
 }
+
+impl Stateless for Length {}
 
 impl ConstraintKind for Length {
     fn points(&self) -> &[PointIdx] {
@@ -78,7 +82,7 @@ impl ConstraintKind for Length {
     ) {
         let [a, b] = self.points;
         let l12 = (x(b) - x(a)).norm();
-        equation(crate::constraint::excess(self.bounds, l12, field));
+        equation(self.bounds.excess_of(l12, field));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
@@ -87,5 +91,27 @@ impl ConstraintKind for Length {
 
     fn set(&mut self, field: Field, value: f64) -> bool {
         self.bounds.set(field, value)
+    }
+
+    fn traits(&self) -> Traits {
+        let Bounds { lo, hi } = self.bounds;
+        Traits {
+            word: "length",
+            quantity: Quantity::Length,
+            bounds: Some(self.bounds),
+            activity: Activity::within(self.bounds),
+            n_firm_rows: usize::from(self.bounds.is_equality()),
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: (if hi.is_finite() { hi } else { lo }).abs(),
+            flags: &[],
+            flaw: Flaw::of_range(self.bounds).or((hi < 0.0).then_some(Flaw::NegativeLength)),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, bounds } = self;
+        bounds.content(word);
     }
 }

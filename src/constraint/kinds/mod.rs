@@ -17,8 +17,8 @@ pub mod rigid;
 
 use super::{
     Cog, CogVelocity, Coincidence, ConstraintKind, Coordinate, Distance, Equal, Equivalence, Field,
-    Glider, Hinge, Length, Motor, Orientation, Point, PointIdx, Rack, Real, Rigid, Row, Vec2,
-    Vector,
+    Glider, Hinge, Length, Motor, Orientation, Point, PointIdx, Rack, Real, Rigid, Row, Stateful,
+    Traits, Vec2, Vector,
 };
 
 /// Hands a call on to whatever kind a constraint is of.
@@ -29,7 +29,7 @@ macro_rules! each {
 }
 
 macro_rules! define {
-    ($($Name:ident ($Held:ty) $word:literal,)*) => {
+    ($($Name:ident ($Held:ty),)*) => {
         /// A constraint of any kind.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Constraint {
@@ -51,14 +51,6 @@ macro_rules! define {
         impl Kind {
             /// Every kind, in order.
             pub const ALL: &'static [Self] = &[$(Self::$Name),*];
-
-            /// The word of the command language that states it. `parallel` and
-            /// `perpendicular` state an orientation too.
-            pub const fn word(self) -> &'static str {
-                match self {
-                    $(Self::$Name => $word,)*
-                }
-            }
         }
 
         $(
@@ -107,32 +99,14 @@ macro_rules! define {
             fn set(&mut self, field: Field, value: f64) -> bool {
                 each!(self [$($Name)*] c => c.set(field, value))
             }
-            fn state(&self) -> Option<Vec<f64>> {
-                each!(self [$($Name)*] c => c.state())
+            fn traits(&self) -> Traits {
+                each!(self [$($Name)*] c => c.traits())
             }
-            fn set_state(&mut self, state: &[f64]) {
-                each!(self [$($Name)*] c => c.set_state(state))
-            }
-            fn captured(&self) -> Vec<f64> {
-                each!(self [$($Name)*] c => c.captured())
-            }
-            fn set_captured(&mut self, captured: &[f64]) {
-                each!(self [$($Name)*] c => c.set_captured(captured))
+            fn content(&self, word: &mut impl FnMut(u64)) {
+                each!(self [$($Name)*] c => c.content(word))
             }
             fn violation(&self, x: &[Point], w: &[f64]) -> f64 {
                 each!(self [$($Name)*] c => c.violation(x, w))
-            }
-            fn pick_up(&mut self, x: &[Point]) {
-                each!(self [$($Name)*] c => c.pick_up(x))
-            }
-            fn advance(&mut self, dt: f64) -> bool {
-                each!(self [$($Name)*] c => c.advance(dt))
-            }
-            fn begin_frame(&mut self, x: &[Point], dt: f64) {
-                each!(self [$($Name)*] c => c.begin_frame(x, dt))
-            }
-            fn accept(&mut self, x: &[Point]) {
-                each!(self [$($Name)*] c => c.accept(x))
             }
         }
 
@@ -142,6 +116,41 @@ macro_rules! define {
                 match self {
                     $(Self::$Name(_) => Kind::$Name,)*
                 }
+            }
+
+            /// See [`Stateful::state`].
+            pub fn state(&self) -> Option<Vec<f64>> {
+                each!(self [$($Name)*] c => c.state())
+            }
+
+            /// See [`Stateful::set_state`].
+            pub fn set_state(&mut self, state: &[f64]) {
+                each!(self [$($Name)*] c => c.set_state(state))
+            }
+
+            /// See [`Stateful::captured`].
+            pub fn captured(&self) -> Vec<f64> {
+                each!(self [$($Name)*] c => c.captured())
+            }
+
+            /// See [`Stateful::set_captured`].
+            pub fn set_captured(&mut self, captured: &[f64]) {
+                each!(self [$($Name)*] c => c.set_captured(captured))
+            }
+
+            /// See [`Stateful::pick_up`].
+            pub fn pick_up(&mut self, x: &[Point]) {
+                each!(self [$($Name)*] c => c.pick_up(x))
+            }
+
+            /// See [`Stateful::advance`].
+            pub fn advance(&mut self, dt: f64) -> bool {
+                each!(self [$($Name)*] c => c.advance(dt))
+            }
+
+            /// See [`Stateful::accept`].
+            pub fn accept(&mut self, x: &[Point]) {
+                each!(self [$($Name)*] c => c.accept(x))
             }
 
             /// Renumbers its points.
@@ -154,23 +163,23 @@ macro_rules! define {
     };
 }
 
-// How a constraint holds each kind, and the word of the command language. Large ones are held in
+// How a constraint holds each kind. Large ones are held in
 // a box, so that a bar takes no more room than a bar. A new kind is one more line, at the end.
 define! {
-    Coordinate (Coordinate) "coordinate",
-    Coincidence (Coincidence) "coincidence",
-    Equivalence (Equivalence) "equivalence",
-    Equal (Equal) "equal",
-    Length (Length) "length",
-    Orientation (Orientation) "orientation",
-    Motor (Motor) "motor",
-    Glider (Glider) "glider",
-    Hinge (Hinge) "hinge",
-    Cog (Box<Cog>) "cog",
-    CogVelocity (Box<CogVelocity>) "cog",
-    Distance (Distance) "distance",
-    Rigid (Rigid) "rigid",
-    Rack (Rack) "rack",
+    Coordinate (Coordinate),
+    Coincidence (Coincidence),
+    Equivalence (Equivalence),
+    Equal (Equal),
+    Length (Length),
+    Orientation (Orientation),
+    Motor (Motor),
+    Glider (Glider),
+    Hinge (Hinge),
+    Cog (Box<Cog>),
+    CogVelocity (Box<CogVelocity>),
+    Distance (Distance),
+    Rigid (Rigid),
+    Rack (Rack),
 }
 
 #[cfg(test)]

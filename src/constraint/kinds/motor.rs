@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Turns, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
+    Traits, Turns, Vec2, Vector,
+};
 
 /// The second point lies at distance `radius` from the first, at the angle `phase + turned`
 /// against the x axis.
@@ -167,6 +171,33 @@ impl ConstraintKind for Motor {
         true
     }
 
+    fn traits(&self) -> Traits {
+        let radius = self.drive.radius;
+        Traits {
+            word: "motor",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 2,
+            is_linear: true,
+            is_wheel: false,
+            carried: Carried::ByClock,
+            nominal_length: radius.abs(),
+            flags: &[],
+            flaw: (radius < 0.0).then_some(Flaw::NegativeRadius),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        // The target follows from the rest, and the step of time is made anew where it differs.
+        let Self { points: _, heading: Heading { turned, target: _ }, drive } = self;
+        let Drive { radius, phase, speed, step: _ } = &**drive;
+        add_all([*radius, *speed, *phase], word);
+        add_all(turned.to_numbers(), word);
+    }
+}
+
+impl Stateful for Motor {
     fn state(&self) -> Option<Vec<f64>> {
         Some(self.heading.turned.to_numbers().to_vec())
     }
@@ -176,6 +207,12 @@ impl ConstraintKind for Motor {
             self.set_turned(Turns::from_numbers([whole, hi, lo]));
         }
     }
+
+    fn captured(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn set_captured(&mut self, _captured: &[f64]) {}
 
     /// Goes on from where the driven point is now, by less than half a turn; a point at the
     /// centre changes nothing.
@@ -200,6 +237,8 @@ impl ConstraintKind for Motor {
         self.aim();
         true
     }
+
+    fn accept(&mut self, _x: &[Point]) {}
 }
 
 #[cfg(test)]

@@ -1,8 +1,12 @@
 //! The orientation constraint, section 3.6: the angle between two segments.
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
-use crate::constraint::{Bounds, ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
-use std::f64::consts::{PI, TAU};
+use crate::constraint::{
+    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
+    Stateful, Traits, Vec2, Vector,
+};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Which angles count as the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -166,6 +170,42 @@ impl ConstraintKind for Orientation {
         equation(difference + T::constant(f - difference.value()));
     }
 
+    fn get(&self, field: Field) -> Option<f64> {
+        self.bounds.get(field)
+    }
+
+    fn set(&mut self, field: Field, value: f64) -> bool {
+        self.bounds.set(field, value)
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: match self.period {
+                Period::Whole => "orientation",
+                Period::Half if self.bounds == Bounds::exactly(FRAC_PI_2) => "perpendicular",
+                Period::Half => "parallel",
+            },
+            quantity: Quantity::Angle,
+            bounds: Some(self.bounds),
+            activity: Activity::within(self.bounds),
+            n_firm_rows: usize::from(self.bounds.is_equality()),
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::ByPose,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: Flaw::of_range(self.bounds),
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, bounds, period, side } = self;
+        bounds.content(word);
+        add_all([*side, period.radians()], word);
+    }
+}
+
+impl Stateful for Orientation {
     fn state(&self) -> Option<Vec<f64>> {
         Some(vec![self.side])
     }
@@ -176,6 +216,18 @@ impl ConstraintKind for Orientation {
         }
     }
 
+    fn captured(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn set_captured(&mut self, _captured: &[f64]) {}
+
+    fn pick_up(&mut self, _x: &[Point]) {}
+
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
+    }
+
     fn accept(&mut self, x: &[Point]) {
         if let Some((v12, v34)) = self.segments(x) {
             let (offset, _) = self.offset(v12.angle_to(v34));
@@ -183,14 +235,6 @@ impl ConstraintKind for Orientation {
                 self.side = offset.signum();
             }
         }
-    }
-
-    fn get(&self, field: Field) -> Option<f64> {
-        self.bounds.get(field)
-    }
-
-    fn set(&mut self, field: Field, value: f64) -> bool {
-        self.bounds.set(field, value)
     }
 }
 

@@ -1,9 +1,13 @@
 //! A wheel that rolls along a line: the cog wheels of section 3.10 with one radius infinite.
 
 use super::orientation::turning;
+use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::winding::Winding;
-use crate::constraint::{ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector};
+use crate::constraint::{
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateful,
+    Traits, Vec2, Vector,
+};
 use std::f64::consts::TAU;
 
 /// A wheel rolls along a line without slip: `s + R theta = K`, in length units.
@@ -137,6 +141,31 @@ impl ConstraintKind for Rack {
         field == Field::Radius
     }
 
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "rack",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            n_firm_rows: 1,
+            is_linear: false,
+            is_wheel: true,
+            carried: Carried::ByPose,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, radius, k, lifted } = self;
+        add_all([*radius], word);
+        lifted.content(word);
+        add_all([*k], word);
+    }
+}
+
+impl Stateful for Rack {
     fn state(&self) -> Option<Vec<f64>> {
         Some(self.lifted.to_numbers().to_vec())
     }
@@ -160,6 +189,10 @@ impl ConstraintKind for Rack {
 
     fn pick_up(&mut self, x: &[Point]) {
         *self = Self::new(self.points, x);
+    }
+
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
     }
 
     fn accept(&mut self, x: &[Point]) {

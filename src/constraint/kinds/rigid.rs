@@ -1,8 +1,11 @@
 //! A rigid body: points that keep the shape they had.
 
+use crate::constraint::parts::content::add_all;
+use crate::constraint::parts::geometry::direction;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    ConstraintKind, Field, Point, PointIdx, Real, Row, Vec2, Vector, direction,
+    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateful,
+    Traits, Vec2, Vector,
 };
 
 /// The points keep their shape: they move, turn and are not mirrored.
@@ -133,25 +136,6 @@ impl ConstraintKind for Rigid {
         &mut self.points
     }
 
-    /// Which points are A and B, their distance, and the zeta of each point.
-    fn captured(&self) -> Vec<f64> {
-        let ends = self.ends.map(|i| i as f64);
-        let shape = self.shape.iter().flat_map(|zeta| [zeta.x, zeta.y]);
-        ends.into_iter().chain([self.length]).chain(shape).collect()
-    }
-
-    fn set_captured(&mut self, captured: &[f64]) {
-        let n = self.points.len();
-        if let [i, j, length, shape @ ..] = captured
-            && shape.len() == 2 * n
-            && [i, j].iter().all(|&&end| end >= 0.0 && (end as usize) < n)
-        {
-            self.ends = [*i as usize, *j as usize];
-            self.length = *length;
-            self.shape = shape.chunks_exact(2).map(|z| Vector::new(z[0], z[1])).collect();
-        }
-    }
-
     fn n_rows(&self) -> usize {
         (2 * self.points.len()).saturating_sub(3)
     }
@@ -223,6 +207,73 @@ impl ConstraintKind for Rigid {
             equation(g.y);
         }
     }
+
+    fn get(&self, _field: Field) -> Option<f64> {
+        None
+    }
+
+    fn set(&mut self, _field: Field, _value: f64) -> bool {
+        false
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            word: "rigid",
+            quantity: Quantity::Length,
+            bounds: None,
+            activity: Activity::Always,
+            // A body with two known points says where its others are.
+            n_firm_rows: if self.points.len() > 2 { 2 } else { 1 },
+            is_linear: false,
+            is_wheel: false,
+            carried: Carried::Nothing,
+            nominal_length: 0.0,
+            flags: &[],
+            flaw: None,
+        }
+    }
+
+    fn content(&self, word: &mut impl FnMut(u64)) {
+        let Self { points: _, shape, ends, length } = self;
+        ends.iter().for_each(|&end| word(end as u64));
+        add_all([*length], word);
+        shape.iter().for_each(|&Vector { x, y }| add_all([x, y], word));
+    }
+}
+
+impl Stateful for Rigid {
+    fn state(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn set_state(&mut self, _state: &[f64]) {}
+
+    /// Which points are A and B, their distance, and the zeta of each point.
+    fn captured(&self) -> Vec<f64> {
+        let ends = self.ends.map(|i| i as f64);
+        let shape = self.shape.iter().flat_map(|zeta| [zeta.x, zeta.y]);
+        ends.into_iter().chain([self.length]).chain(shape).collect()
+    }
+
+    fn set_captured(&mut self, captured: &[f64]) {
+        let n = self.points.len();
+        if let [i, j, length, shape @ ..] = captured
+            && shape.len() == 2 * n
+            && [i, j].iter().all(|&&end| end >= 0.0 && (end as usize) < n)
+        {
+            self.ends = [*i as usize, *j as usize];
+            self.length = *length;
+            self.shape = shape.chunks_exact(2).map(|z| Vector::new(z[0], z[1])).collect();
+        }
+    }
+
+    fn pick_up(&mut self, _x: &[Point]) {}
+
+    fn advance(&mut self, _dt: f64) -> bool {
+        false
+    }
+
+    fn accept(&mut self, _x: &[Point]) {}
 }
 
 #[cfg(test)]

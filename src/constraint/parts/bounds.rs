@@ -1,6 +1,7 @@
 //! The interval a measured value has to lie in: `c1 <= f <= c2` (section 2 of the paper).
 
-use crate::constraint::Field;
+use super::content::add_all;
+use crate::constraint::{Field, Real};
 
 /// A closed interval; an equality is an interval of width 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +34,23 @@ impl Bounds {
     /// How far `f` lies outside; 0 inside.
     pub fn excess(self, f: f64) -> f64 {
         f - self.clamp(f)
+    }
+
+    /// The same over any number type.
+    pub(crate) fn excess_of<T: Real>(self, f: T, field: &impl Fn(Field, f64) -> T) -> T {
+        if self.is_equality() || f.value() < self.lo {
+            f - field(Field::Lo, self.lo)
+        } else if f.value() > self.hi {
+            f - field(Field::Hi, self.hi)
+        } else {
+            T::constant(0.0)
+        }
+    }
+
+    /// The bits of both ends.
+    pub(crate) fn content(self, word: &mut impl FnMut(u64)) {
+        let Self { lo, hi } = self;
+        add_all([lo, hi], word);
     }
 
     /// The end an expression drives; none for other fields.

@@ -155,6 +155,14 @@ pub fn has_direction(a: Point, b: Point) -> bool {
     a.distance(b) > 4.0 * f64::EPSILON * largest
 }
 
+/// The unit vector and the distance from `a` to `b`; (1, 0) for points that coincide, a
+/// fixed choice that keeps runs reproducible and lets a rod leave length 0.
+pub(crate) fn direction(a: Point, b: Point) -> (Vector, f64) {
+    let v = b - a;
+    let l = v.norm();
+    if l > 0.0 { (v / l, l) } else { (Vector::new(1.0, 0.0), 0.0) }
+}
+
 impl Sub for Point {
     type Output = Vector;
     fn sub(self, o: Self) -> Vector {

@@ -1,6 +1,7 @@
 //! What the kinds are made of.
 
 pub mod bounds;
+pub mod content;
 pub mod geometry;
 pub mod jet;
 pub mod line;

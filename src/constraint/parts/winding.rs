@@ -1,5 +1,6 @@
 //! An angle followed beyond half a turn.
 
+use super::content::add_all;
 use super::geometry::wrap;
 
 /// A direction with the whole turns it has made, as of the last accepted pose.
@@ -31,6 +32,11 @@ impl Winding {
     /// The winding that [`to_numbers`](Self::to_numbers) gave.
     pub const fn from_numbers([turns, angle]: [f64; 2]) -> Self {
         Self { turns: turns as i64, angle }
+    }
+
+    /// The bits of both numbers.
+    pub fn content(self, word: &mut impl FnMut(u64)) {
+        add_all(self.to_numbers(), word);
     }
 
     /// Takes over a direction, counting a turn where it passed pi.

@@ -1,10 +1,10 @@
 //! The effects that a scene may call for: what switches each on, what it keeps, what it does.
 
-use crate::constraint::Kind;
+use crate::constraint::{Carried, ConstraintKind as _};
 use crate::render::Scene;
 use crate::session::state::State;
 use crate::session::undo::recorder::Recorder;
-use crate::solve::{Solver, is_inequality, is_wheel};
+use crate::solve::{Solver, is_one_sided, is_wheel};
 use crate::world::{Depends, Record, Sample, World};
 
 /// Something that only scenes pay for which call for it.
@@ -63,10 +63,10 @@ pub static EFFECTS: [Effect; 9] = [
     },
     Effect {
         name: "inequalities",
-        because: |state| names(state, |record| is_inequality(&record.constraint)),
+        because: |state| names(state, |record| is_one_sided(&record.constraint)),
         // One keeps no more than an equality does.
         n_bytes: |_| 0,
-        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_inequality)),
+        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_one_sided)),
     },
     Effect {
         name: "derivatives",
@@ -128,5 +128,5 @@ fn depends(state: &State, record: &Record) -> Depends {
 }
 
 fn is_timed(state: &State, record: &Record) -> bool {
-    record.constraint.kind() == Kind::Motor || depends(state, record).on_time
+    record.constraint.traits().carried == Carried::ByClock || depends(state, record).on_time
 }

@@ -1,7 +1,7 @@
 //! `limits`: how far a motor can turn.
 
-use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
+use crate::constraint::{ConstraintKind as _, Kind};
 use crate::diag::{Diagnostic, format_degrees, listed};
 use crate::lang::ast::Name;
 use crate::mobility::{MotorRange, RangeEnd, Reach, range};
@@ -37,7 +37,7 @@ impl State {
     fn noun_of(&self, entity: Entity) -> &'static str {
         match entity {
             Entity::Constraint(id) => {
-                self.world.constraint(id).map_or("constraint", |r| r.constraint.kind().word())
+                self.world.constraint(id).map_or("constraint", |r| r.constraint.traits().word)
             }
             other => other.noun(),
         }

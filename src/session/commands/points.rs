@@ -1,6 +1,5 @@
 //! Points and parameters: making, moving, freezing.
 
-use crate::constraint::ConstraintKind as _;
 use crate::diag::Diagnostic;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::session::execution::Execution;

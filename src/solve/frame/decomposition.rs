@@ -5,7 +5,6 @@
 //! blocks of one point; what is left is solved as a whole.
 
 use crate::constraint::{Constraint, ConstraintKind, PointIdx};
-use crate::solve::method::rows::is_wheel;
 
 /// The blocks of an island, each solvable when those before it are.
 #[derive(Debug, Clone, Default)]
@@ -102,7 +101,7 @@ impl Plan {
         let first = self.constraints.len() as u32;
         self.constraints.extend(which);
         let end = self.constraints.len() as u32;
-        let n_wheels = which.iter().filter(|&&c| is_wheel(&all[c as usize])).count() as u32;
+        let n_wheels = which.iter().filter(|&&c| all[c as usize].traits().is_wheel).count() as u32;
         let (side, next_side, form) = (0.0, 0.0, Form::Any);
         let block = Block { point, first, end, n_wheels, form, is_determined, side, next_side };
         self.blocks.push(block);
@@ -156,7 +155,7 @@ impl Search {
 
     /// How many equations say something about `p` alone, at every pose.
     fn n_firm_rows(&self, constraints: &[Constraint], p: PointIdx) -> usize {
-        self.ready(p).map(|c| n_firm_rows(&constraints[c as usize])).sum()
+        self.ready(p).map(|c| constraints[c as usize].traits().n_firm_rows).sum()
     }
 
     fn take(&mut self, p: PointIdx) -> Vec<u32> {
@@ -232,51 +231,13 @@ fn form(constraints: &[Constraint], which: &[u32], p: PointIdx) -> Form {
         _ => None,
     };
     match *which {
-        [one] if is_linear(&constraints[one as usize]) => Form::Assignment,
+        [one] if constraints[one as usize].traits().is_linear => Form::Assignment,
         [one, two] => match (other_end(one), other_end(two)) {
             (Some(a), Some(b)) => Form::Dyad([a, b]),
             _ => Form::Any,
         },
         _ => Form::Any,
     }
-}
-
-/// How many equations of a constraint bind at every pose, for any one of its points.
-pub(crate) fn n_firm_rows(constraint: &Constraint) -> usize {
-    match constraint {
-        Constraint::Coordinate(_)
-        | Constraint::Coincidence(_)
-        | Constraint::Equivalence(_)
-        | Constraint::Motor(_)
-        | Constraint::Hinge(_) => 2,
-        Constraint::Length(c) => usize::from(c.bounds.is_equality()),
-        Constraint::Equal(c) => usize::from(c.bounds.is_equality()),
-        Constraint::Orientation(c) => usize::from(c.bounds.is_equality()),
-        Constraint::Distance(c) => usize::from(c.bounds.is_equality()),
-        Constraint::Glider(_) | Constraint::Cog(_) | Constraint::Rack(_) => 1,
-        // A body with two known points says where its others are.
-        Constraint::Rigid(c) => {
-            if c.points().len() > 2 {
-                2
-            } else {
-                1
-            }
-        }
-        // Depends on how its points moved, not only on where they are.
-        Constraint::CogVelocity(_) => 0,
-    }
-}
-
-/// Whether the equations are linear in each point, so that one step solves them exactly.
-fn is_linear(constraint: &Constraint) -> bool {
-    matches!(
-        constraint,
-        Constraint::Coordinate(_)
-            | Constraint::Coincidence(_)
-            | Constraint::Equivalence(_)
-            | Constraint::Motor(_)
-            | Constraint::Hinge(_)
-    )
 }
 
 #[cfg(test)]

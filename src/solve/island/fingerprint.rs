@@ -2,8 +2,8 @@
 
 use super::Island;
 use super::snapshot::Fingerprint;
-use crate::constraint::{ConstraintKind, Field};
-use crate::solve::frame::decomposition::n_firm_rows;
+use super::structure::Structure;
+use crate::constraint::ConstraintKind;
 
 /// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
 struct Hasher(u64);
@@ -22,37 +22,18 @@ impl Hasher {
     }
 }
 
-/// Every value a constraint may have.
-const FIELDS: [Field; 8] = [
-    Field::Lo,
-    Field::Hi,
-    Field::X,
-    Field::Y,
-    Field::Radius,
-    Field::Speed,
-    Field::Phase,
-    Field::Ratio,
-];
-
 impl Island {
     /// What later results depend on besides what is remembered.
     pub fn fingerprint(&self) -> Fingerprint {
         let mut structure = Hasher::default();
         structure.add(self.n_free as u64);
         for (c, constraint) in self.constraints.iter().enumerate() {
-            structure.add(constraint.kind() as u64);
-            structure.add(n_firm_rows(constraint) as u64);
-            constraint.points().iter().for_each(|&p| structure.add(u64::from(p)));
             let rho = self.own_rho.get(c).copied().flatten();
-            structure.add(rho.map_or(0, f64::to_bits));
+            Structure { constraint, rho }.words(|p| p).for_each(|word| structure.add(word));
         }
         let mut inputs = Hasher::default();
         self.w.iter().for_each(|w| inputs.add(w.to_bits()));
-        for constraint in &self.constraints {
-            let values = FIELDS.iter().filter_map(|&field| constraint.get(field));
-            let values = values.chain(constraint.state().unwrap_or_default());
-            values.for_each(|value| inputs.add(value.to_bits()));
-        }
+        self.constraints.iter().for_each(|c| c.content(&mut |word| inputs.add(word)));
         let mut pose = Hasher::default();
         for (p, at) in self.x.iter().enumerate() {
             let hasher = if p < self.n_free { &mut pose } else { &mut inputs };

@@ -8,22 +8,24 @@ pub mod memory;
 pub mod partition;
 pub mod sides;
 pub mod snapshot;
+pub mod structure;
 pub mod workspaces;
 
 use std::sync::{Arc, OnceLock};
 
 use super::frame::branch::Watch;
-use super::frame::decomposition::{Plan, n_firm_rows};
+use super::frame::decomposition::Plan;
 use super::method::spectrum::Spectrum;
 use super::method::{Limits, Workspace};
 use super::report::{Budget, Status};
 use super::settings::Settings;
-use crate::constraint::{Constraint, ConstraintKind, Field, Point};
+use crate::constraint::{Carried, Constraint, ConstraintKind, Point};
 use crate::world::{ConstraintId, PointId, Record};
 use before::Before;
 use history::History;
 use inputs::Inputs;
 use snapshot::Snapshot;
+use structure::Structure;
 
 /// A set of points that are not frozen, connected by constraints, and the frozen points that
 /// these constraints hold too. Points have local indices here: free ones first, each group by
@@ -145,9 +147,8 @@ impl Island {
         let n_free = free.len();
         let points: Vec<PointId> = free.iter().chain(&frozen).map(|&p| PointId(p)).collect();
         let plan = Plan::new(&constraints, n_free, points.len());
-        let stateful = constraints.iter().enumerate();
-        let stateful = stateful.filter(|(_, c)| !matches!(c, Constraint::Motor(_)));
-        let stateful = stateful.filter(|(_, c)| c.state().is_some()).map(|(c, _)| c as u32);
+        let stateful = constraints.iter().enumerate().filter(|(_, c)| is_stateful(c));
+        let stateful = stateful.map(|(c, _)| c as u32);
         let mut island = Self {
             n_free,
             stateful: stateful.collect(),
@@ -197,12 +198,12 @@ impl Island {
     /// Whether a record differs from the constraint `c` that stands here for it at most in its
     /// values: same points, equality or not as before, same coefficient.
     pub fn has_same(&self, c: usize, record: &Record) -> bool {
-        let (here, there) = (&self.constraints[c], &record.constraint);
-        let points = here.points().iter().map(|&p| self.points[p as usize].0);
-        here.kind() == there.kind()
-            && points.eq(there.points().iter().copied())
-            && n_firm_rows(here) == n_firm_rows(there)
-            && self.own_rho.get(c).copied().flatten() == record.rho()
+        let here = Structure {
+            constraint: &self.constraints[c],
+            rho: self.own_rho.get(c).copied().flatten(),
+        };
+        let there = Structure { constraint: &record.constraint, rho: record.rho() };
+        here.words(|p| self.points[p as usize].0).eq(there.words(|p| p))
     }
 
     /// Puts a constraint's values in place of those it has; it has the same points as before.
@@ -228,7 +229,7 @@ impl Island {
             return;
         }
         self.remembered.take();
-        if wanted_length(&new) != wanted_length(&self.constraints[c]) {
+        if new.traits().nominal_length != self.constraints[c].traits().nominal_length {
             self.wanted = None;
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
@@ -323,8 +324,10 @@ impl Island {
 
     /// The longest length that a constraint asks for, 0 if none does. The size is no less.
     pub fn wanted(&self) -> f64 {
-        self.wanted
-            .unwrap_or_else(|| self.constraints.iter().map(wanted_length).fold(0.0, f64::max))
+        self.wanted.unwrap_or_else(|| {
+            let lengths = self.constraints.iter().map(|c| c.traits().nominal_length);
+            lengths.fold(0.0, f64::max)
+        })
     }
 
     /// Keeps what is asked of it often and does not change until its values do.
@@ -370,21 +373,20 @@ impl Island {
         for &c in &self.stateful {
             self.constraints[c as usize].accept(&self.x);
         }
-        self.begin_velocities();
     }
 
     /// Whether displacements in a frame stand for velocities here: its length matters then, and
     /// a frame in smaller steps would be another motion.
     pub fn has_velocities(&self) -> bool {
-        let mut stateful = self.stateful.iter().map(|&c| &self.constraints[c as usize]);
-        stateful.any(|constraint| matches!(constraint, Constraint::CogVelocity(_)))
+        self.stateful.iter().any(|&c| has_velocities(&self.constraints[c as usize]))
     }
 
     /// The next displacements, which stand for velocities, begin at this pose.
     pub fn begin_velocities(&mut self) {
         for &c in &self.stateful {
-            if let Constraint::CogVelocity(wheels) = &mut self.constraints[c as usize] {
-                wheels.begin_frame(&self.x, 0.0);
+            let constraint = &mut self.constraints[c as usize];
+            if has_velocities(constraint) {
+                constraint.accept(&self.x);
             }
         }
     }
@@ -402,14 +404,11 @@ impl Island {
     }
 }
 
-/// The length a constraint asks for, where it asks for one.
-pub(crate) fn wanted_length(constraint: &Constraint) -> f64 {
-    match constraint {
-        Constraint::Length(c) => {
-            let longest = if c.bounds.hi.is_finite() { c.bounds.hi } else { c.bounds.lo };
-            longest.abs()
-        }
-        Constraint::Motor(c) => c.get(Field::Radius).unwrap_or(0.0).abs(),
-        _ => 0.0,
-    }
+/// Whether the poses that count move on what a constraint carries.
+fn is_stateful(constraint: &Constraint) -> bool {
+    matches!(constraint.traits().carried, Carried::ByPose | Carried::ByFrame)
+}
+
+fn has_velocities(constraint: &Constraint) -> bool {
+    constraint.traits().carried == Carried::ByFrame
 }

@@ -2,7 +2,6 @@
 //! result, as in Sketchpad. Its result depends on the order; ours is that of the island.
 
 use super::relaxation::ending;
-use super::rows::is_wheel;
 use super::{Limits, Outcome};
 use crate::constraint::{ConstraintKind, Vector};
 use crate::solve::island::Island;
@@ -21,7 +20,7 @@ pub(crate) fn round(
 
 /// Improves the pose of an island; gives how it ended.
 fn solve(island: &mut Island, rho: f64, limits: &Limits, work: &mut Counters) -> Outcome {
-    let n_wheels = island.constraints.iter().filter(|c| is_wheel(c)).count() as u64;
+    let n_wheels = island.constraints.iter().filter(|c| c.traits().is_wheel).count() as u64;
     for n in 0..limits.n_iterations {
         let mut worst = 0.0_f64;
         for (c, constraint) in island.constraints.iter().enumerate() {

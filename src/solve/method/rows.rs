@@ -1,7 +1,7 @@
 //! The equations of an island, linearised at a pose: normalised and weighted.
 
 use crate::constraint::{
-    Constraint, ConstraintKind, Field, Jet, Kind, Point, PointIdx, Real, Row, Vec2, Vector,
+    Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Vec2, Vector,
 };
 use crate::solve::report::Counters;
 
@@ -62,7 +62,8 @@ impl Equations {
         }
         start.shrink_to_fit();
         unknown.shrink_to_fit();
-        let n_wheels = constraints.iter().filter(|&&c| is_wheel(&all[c as usize])).count() as u64;
+        let n_wheels =
+            constraints.iter().filter(|&&c| all[c as usize].traits().is_wheel).count() as u64;
         let root_w = points.iter().map(|&p| w[p as usize].sqrt()).collect();
         Self { constraints, points, root_w, start, unknown, n_wheels }
     }
@@ -131,11 +132,6 @@ impl Equations {
         let squares = steps.iter().zip(&self.root_w);
         squares.fold(0.0_f64, |most, (s, w)| most.max(s[0].abs().max(s[1].abs()) * w))
     }
-}
-
-/// Whether a constraint turns wheels.
-pub(crate) fn is_wheel(constraint: &Constraint) -> bool {
-    matches!(constraint.kind(), Kind::Cog | Kind::CogVelocity | Kind::Rack)
 }
 
 /// The rows at a pose, normalised: a gradient is of length 1 in the metric of the weights, so

@@ -4,7 +4,6 @@
 use std::ops::Range;
 
 use super::coefficient::Coefficient;
-use super::rows::is_wheel;
 use crate::constraint::{Constraint, ConstraintKind, Point, Vector};
 use crate::solve::island::Island;
 use crate::solve::parallel::{self, SHARE};
@@ -74,7 +73,7 @@ impl Sweep {
                 sweep.bars.push(Bar { c, a, b, lo, hi, share_a, share_b, distance });
             } else {
                 sweep.others.push((c, rho));
-                sweep.n_wheels += u64::from(is_wheel(constraint));
+                sweep.n_wheels += u64::from(constraint.traits().is_wheel);
             }
         }
         if sweep.bars.len() >= parallel::ENOUGH_FOR_A_SWEEP {

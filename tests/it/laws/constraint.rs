@@ -1,9 +1,9 @@
 //! What every kind of constraint promises, held against random scenes of one generator.
 
 use linkwork::constraint::{
-    Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind, Coordinate, Distance, Equal,
-    Equivalence, Field, Glider, Hinge, Jet, Kind, Length, Motor, Orientation, Period, Point,
-    PointIdx, Rack, Real, Rigid, Row, Vec2, Vector,
+    Activity, Bounds, Carried, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
+    Coordinate, Distance, Equal, Equivalence, Field, Glider, Hinge, Jet, Kind, Length, Motor,
+    Orientation, Period, Point, PointIdx, Quantity, Rack, Real, Rigid, Row, Vec2, Vector,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestCaseError};
@@ -82,9 +82,10 @@ impl Scene {
                 Orientation { points: four, bounds, period, side: 0.0 }.into()
             }
             Kind::Motor => {
-                let mut motor = Motor::new([p[0], p[1]], length(n0), 3.0 * n1 + by.angle, n2);
+                let motor = Motor::new([p[0], p[1]], length(n0), 3.0 * n1 + by.angle, n2);
+                let mut motor = Constraint::from(motor);
                 motor.advance(1.0);
-                motor.into()
+                motor
             }
             Kind::Glider => Glider { points: three, bounded: self.variant > 0 }.into(),
             Kind::Hinge => Hinge { points: three, ratio: 1.5 * n0 + 0.5 }.into(),
@@ -178,6 +179,13 @@ fn correction(c: &Constraint, x: &[Point], w: &[f64]) -> Vec<Vector> {
     let mut d = vec![Vector::ZERO; x.len()];
     c.correct(x, w, &mut |p, v| d[p as usize] += v);
     d
+}
+
+/// All that tells it from others that hold the same points.
+fn content(c: &Constraint) -> Vec<u64> {
+    let mut words = Vec::new();
+    c.content(&mut |word| words.push(word));
+    words
 }
 
 fn rows(c: &Constraint, x: &[Point]) -> Vec<Row> {
@@ -286,9 +294,9 @@ proptest! {
         let by = Similarity { angle, scale: 10f64.powf(scale), shift: Vector::new(shift.0, shift.1) };
         let (here, there) = (scene.constraint(Similarity::NONE), scene.constraint(by));
         let y = by.points(&scene.x);
-        let length_unit = match scene.kind {
-            Kind::Orientation | Kind::Cog => 1.0,
-            _ => by.scale,
+        let length_unit = match here.traits().quantity {
+            Quantity::Angle => 1.0,
+            Quantity::Length => by.scale,
         };
         // The shift costs digits of the small scales.
         let tolerance = 1e-9 * (1.0 + 30.0 / by.scale);
@@ -303,6 +311,55 @@ proptest! {
         for (d, e) in d.iter().zip(correction(&there, &y, &scene.w)) {
             let e = (e / by.scale).rotate(-by.angle);
             prop_assert!((*d - e).norm() <= tolerance * longest, "{d:?} became {e:?}");
+        }
+    }
+
+    /// What a kind says of itself is what its rows do and what it carries on.
+    #[test]
+    fn traits_are_true(scene in scenes(0.35, N_POINTS), shift in (-3.0..3.0, -3.0..3.0)) {
+        let mut c = scene.constraint(Similarity::NONE);
+        let traits = c.traits();
+        let n_active =
+            |x: &[Point]| rows(&c, x).iter().filter(|row| row.is_active).count();
+        let [n_active, n_elsewhere] = [n_active(&scene.x), n_active(&scene.before)];
+        match traits.activity {
+            Activity::Always => {
+                prop_assert_eq!(n_active, n_elsewhere);
+                prop_assert!(traits.n_firm_rows <= n_active);
+            }
+            Activity::AtStops => prop_assert!(traits.n_firm_rows <= n_active),
+            Activity::Outside => {
+                prop_assert_eq!(traits.n_firm_rows, 0);
+                prop_assert_eq!(n_active > 0, c.residual(&scene.x) != 0.0);
+            }
+        }
+        if traits.is_linear {
+            for &p in c.points() {
+                let mut y = scene.x.clone();
+                y[p as usize] += Vector::new(shift.0, shift.1);
+                let gradient = |x: &[Point]| -> Vec<Option<Vector>> {
+                    let of_p = |row: &Row| row.terms().find(|(q, _)| *q == p).map(|(_, g)| g);
+                    rows(&c, x).iter().map(of_p).collect()
+                };
+                prop_assert_eq!(gradient(&scene.x), gradient(&y));
+            }
+        }
+        prop_assert_eq!(traits.carried == Carried::Nothing, c.state().is_none());
+        let before = content(&c);
+        let is_turned = c.advance(1.0);
+        let turns = c.get(Field::Speed).is_some_and(|speed| speed != 0.0);
+        prop_assert_eq!(is_turned, turns && traits.carried == Carried::ByClock);
+        prop_assert_eq!(content(&c) != before, is_turned);
+        let before = content(&c);
+        c.accept(&scene.x);
+        let is_moved_on = matches!(traits.carried, Carried::ByPose | Carried::ByFrame);
+        prop_assert!(is_moved_on || content(&c) == before);
+        for field in Field::ALL {
+            let before = content(&c);
+            match c.get(field).filter(|value| value.is_finite()) {
+                Some(value) => prop_assert!(c.set(field, value + 1.0) && content(&c) != before),
+                None => prop_assert!(c.get(field).is_some() || !c.set(field, 1.0)),
+            }
         }
     }
 
@@ -337,7 +394,9 @@ proptest! {
         let by = Similarity { angle: 0.0, scale, shift: Vector::ZERO };
         let mut c = scene.constraint(by);
         let x = by.points(&scene.x);
-        c.begin_frame(&x, 1.0 / 60.0);
+        if c.traits().carried == Carried::ByFrame {
+            c.accept(&x);
+        }
         let rows = rows(&c, &x);
         prop_assert_eq!(rows.len(), c.n_rows());
         for row in &rows {

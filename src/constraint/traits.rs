@@ -1,0 +1,126 @@
+//! What sort of a constraint one is, for those who treat all of a sort alike.
+
+use crate::constraint::{Bounds, Field};
+
+/// What a constraint says of itself besides its equations. There are no defaults: a kind that
+/// forgets to answer does not compile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Traits {
+    /// The word of the command language that states it.
+    pub word: &'static str,
+    /// The unit of its residual.
+    pub quantity: Quantity,
+    /// The interval that its measured value has to lie in, if it is stated by one.
+    pub bounds: Option<Bounds>,
+    /// What of it binds at a pose at which it is met.
+    pub activity: Activity,
+    /// How many of its rows bind at every pose, for any one of its points. Two of them, of
+    /// whatever constraints, determine a point.
+    pub n_firm_rows: usize,
+    /// Whether its rows are linear in each point, so that one step places a point exactly.
+    pub is_linear: bool,
+    /// Whether it counts the angles of wheels.
+    pub is_wheel: bool,
+    /// What it carries on from pose to pose.
+    pub carried: Carried,
+    /// The longest length that it asks for, 0 if none: a scene is at least as large.
+    pub nominal_length: f64,
+    /// The words that its statement has to say besides its points and values.
+    pub flags: &'static [Flag],
+    /// What is wrong with its values.
+    pub flaw: Option<Flaw>,
+}
+
+/// What a residual is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Length units.
+    Length,
+    /// Radians.
+    Angle,
+}
+
+/// What of a constraint binds at a pose at which it is met.
+///
+/// Two different things are asked of this. Whether a constraint acts on one side only, so that
+/// the set of rows that bind depends on the pose, is `!= Always`: an end stop is such. Whether a
+/// constraint that is met lets go of its points altogether, so that none of its rows has to be
+/// kept, is `== Outside`: a glider between end stops stays on its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Activity {
+    /// The same rows, whatever the pose.
+    Always,
+    /// Some rows, whatever the pose; others only beyond an end stop.
+    AtStops,
+    /// Nothing: an inequality, which acts outside of its bounds only.
+    Outside,
+}
+
+impl Activity {
+    /// That of a single row with these bounds.
+    pub(super) fn within(bounds: Bounds) -> Self {
+        if bounds.is_equality() { Self::Always } else { Self::Outside }
+    }
+}
+
+/// What a constraint carries on from pose to pose, and what moves it on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carried {
+    /// Nothing: it asks for the same whatever came before.
+    Nothing,
+    /// An angle that the clock turns on.
+    ByClock,
+    /// Angles, counted on from each pose that is accepted.
+    ByPose,
+    /// The pose at which a frame began: displacements since then stand for velocities. How long
+    /// the frame is matters, and a motion in smaller steps is another one.
+    ByFrame,
+}
+
+/// A word of a statement that stands for no value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Flag {
+    /// One wheel runs inside of the other.
+    Inside,
+    /// The ends of a segment stop nothing.
+    Unbounded,
+}
+
+/// Values that no pose could have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flaw {
+    /// The lower bound lies above the upper one.
+    EmptyRange,
+    /// No length is so small.
+    NegativeLength,
+    /// No radius is so small.
+    NegativeRadius,
+    /// Wheels, one of which would have the radius 0.
+    ZeroRatio,
+}
+
+impl Flaw {
+    /// The value that is wrong; of a range, the upper one.
+    pub const fn field(self) -> Field {
+        match self {
+            Self::EmptyRange | Self::NegativeLength => Field::Hi,
+            Self::NegativeRadius => Field::Radius,
+            Self::ZeroRatio => Field::Ratio,
+        }
+    }
+
+    /// What it is, with its article.
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Self::EmptyRange => "an empty range",
+            Self::NegativeLength => "a negative length",
+            Self::NegativeRadius => "a negative radius",
+            Self::ZeroRatio => "a ratio of 0",
+        }
+    }
+
+    /// That of bounds.
+    pub(super) fn of_range(bounds: Bounds) -> Option<Self> {
+        (bounds.lo > bounds.hi).then_some(Self::EmptyRange)
+    }
+}
