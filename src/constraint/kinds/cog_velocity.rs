@@ -166,7 +166,9 @@ impl Stateful for CogVelocity {
 
     fn set_captured(&mut self, _captured: &[f64]) {}
 
-    fn pick_up(&mut self, _x: &[Point]) {}
+    fn pick_up(&mut self, x: &[Point]) {
+        self.accept(x);
+    }
 
     fn advance(&mut self, _dt: f64) -> bool {
         false

@@ -4,3 +4,4 @@ mod hard;
 mod memory;
 mod motion;
 mod rates;
+mod replaced;
