@@ -19,12 +19,14 @@
 
 mod constraint_kind;
 mod field;
+mod given;
 mod kinds;
 mod parts;
 mod traits;
 
 pub use constraint_kind::{ConstraintKind, Stateful, Stateless};
 pub use field::Field;
+pub use given::{Culprit, Declared, Given, Refusal};
 pub use kinds::cog::Cog;
 pub use kinds::cog_velocity::CogVelocity;
 pub use kinds::coincidence::Coincidence;

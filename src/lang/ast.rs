@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use crate::diag::Span;
 
-pub use super::constraint::{Constraint, ConstraintDecl, Pair, Range, Relation};
+pub use super::catalogue::ConstraintWord;
+pub use super::constraint::{Constraint, ConstraintDecl, Pair, Part, Range, Relation, Role};
 pub use super::expr::{Axis, BinaryOp, Expr, Ident, Name, NamePart, Node, Number, PartKind, Unit};
 pub use super::function::Function;
 
@@ -72,7 +73,7 @@ pub enum Command {
         /// What changes.
         name: Name,
         /// The trailing parts of the statement that made it; at least one.
-        parts: Vec<ChangePart>,
+        parts: Vec<Part>,
     },
     /// `set`: all settings are printed. `set dt`: this one.
     Settings(Option<Ident>),
@@ -253,31 +254,6 @@ pub enum Selection {
     All,
     /// At least one name.
     Names(Vec<Name>),
-}
-
-/// One trailing part of the statement that made a thing.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ChangePart {
-    /// `= e`, `<= e`, `in a..b`; for a point or a parameter `= e`.
-    Relation(Relation),
-    /// `radius e`
-    Radius(Expr),
-    /// `speed e`
-    Speed(Expr),
-    /// `phase e`
-    Phase(Expr),
-    /// `at e`
-    At(Expr),
-    /// `ratio e`
-    Ratio(Expr),
-    /// `inside`
-    Inside,
-    /// `unbounded`
-    Unbounded,
-    /// `on A B`
-    On(Pair),
-    /// `to A B`
-    To(Pair),
 }
 
 /// What a run promises for each of its frames: a broken one is a failure.

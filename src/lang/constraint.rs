@@ -1,5 +1,6 @@
-//! What a constraint's statement says: its points and what must hold between them.
+//! What a constraint's statement says: a word, and parts that say what they are.
 
+use super::catalogue::ConstraintWord;
 use super::expr::{Expr, Name};
 
 /// A constraint with the name it is to have.
@@ -11,6 +12,83 @@ pub struct ConstraintDecl {
     pub constraint: Constraint,
 }
 
+/// A constraint as stated; [`ConstraintWord::pattern`] says which parts a word takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constraint {
+    /// The word it begins with.
+    pub word: ConstraintWord,
+    /// What stands behind it, in canonical order.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a constraint's statement, or of a `change`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Part {
+    /// `A`, `A B`, `A B C`
+    Points(Vec<Name>),
+    /// `on A B`, `to A B`
+    Line(Role, Pair),
+    /// `= e`, `<= e`, `in a..b`; in a `change` of a point or a parameter `= e`.
+    Relation(Relation),
+    /// `radius e`, `at e`
+    Value(Role, Expr),
+    /// `inside`, `unbounded`
+    Flag(Role),
+}
+
+/// What a part is for, said by the word that it begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
+    /// `on A B`: what a point slides on or a wheel rolls along.
+    On,
+    /// `to A B`: what a distance is measured to.
+    To,
+    /// `radius e`
+    Radius,
+    /// `speed e`: an angle per time unit.
+    Speed,
+    /// `phase e`: the angle at the start.
+    Phase,
+    /// `at e`: a place, or where between two points.
+    At,
+    /// `ratio e`: the second of two to the first.
+    Ratio,
+    /// `inside`
+    Inside,
+    /// `unbounded`
+    Unbounded,
+}
+
+impl Role {
+    /// The word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::On => "on",
+            Self::To => "to",
+            Self::Radius => "radius",
+            Self::Speed => "speed",
+            Self::Phase => "phase",
+            Self::At => "at",
+            Self::Ratio => "ratio",
+            Self::Inside => "inside",
+            Self::Unbounded => "unbounded",
+        }
+    }
+}
+
+impl Part {
+    /// Parts stand in this order, whatever the order in which they were typed.
+    pub(super) fn rank(&self) -> impl Ord + use<> {
+        match self {
+            Self::Points(_) => (0, None),
+            Self::Line(role, _) => (1, Some(*role)),
+            Self::Relation(_) => (2, None),
+            Self::Value(role, _) => (3, Some(*role)),
+            Self::Flag(role) => (4, Some(*role)),
+        }
+    }
+}
+
 /// Two points, in order: from the first to the second.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
@@ -18,90 +96,6 @@ pub struct Pair {
     pub from: Name,
     /// The second point.
     pub to: Name,
-}
-
-/// The constraints, each by its keyword.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Constraint {
-    /// `coordinate A at (3, 4)`
-    Coordinate {
-        /// The point.
-        point: Name,
-        /// Where it must be.
-        at: Expr,
-    },
-    /// `coincidence A B`
-    Coincidence(Pair),
-    /// `equivalence A B, C D`
-    Equivalence(Pair, Pair),
-    /// `equal A B, C D`, `equal A B, C D in -1..1`
-    Equal(Pair, Pair, Option<Relation>),
-    /// `length A B = 3.5`, `length A B <= 5`
-    Length(Pair, Option<Relation>),
-    /// `orientation A B, C D = 90deg`
-    Orientation(Pair, Pair, Option<Relation>),
-    /// `motor O P radius 1 speed 1rev phase 90deg`
-    Motor {
-        /// From the centre to the rim.
-        arm: Pair,
-        /// The distance from the centre to the rim.
-        radius: Option<Expr>,
-        /// The angle per time unit.
-        speed: Option<Expr>,
-        /// The angle at the start.
-        phase: Option<Expr>,
-    },
-    /// `glider P on A B`, `glider P on A B unbounded`
-    Glider {
-        /// The point that slides.
-        point: Name,
-        /// What it slides on.
-        on: Pair,
-        /// The whole line, not the segment alone?
-        unbounded: bool,
-    },
-    /// `hinge P on A B at 1/3`
-    Hinge {
-        /// The point that is held.
-        point: Name,
-        /// The bar that holds it.
-        on: Pair,
-        /// Where on the bar: 0 at its first point, 1 at its second.
-        at: Expr,
-    },
-    /// `cog O1 A, O2 B ratio 4`
-    Cog {
-        /// Centre and rim of the first wheel.
-        first: Pair,
-        /// Centre and rim of the second wheel.
-        second: Pair,
-        /// Radius of the second by radius of the first.
-        ratio: Expr,
-        /// Does one run inside of the other?
-        inside: bool,
-    },
-    /// `distance P to A B = d`
-    Distance {
-        /// The point.
-        point: Name,
-        /// Two points of the line.
-        line: Pair,
-        /// What holds for the signed distance.
-        relation: Option<Relation>,
-    },
-    /// `parallel A B, C D`
-    Parallel(Pair, Pair),
-    /// `perpendicular A B, C D`
-    Perpendicular(Pair, Pair),
-    /// `rigid A B C`: at least two points.
-    Rigid(Vec<Name>),
-    /// `rack O A on P Q`
-    Rack {
-        /// Centre and rim of the wheel.
-        wheel: Pair,
-        /// The line it rolls along.
-        on: Pair,
-    },
 }
 
 /// What must hold for a value.

@@ -9,6 +9,7 @@ pub mod catalogue;
 mod constraint;
 mod expr;
 mod function;
+mod grammar;
 mod layout;
 mod lower;
 mod print;

@@ -36,7 +36,7 @@ const HOMES: [(&str, &[&str]); 13] = [
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("pest", &["lang/lower/"]),
-    ("pest_derive", &["lang/lower/"]),
+    ("pest_derive", &["lang/grammar.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),

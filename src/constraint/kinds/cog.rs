@@ -10,8 +10,8 @@ use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::turns::simplest_fraction;
 use crate::constraint::parts::winding::Winding;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Flag, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 use std::f64::consts::TAU;
 
@@ -113,9 +113,23 @@ impl Cog {
     }
 }
 
+/// The ratio that a statement gives, negative where one wheel runs inside the other.
+pub(super) fn ratio(given: &Given) -> f64 {
+    let ratio = given.value(Field::Ratio).unwrap_or_default();
+    if given.has(Flag::Inside) { -ratio.abs() } else { ratio }
+}
+
 /// Numbers of teeth in the ratio r, the second wheel's and the first's.
 fn teeth(ratio: f64) -> Option<(f64, f64)> {
     simplest_fraction(ratio, f64::EPSILON * ratio.abs())
+}
+
+impl Declared for Cog {
+    const WORDS: &'static [&'static str] = &["cog"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        Ok(Self::new(given.pairs()?, ratio(given), given.x))
+    }
 }
 
 impl ConstraintKind for Cog {

@@ -2,12 +2,13 @@
 //!
 //! Kept to show its drift; [`crate::constraint::Cog`] is the same condition without.
 
+use super::cog;
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx, Quantity,
+    Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 
 /// In one frame the two wheels move alike where they touch.
@@ -58,6 +59,14 @@ impl CogVelocity {
             sum += (x[p as usize] - before).times(c);
         }
         sum
+    }
+}
+
+impl Declared for CogVelocity {
+    const WORDS: &'static [&'static str] = &[];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        Ok(Self::new(given.pairs()?, cog::ratio(given), given.x))
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Given, Point, PointIdx, Quantity, Real,
+    Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// Two points lie in one place.
@@ -22,6 +22,15 @@ impl Coincidence {
     fn value(&self, x: &[Point]) -> Vector {
         let [x1, x2] = self.points.map(|p| x[p as usize]);
         x1 - x2
+    }
+}
+
+impl Declared for Coincidence {
+    const WORDS: &'static [&'static str] = &["coincidence"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.two(0, "a point coincides with itself anyway")?;
+        Ok(Self { points })
     }
 }
 

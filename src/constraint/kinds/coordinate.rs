@@ -3,8 +3,8 @@
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Given, Point, PointIdx, Quantity, Real,
+    Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// A point stays at a place of the plane.
@@ -24,6 +24,16 @@ impl Coordinate {
 
     fn value(&self, x: &[Point]) -> Vector {
         x[self.points[0] as usize] - self.target
+    }
+}
+
+impl Declared for Coordinate {
+    const WORDS: &'static [&'static str] = &["coordinate"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let value = |field| given.value(field).unwrap_or_default();
+        let target = Point::new(value(Field::X), value(Field::Y));
+        Ok(Self { points: [given.point(0)], target })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::constraint::parts::line::Foot;
 use crate::constraint::{
-    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
-    Stateless, Traits, Vec2, Vector,
+    Activity, Bounds, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The signed distance of the first point to the line from the second to the third lies in
@@ -21,6 +21,17 @@ pub struct Distance {
 impl Distance {
     fn foot(&self, x: &[Point]) -> Option<Foot> {
         Foot::new(self.points.map(|p| x[p as usize]))
+    }
+}
+
+impl Declared for Distance {
+    const WORDS: &'static [&'static str] = &["distance"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.point_and_pair()?;
+        let [p, a, b] = points.map(|p| given.at(p));
+        let now = (b - a).unit().map_or(0.0, |e| e.cross(p - a));
+        Ok(Self { points, bounds: given.bounds.unwrap_or(Bounds::exactly(now)) })
     }
 }
 

@@ -1,8 +1,8 @@
 //! The equal distance constraint, section 3.4: two segments of equal length.
 
 use crate::constraint::{
-    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
-    Stateless, Traits, Vec2, Vector,
+    Activity, Bounds, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The distance of the first two points less that of the last two lies in `bounds`.
@@ -54,6 +54,15 @@ impl Equal {
             return Row::inactive(&self.points);
         }
         Row::new(f).with(a, -s.e12).with(b, s.e12).with(c, s.e34).with(d, -s.e34)
+    }
+}
+
+impl Declared for Equal {
+    const WORDS: &'static [&'static str] = &["equal"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let bounds = given.bounds.unwrap_or(Bounds::exactly(0.0));
+        Ok(Self { points: given.pairs()?, bounds })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Given, Point, PointIdx, Quantity, Real,
+    Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The vector from the first point to the second equals that from the third to the fourth.
@@ -24,6 +24,14 @@ impl Equivalence {
     fn value(&self, x: &[Point]) -> Vector {
         let [x1, x2, x3, x4] = self.points.map(|p| x[p as usize]);
         (x4 - x3) - (x2 - x1)
+    }
+}
+
+impl Declared for Equivalence {
+    const WORDS: &'static [&'static str] = &["equivalence"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        Ok(Self { points: given.pairs()? })
     }
 }
 

@@ -3,8 +3,8 @@
 use super::hinge;
 use crate::constraint::parts::line::Foot;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Flag, Point, PointIdx, Quantity, Real, Row,
-    Stateless, Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Flag, Given, Point, PointIdx, Quantity,
+    Real, Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The first point lies on the segment between the second and the third, or on their line.
@@ -53,6 +53,14 @@ impl Glider {
 
     fn places(&self, x: &[Point]) -> [Point; 3] {
         self.points.map(|p| x[p as usize])
+    }
+}
+
+impl Declared for Glider {
+    const WORDS: &'static [&'static str] = &["glider"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        Ok(Self { points: given.point_and_pair()?, bounded: !given.has(Flag::Unbounded) })
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateless,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Given, Point, PointIdx, Quantity, Real,
+    Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The first point is `A + ratio (B - A)` for the second and third, A and B.
@@ -33,6 +33,15 @@ pub(crate) fn linear(points: [PointIdx; 3], mu: f64) -> Linear {
 pub(crate) fn value([x1, x2, x3]: [Point; 3], mu: f64) -> Vector {
     // From the nearer end, so that mu = 1 is exactly that end.
     if mu <= 0.5 { (x1 - x2) - (x3 - x2) * mu } else { (x1 - x3) - (x2 - x3) * (1.0 - mu) }
+}
+
+impl Declared for Hinge {
+    const WORDS: &'static [&'static str] = &["hinge"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let ratio = given.value(Field::Ratio).unwrap_or_default();
+        Ok(Self { points: given.point_and_pair()?, ratio })
+    }
 }
 
 impl Stateless for Hinge {}

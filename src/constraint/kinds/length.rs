@@ -2,8 +2,8 @@
 
 use crate::constraint::parts::geometry::direction;
 use crate::constraint::{
-    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
-    Stateless, Traits, Vec2, Vector,
+    Activity, Bounds, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
 /// The distance between two points lies in `bounds`.
@@ -24,6 +24,17 @@ impl Length {
         let l = v.norm();
         let is_plain = self.bounds.is_equality() && a != b && l > 0.0 && l.is_finite();
         is_plain.then(|| (l - self.bounds.lo, v / l))
+    }
+}
+
+impl Declared for Length {
+    const WORDS: &'static [&'static str] = &["length"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.pair(0)?;
+        let [a, b] = points.map(|p| given.at(p));
+        let bounds = given.bounds.unwrap_or(Bounds::exactly(a.distance(b)));
+        Ok(Self { points, bounds })
     }
 }
 

@@ -16,9 +16,9 @@ pub mod rack;
 pub mod rigid;
 
 use super::{
-    Cog, CogVelocity, Coincidence, ConstraintKind, Coordinate, Distance, Equal, Equivalence, Field,
-    Glider, Hinge, Length, Motor, Orientation, Point, PointIdx, Rack, Real, Rigid, Row, Stateful,
-    Traits, Vec2, Vector,
+    Cog, CogVelocity, Coincidence, ConstraintKind, Coordinate, Declared, Distance, Equal,
+    Equivalence, Field, Given, Glider, Hinge, Length, Motor, Orientation, Point, PointIdx, Rack,
+    Real, Refusal, Rigid, Row, Stateful, Traits, Vec2, Vector,
 };
 
 /// Hands a call on to whatever kind a constraint is of.
@@ -51,6 +51,26 @@ macro_rules! define {
         impl Kind {
             /// Every kind, in order.
             pub const ALL: &'static [Self] = &[$(Self::$Name),*];
+
+            /// The kind that a word of the command language states.
+            pub fn stated_by(word: &str) -> Option<Self> {
+                $(
+                    if $Name::WORDS.contains(&word) {
+                        return Some(Self::$Name);
+                    }
+                )*
+                None
+            }
+
+            /// Makes a constraint of this kind.
+            ///
+            /// # Errors
+            /// Points or a pose that allow none.
+            pub fn declare(self, given: &Given) -> Result<Constraint, Refusal> {
+                match self {
+                    $(Self::$Name => $Name::declare(given).map(Constraint::from),)*
+                }
+            }
         }
 
         $(

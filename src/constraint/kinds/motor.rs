@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row, Stateful,
-    Traits, Turns, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateful, Traits, Turns, Vec2, Vector,
 };
 
 /// The second point lies at distance `radius` from the first, at the angle `phase + turned`
@@ -106,6 +106,30 @@ impl Motor {
     fn value(&self, x: &[Point]) -> Vector {
         let [x1, x2] = self.points.map(|p| x[p as usize]);
         (x2 - x1) - self.heading.target
+    }
+}
+
+impl Declared for Motor {
+    const WORDS: &'static [&'static str] = &["motor"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.pair(0)?;
+        let [o, p] = points.map(|p| given.at(p));
+        let radius = match given.value(Field::Radius) {
+            Some(radius) => radius,
+            None if o == p => {
+                return Err(Refusal {
+                    message: "the motor's points coincide, so it has no radius",
+                    at: Culprit::Group(0),
+                    label: "",
+                    help: Some("say how far apart they belong: `radius 1`"),
+                });
+            }
+            None => o.distance(p),
+        };
+        let phase = given.value(Field::Phase).unwrap_or_else(|| (p - o).angle());
+        let speed = given.value(Field::Speed).unwrap_or(0.0);
+        Ok(Self::new(points, radius, phase, speed))
     }
 }
 

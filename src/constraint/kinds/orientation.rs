@@ -3,8 +3,8 @@
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::{
-    Activity, Bounds, Carried, ConstraintKind, Field, Flaw, Point, PointIdx, Quantity, Real, Row,
-    Stateful, Traits, Vec2, Vector,
+    Activity, Bounds, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -97,6 +97,25 @@ pub(crate) fn turning(v: Vector) -> Vector {
     (v / l).perp() / l
 }
 
+impl Declared for Orientation {
+    const WORDS: &'static [&'static str] = &["orientation", "parallel", "perpendicular"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.pairs()?;
+        let turned = |angle: f64| (Bounds::exactly(angle), Period::Half);
+        let (bounds, period) = match given.word {
+            "parallel" => turned(0.0),
+            "perpendicular" => turned(FRAC_PI_2),
+            _ => {
+                let [x1, x2, x3, x4] = points.map(|p| given.at(p));
+                let now = Bounds::exactly((x2 - x1).angle_to(x4 - x3));
+                (given.bounds.map_or(now, within_a_turn), Period::Whole)
+            }
+        };
+        Ok(Self { points, bounds, period, side: 0.0 })
+    }
+}
+
 impl ConstraintKind for Orientation {
     fn points(&self) -> &[PointIdx] {
         &self.points
@@ -175,7 +194,8 @@ impl ConstraintKind for Orientation {
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        self.bounds.set(field, value)
+        let is_open = self.period == Period::Whole && value.is_infinite();
+        self.bounds.set(field, if is_open { PI.copysign(value) } else { value })
     }
 
     fn traits(&self) -> Traits {
@@ -236,6 +256,12 @@ impl Stateful for Orientation {
             }
         }
     }
+}
+
+/// Bounds of an angle: an open end is at half a turn.
+fn within_a_turn(Bounds { lo, hi }: Bounds) -> Bounds {
+    let end = |bound: f64, half: f64| if bound.is_finite() { bound } else { half };
+    Bounds { lo: end(lo, -PI), hi: end(hi, PI) }
 }
 
 /// Turns a segment by `phi` about the pivot that leaves its centre of gravity at rest.

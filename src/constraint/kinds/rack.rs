@@ -5,8 +5,8 @@ use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::winding::Winding;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateful,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Given, Point, PointIdx, Quantity,
+    Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 use std::f64::consts::TAU;
 
@@ -76,6 +76,24 @@ impl Rack {
         // Turning the line about P lifts it against the wheel by the height of the centre.
         let tilt = e.perp() * ((e.cross(arms.centre) - self.radius) / length);
         Row::new(self.value(arms)).with(o, e - rim).with(a, rim).with(p, -e - tilt).with(q, tilt)
+    }
+}
+
+impl Declared for Rack {
+    const WORDS: &'static [&'static str] = &["rack"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = given.pairs()?;
+        let [o, a, ..] = points.map(|p| given.at(p));
+        if o == a {
+            return Err(Refusal {
+                message: "the rim point lies on the centre",
+                at: Culprit::Statement,
+                label: "a wheel of radius 0 does not roll",
+                help: None,
+            });
+        }
+        Ok(Self::new(points, given.x))
     }
 }
 

@@ -4,8 +4,8 @@ use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::direction;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Field, Point, PointIdx, Quantity, Real, Row, Stateful,
-    Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Given, Point, PointIdx, Quantity,
+    Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 
 /// The points keep their shape: they move, turn and are not mirrored.
@@ -125,6 +125,23 @@ fn hinge_value([p, a, b]: [Point; 3], zeta: Vector) -> Vector {
 
 fn hinge_linear([p, a, b]: [PointIdx; 3], zeta: Vector) -> Linear {
     Linear::new().with_real(p, 1.0).with(a, zeta - Vector::new(1.0, 0.0)).with(b, -zeta)
+}
+
+impl Declared for Rigid {
+    const WORDS: &'static [&'static str] = &["rigid"];
+
+    fn declare(given: &Given) -> Result<Self, Refusal> {
+        let points = &given.groups[0];
+        if let Some(k) = (1..points.len()).find(|&k| points[..k].contains(&points[k])) {
+            return Err(Refusal {
+                message: "a rigid body holds each point once",
+                at: Culprit::Point(0, k),
+                label: "named twice",
+                help: None,
+            });
+        }
+        Ok(Self::new(points, given.x))
+    }
 }
 
 impl ConstraintKind for Rigid {

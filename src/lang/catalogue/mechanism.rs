@@ -1,8 +1,8 @@
-//! The commands that make and change a mechanism.
+//! The commands that make and change a mechanism, its constraints left out.
 
 use super::{Entry, Section};
 
-pub(super) const MECHANISM: &[Entry] = &[
+pub(super) const POINTS: &[Entry] = &[
     Entry {
         keyword: "point",
         section: Section::Points,
@@ -57,134 +57,9 @@ pub(super) const MECHANISM: &[Entry] = &[
         example: "drag A to (3, 4) over 60\n\
              drag A to (3, 4), B to (0, 1) over 60",
     },
-    Entry {
-        keyword: "coordinate",
-        section: Section::Constraints,
-        usage: "coordinate P at POSITION",
-        summary: "a point stays at a place (3.1)",
-        help: "",
-        example: "coordinate A at (3, 4)",
-    },
-    Entry {
-        keyword: "coincidence",
-        section: Section::Constraints,
-        usage: "coincidence P Q",
-        summary: "two points are in one place (3.2)",
-        help: "",
-        example: "coincidence A B",
-    },
-    Entry {
-        keyword: "equivalence",
-        section: Section::Constraints,
-        usage: "equivalence A B, C D",
-        summary: "the vector AB equals the vector CD (3.3)",
-        help: "",
-        example: "equivalence A B, C D",
-    },
-    Entry {
-        keyword: "equal",
-        section: Section::Constraints,
-        usage: "equal A B, C D [RELATION]",
-        summary: "the distances AB and CD are equal (3.4)",
-        help: "With `in a..b`, `<= e` or `>= e` the difference of the two is what is bounded.",
-        example: "equal A B, C D\n\
-             equal A B, C D in -1..1",
-    },
-    Entry {
-        keyword: "length",
-        section: Section::Constraints,
-        usage: "length A B [RELATION]",
-        summary: "the distance of two points (3.5)",
-        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.\n\
-             A cord is `<=`, a telescope `in`; an expression with `time` makes an actuator.",
-        example: "coupler: length B C = 3.5\n\
-             length A B <= 5\n\
-             length A B in 2..5",
-    },
-    Entry {
-        keyword: "orientation",
-        section: Section::Constraints,
-        usage: "orientation A B, C D [RELATION]",
-        summary: "the angle from AB to CD, counter-clockwise positive (3.6)",
-        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.",
-        example: "orientation A B, C D = 90deg",
-    },
-    Entry {
-        keyword: "motor",
-        section: Section::Constraints,
-        usage: "motor O P [radius R] [speed W] [phase PHI]",
-        summary: "P goes round O (3.7)",
-        help: "The parts come in any order. Radius and phase are the present ones unless given.\n\
-             The angle grows by speed times dt each frame, so a change of speed makes no jump.",
-        example: "crank: motor O P radius 1 speed 1rev phase 90deg",
-    },
-    Entry {
-        keyword: "glider",
-        section: Section::Constraints,
-        usage: "glider P on A B [unbounded]",
-        summary: "P slides on the segment AB, or on the whole line (3.8)",
-        help: "",
-        example: "glider P on A B\n\
-             glider P on A B unbounded",
-    },
-    Entry {
-        keyword: "hinge",
-        section: Section::Constraints,
-        usage: "hinge P on A B at RATIO",
-        summary: "P is fixed on the bar AB: P = A + ratio (B - A) (3.9)",
-        help: "",
-        example: "hinge P on A B at 1/3",
-    },
-    Entry {
-        keyword: "cog",
-        section: Section::Constraints,
-        usage: "cog O1 A, O2 B ratio R [inside]",
-        summary: "two wheels roll on each other, R the ratio of their radii (3.10)",
-        help: "A is on the rim of the wheel round O1, B of that round O2; R = r2 / r1.\n\
-             A negative ratio, or `inside`, is for internal contact.",
-        example: "cog O1 A, O2 B ratio 4",
-    },
-    Entry {
-        keyword: "distance",
-        section: Section::Constraints,
-        usage: "distance P to A B [RELATION]",
-        summary: "the distance of P from the line AB, positive on its left",
-        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.",
-        example: "distance P to A B = 2",
-    },
-    Entry {
-        keyword: "parallel",
-        section: Section::Constraints,
-        usage: "parallel A B, C D",
-        summary: "AB and CD have one direction, or opposite ones",
-        help: "The nearest of the two.",
-        example: "parallel A B, C D",
-    },
-    Entry {
-        keyword: "perpendicular",
-        section: Section::Constraints,
-        usage: "perpendicular A B, C D",
-        summary: "AB and CD are at right angles",
-        help: "The nearest of the two senses.",
-        example: "perpendicular A B, C D",
-    },
-    Entry {
-        keyword: "rigid",
-        section: Section::Constraints,
-        usage: "rigid A B C ...",
-        summary: "points keep their present shape",
-        help: "One constraint for all of them.",
-        example: "rigid A B C D",
-    },
-    Entry {
-        keyword: "rack",
-        section: Section::Constraints,
-        usage: "rack O A on P Q",
-        summary: "a wheel rolls along a line without slipping",
-        help: "O is the centre of the wheel and A a point of its rim, or any other point that turns with \
-             it. The radius is the height of O over the line as it stands: where the rim touches.",
-        example: "rack O A on P Q",
-    },
+];
+
+pub(super) const CHANGING: &[Entry] = &[
     Entry {
         keyword: "delete",
         section: Section::Changing,

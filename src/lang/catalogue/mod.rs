@@ -1,8 +1,11 @@
 //! Every command of the language with what `help` says of it.
 
+mod constraints;
 mod mechanism;
 mod session;
 mod topics;
+
+pub use constraints::{ConstraintWord, Pattern, Slot};
 
 /// A command, or a subject that `help` knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +75,8 @@ impl Section {
 
 /// Every command, in the order of the reference.
 pub fn commands() -> impl Iterator<Item = &'static Entry> {
-    mechanism::MECHANISM.iter().chain(session::SESSION)
+    let constraints = ConstraintWord::ALL.iter().map(|word| &word.pattern().entry);
+    mechanism::POINTS.iter().chain(constraints).chain(mechanism::CHANGING).chain(session::SESSION)
 }
 
 /// Every subject that `help` knows besides the commands.
@@ -87,14 +91,21 @@ pub fn entry(word: &str) -> Option<&'static Entry> {
 
 /// The command or subject that says what a word means which begins none.
 pub fn about(word: &str) -> Option<&'static Entry> {
+    let has_part = |of: &&ConstraintWord| {
+        let slots = of.pattern().slots.iter();
+        let mut roles = slots.filter_map(|slot| match slot {
+            Slot::Value(role) | Slot::Flag(role) => Some(role.word()),
+            _ => None,
+        });
+        roles.any(|role| role == word)
+    };
+    if let Some(of) = ConstraintWord::ALL.iter().find(has_part) {
+        return Some(&of.pattern().entry);
+    }
     entry(match word {
         "frozen" => "point",
         "to" | "over" => "drag",
         "all" => "freeze",
-        "radius" | "speed" | "phase" => "motor",
-        "unbounded" => "glider",
-        "at" => "hinge",
-        "ratio" | "inside" => "cog",
         "in" => "relations",
         "cascade" => "delete",
         "within" => "assert",

@@ -1,110 +1,84 @@
 //! From the parts of a constraint's statement to its tree.
 
 use crate::diag::Diagnostic;
-use crate::lang::ast::Constraint;
+use crate::lang::ast::{Constraint, Part, Role};
+use crate::lang::catalogue::ConstraintWord;
+use crate::lang::grammar::Rule;
 
-use super::cursor::Cursor;
-use super::grammar::Rule;
+use super::cursor::{Cursor, Spot};
+use super::errors::refusal;
 
 /// The rule for a constraint's keyword.
 pub(super) fn rule(word: &str) -> Option<Rule> {
-    Some(match word {
-        "coordinate" => Rule::coordinate,
-        "coincidence" => Rule::coincidence,
-        "equivalence" => Rule::equivalence,
-        "equal" => Rule::equal,
-        "length" => Rule::length,
-        "orientation" => Rule::orientation,
-        "motor" => Rule::motor,
-        "glider" => Rule::glider,
-        "hinge" => Rule::hinge,
-        "cog" => Rule::cog,
-        "distance" => Rule::distance,
-        "parallel" => Rule::parallel,
-        "perpendicular" => Rule::perpendicular,
-        "rigid" => Rule::rigid,
-        "rack" => Rule::rack,
-        _ => return None,
-    })
+    ConstraintWord::named(word).map(|word| word.pattern().rule)
 }
 
 /// The constraint whose statement `rule` has read; nothing if the rule is another's.
 pub(super) fn lower(rule: Rule, c: &mut Cursor) -> Option<Result<Constraint, Diagnostic>> {
-    let constraint = match rule {
-        Rule::coordinate => coordinate(c),
-        Rule::coincidence => c.pair().map(Constraint::Coincidence),
-        Rule::equivalence => equivalence(c),
-        Rule::equal => equal(c),
-        Rule::length => length(c),
-        Rule::orientation => orientation(c),
-        Rule::motor => motor(c),
-        Rule::glider => glider(c),
-        Rule::hinge => hinge(c),
-        Rule::cog => cog(c),
-        Rule::distance => distance(c),
-        Rule::parallel => parallel(c),
-        Rule::perpendicular => perpendicular(c),
-        Rule::rigid => c.names().map(Constraint::Rigid),
-        Rule::rack => rack(c),
+    let word = ConstraintWord::ALL.iter().copied().find(|word| word.pattern().rule == rule)?;
+    let parts =
+        parts(c, |first, second| refusal::twice(second.word, first.word_span, second.word_span));
+    Some(parts.map(|mut parts| {
+        parts.sort_by_key(Part::rank);
+        Constraint { word, parts }
+    }))
+}
+
+/// All parts that follow, in their order; `refuse` says what is wrong with two of one sort.
+pub(super) fn parts<'a>(
+    c: &mut Cursor<'a>,
+    refuse: impl Fn(&Spot<'a>, &Spot<'a>) -> Diagnostic,
+) -> Result<Vec<Part>, Diagnostic> {
+    let mut parts = Vec::new();
+    let mut seen: Vec<Spot> = Vec::new();
+    while let Some(rule) = c.peek() {
+        match rule {
+            Rule::name => parts.push(Part::Points(c.names()?)),
+            Rule::pair => {
+                let pair = c.pair()?;
+                parts.push(Part::Points(vec![pair.from, pair.to]));
+            }
+            _ => {
+                let spot = c.spot(rule);
+                if let Some(first) = seen.iter().find(|known| known.rule == rule) {
+                    return Err(refuse(first, &spot));
+                }
+                seen.push(spot);
+                parts.push(part(rule, c)?);
+            }
+        }
+    }
+    Ok(parts)
+}
+
+/// The part that `rule` has read: a line, a relation, a value or a mere word.
+fn part(rule: Rule, c: &mut Cursor) -> Result<Part, Diagnostic> {
+    if rule == Rule::relation {
+        let relation = c.relation_if_any()?;
+        return Ok(Part::Relation(relation.expect("it is the next thing")));
+    }
+    let role = role(rule).unwrap_or_else(|| panic!("{rule:?} is no part of a constraint"));
+    let read = c.take(rule).expect("it is the next thing");
+    let mut inner = c.within(read);
+    Ok(match inner.peek() {
+        Some(Rule::pair) => Part::Line(role, inner.pair()?),
+        Some(_) => Part::Value(role, inner.expr()?),
+        None => Part::Flag(role),
+    })
+}
+
+/// What a part is for, by its rule.
+pub(super) fn role(rule: Rule) -> Option<Role> {
+    Some(match rule {
+        Rule::on_line => Role::On,
+        Rule::to_line => Role::To,
+        Rule::radius => Role::Radius,
+        Rule::speed => Role::Speed,
+        Rule::phase => Role::Phase,
+        Rule::at => Role::At,
+        Rule::ratio => Role::Ratio,
+        Rule::kw_inside => Role::Inside,
+        Rule::kw_unbounded => Role::Unbounded,
         _ => return None,
-    };
-    Some(constraint)
-}
-
-type Lowered = Result<Constraint, Diagnostic>;
-
-fn coordinate(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Coordinate { point: c.name()?, at: c.expr()? })
-}
-
-fn equivalence(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Equivalence(c.pair()?, c.pair()?))
-}
-
-fn equal(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Equal(c.pair()?, c.pair()?, c.relation_if_any()?))
-}
-
-fn length(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Length(c.pair()?, c.relation_if_any()?))
-}
-
-fn orientation(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Orientation(c.pair()?, c.pair()?, c.relation_if_any()?))
-}
-
-fn motor(c: &mut Cursor) -> Lowered {
-    let arm = c.pair()?;
-    let [radius, speed, phase] = c.clauses([Rule::radius, Rule::speed, Rule::phase])?;
-    Ok(Constraint::Motor { arm, radius, speed, phase })
-}
-
-fn glider(c: &mut Cursor) -> Lowered {
-    let (point, on) = (c.name()?, c.pair()?);
-    Ok(Constraint::Glider { point, on, unbounded: c.flag(Rule::kw_unbounded) })
-}
-
-fn hinge(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Hinge { point: c.name()?, on: c.pair()?, at: c.expr()? })
-}
-
-fn cog(c: &mut Cursor) -> Lowered {
-    let (first, second, ratio) = (c.pair()?, c.pair()?, c.expr()?);
-    Ok(Constraint::Cog { first, second, ratio, inside: c.flag(Rule::kw_inside) })
-}
-
-fn distance(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Distance { point: c.name()?, line: c.pair()?, relation: c.relation_if_any()? })
-}
-
-fn parallel(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Parallel(c.pair()?, c.pair()?))
-}
-
-fn perpendicular(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Perpendicular(c.pair()?, c.pair()?))
-}
-
-fn rack(c: &mut Cursor) -> Lowered {
-    Ok(Constraint::Rack { wheel: c.pair()?, on: c.pair()? })
+    })
 }

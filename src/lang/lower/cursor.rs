@@ -12,7 +12,7 @@ use crate::lang::ast::{
 use super::Reader;
 use super::errors::refusal;
 use super::expr::{MAX_DEPTH, Tree, lower_expr};
-use super::grammar::Rule;
+use crate::lang::grammar::Rule;
 
 /// A position in the parts of a statement.
 pub(super) struct Cursor<'a> {
@@ -21,6 +21,15 @@ pub(super) struct Cursor<'a> {
     base: usize,
     end: usize,
     pairs: Pairs<'a, Rule>,
+}
+
+/// Where a part of a statement stands.
+pub(super) struct Spot<'a> {
+    pub rule: Rule,
+    /// The word it begins with.
+    pub word: &'a str,
+    pub word_span: Span,
+    pub span: Span,
 }
 
 type Result<T> = std::result::Result<T, Diagnostic>;
@@ -62,6 +71,14 @@ impl<'a> Cursor<'a> {
     pub fn peek_span(&mut self) -> Option<(Rule, Span)> {
         let rule = self.peek()?;
         self.pairs.peek().map(|pair| (rule, self.span(&pair)))
+    }
+
+    /// Where the next thing is, which `rule` has read.
+    pub fn spot(&mut self, rule: Rule) -> Spot<'a> {
+        let part = self.pairs.peek().expect("there is a next thing");
+        let word = part.clone().into_inner().next().unwrap_or_else(|| part.clone());
+        let (span, word_span) = (self.span(&part), self.span(&word));
+        Spot { rule, word: word.as_str(), word_span, span }
     }
 
     /// Passes over the first word of a statement.

@@ -8,7 +8,7 @@ use crate::lang::ast::{Axis, BinaryOp, Expr, Function, Node, Number, Unit};
 use super::cursor::Cursor;
 use super::errors::mistake::brief;
 use super::errors::refusal;
-use super::grammar::Rule;
+use crate::lang::grammar::Rule;
 
 /// The deepest tree: whatever walks over one calls itself this often at most, and a chain
 /// of operators has at most as many.

@@ -1,4 +1,4 @@
-//! Text to trees: the only folder that names pest.
+//! Text to trees: the only folder that names what pest has read.
 //!
 //! [`parse`] cuts the text into statements (see `layout`), looks at the first word of each,
 //! lets pest read it with the rule of that verb, and turns pest's pairs into the tree. Each
@@ -21,19 +21,9 @@ use pest::Parser;
 use crate::diag::{Diagnostic, SourceId, Span};
 
 use super::ast::{Body, Statement};
+use super::grammar::{LinkworkParser, Rule};
 use super::layout::{Flaw, Layout, Piece};
 use cursor::Cursor;
-use grammar::{LinkworkParser, Rule};
-
-/// What pest derives from the grammar; its items cannot carry documentation.
-mod grammar {
-    #![allow(missing_docs)]
-
-    /// The parser of `grammar/linkwork.pest`.
-    #[derive(pest_derive::Parser)]
-    #[grammar = "../grammar/linkwork.pest"]
-    pub struct LinkworkParser;
-}
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///

@@ -7,8 +7,8 @@ use crate::lang::ast::Name;
 use crate::lang::catalogue;
 
 use super::errors::mistake::brief;
-use super::grammar::Rule;
 use super::{Reader, constraint, verb};
+use crate::lang::grammar::Rule;
 
 /// What stands in front of a verb.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! What the law tests cannot tell: which tree a text gives, and where its parts lie.
 
 use crate::diag::{SourceId, Sources, Span};
-use crate::lang::ast::{Command, Constraint, Node, Statement};
+use crate::lang::ast::{Command, Node, Part, Relation, Statement};
 use crate::lang::{is_incomplete, parse};
 
 /// The canonical form of each statement of `text`, or its mistake.
@@ -130,13 +130,14 @@ fn spans_point_at_the_text() {
     assert_eq!(at(statement.span), "bar :  length  p[i-1] q.B = (1+2).x");
     let Command::Constrain(decl) = &statement.command else { panic!("a constraint") };
     assert_eq!(at(decl.label.as_ref().expect("a label").span), "bar");
-    let Constraint::Length(pair, Some(crate::lang::ast::Relation::Equal(value))) = &decl.constraint
+    let [Part::Points(points), Part::Relation(Relation::Equal(value))] = &*decl.constraint.parts
     else {
         panic!("a length")
     };
-    assert_eq!(at(pair.from.span), "p[i-1]");
-    assert_eq!(at(pair.from.parts[0].span), "[i-1]");
-    assert_eq!(at(pair.to.parts[0].span), ".B");
+    let [from, to] = &**points else { panic!("two points") };
+    assert_eq!(at(from.span), "p[i-1]");
+    assert_eq!(at(from.parts[0].span), "[i-1]");
+    assert_eq!(at(to.parts[0].span), ".B");
     assert_eq!(at(value.span), "(1+2).x");
     let Node::Component(sum, _) = &value.node else { panic!("a component") };
     assert_eq!(at(sum.span), "(1+2)");

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{
-    Binding, Body, ChangePart, Command, ConstraintDecl, Definition, DragTarget, Expose, Ident,
-    ListWhat, Name, PlotPart, PointDecl, PrintItem, Relation,
+    Binding, Body, Command, ConstraintDecl, Definition, DragTarget, Expose, Ident, ListWhat, Name,
+    Part, PlotPart, PointDecl, PrintItem, Relation,
 };
 
 use super::constraint;
 use super::cursor::Cursor;
 use super::errors::refusal;
-use super::grammar::Rule;
+use crate::lang::grammar::Rule;
 
 /// The rule that reads statements beginning with `word`.
 pub(super) fn rule(word: &str) -> Option<Rule> {
@@ -173,38 +173,8 @@ fn relation(c: &mut Cursor) -> Result<Relation, Diagnostic> {
     Ok(relation.expect("the grammar has a relation here"))
 }
 
-fn change_parts(c: &mut Cursor) -> Result<Vec<ChangePart>, Diagnostic> {
-    let mut parts = Vec::new();
-    let mut seen: Vec<(Rule, Span)> = Vec::new();
-    while let Some((rule, span)) = c.peek_span() {
-        if let Some((_, first)) = seen.iter().find(|(known, _)| *known == rule) {
-            return Err(refusal::part_twice(*first, span));
-        }
-        seen.push((rule, span));
-        parts.push(match rule {
-            Rule::relation => ChangePart::Relation(relation(c)?),
-            Rule::kw_inside | Rule::kw_unbounded => {
-                c.next();
-                if rule == Rule::kw_inside { ChangePart::Inside } else { ChangePart::Unbounded }
-            }
-            Rule::on_line | Rule::to_line => {
-                let part = c.take(rule).expect("it is the next thing");
-                let line = c.within(part).pair()?;
-                if rule == Rule::on_line { ChangePart::On(line) } else { ChangePart::To(line) }
-            }
-            _ => {
-                let value = c.clause(rule)?.expect("the grammar has a clause here");
-                match rule {
-                    Rule::radius => ChangePart::Radius(value),
-                    Rule::speed => ChangePart::Speed(value),
-                    Rule::phase => ChangePart::Phase(value),
-                    Rule::at => ChangePart::At(value),
-                    _ => ChangePart::Ratio(value),
-                }
-            }
-        });
-    }
-    Ok(parts)
+fn change_parts(c: &mut Cursor) -> Result<Vec<Part>, Diagnostic> {
+    constraint::parts(c, |first, second| refusal::part_twice(first.span, second.span))
 }
 
 fn set(c: &mut Cursor) -> Result<Command, Diagnostic> {

@@ -2,49 +2,38 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{Clause, Names};
-use crate::lang::ast::{Constraint, Pair};
+use super::Names;
+use crate::lang::ast::{Constraint, Pair, Part};
+
+impl Display for Constraint {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(self.word.pattern().entry.keyword)?;
+        let mut is_behind_points = false;
+        for part in &self.parts {
+            // Points behind points are another group of them.
+            let is_points = matches!(part, Part::Points(_));
+            let gap = if is_behind_points && is_points { ", " } else { " " };
+            is_behind_points = is_points;
+            write!(f, "{gap}{part}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Part {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Points(names) => write!(f, "{}", Names { names, stop: "" }),
+            Self::Line(role, points) => write!(f, "{} {points}", role.word()),
+            Self::Relation(relation) => write!(f, "{relation}"),
+            Self::Value(role, value) => write!(f, "{} {value}", role.word()),
+            Self::Flag(role) => f.write_str(role.word()),
+        }
+    }
+}
 
 impl Display for Pair {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         write!(f, "{} {}", self.from, self.to)
-    }
-}
-
-impl Display for Constraint {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Coordinate { point, at } => write!(f, "coordinate {point} at {at}"),
-            Self::Coincidence(points) => write!(f, "coincidence {points}"),
-            Self::Equivalence(a, b) => write!(f, "equivalence {a}, {b}"),
-            Self::Equal(a, b, relation) => {
-                write!(f, "equal {a}, {b}{}", Clause(" ", relation))
-            }
-            Self::Length(points, relation) => {
-                write!(f, "length {points}{}", Clause(" ", relation))
-            }
-            Self::Orientation(a, b, relation) => {
-                write!(f, "orientation {a}, {b}{}", Clause(" ", relation))
-            }
-            Self::Motor { arm, radius, speed, phase } => {
-                write!(f, "motor {arm}{}", Clause(" radius ", radius))?;
-                write!(f, "{}{}", Clause(" speed ", speed), Clause(" phase ", phase))
-            }
-            Self::Glider { point, on, unbounded } => {
-                write!(f, "glider {point} on {on}{}", if *unbounded { " unbounded" } else { "" })
-            }
-            Self::Hinge { point, on, at } => write!(f, "hinge {point} on {on} at {at}"),
-            Self::Cog { first, second, ratio, inside } => {
-                let inside = if *inside { " inside" } else { "" };
-                write!(f, "cog {first}, {second} ratio {ratio}{inside}")
-            }
-            Self::Distance { point, line, relation } => {
-                write!(f, "distance {point} to {line}{}", Clause(" ", relation))
-            }
-            Self::Parallel(a, b) => write!(f, "parallel {a}, {b}"),
-            Self::Perpendicular(a, b) => write!(f, "perpendicular {a}, {b}"),
-            Self::Rigid(names) => write!(f, "rigid {}", Names { names, stop: "" }),
-            Self::Rack { wheel, on } => write!(f, "rack {wheel} on {on}"),
-        }
     }
 }

@@ -6,8 +6,8 @@ mod constraint;
 mod expr;
 
 use super::ast::{
-    Binding, ChangePart, Command, ConstraintDecl, Definition, DragTarget, Expose, Expr, Ident,
-    Name, PlotPart, PointDecl, PrintItem, Promise, Range, Relation, Selection, Statement, Text,
+    Binding, Command, ConstraintDecl, Definition, DragTarget, Expose, Expr, Ident, Name, PlotPart,
+    PointDecl, PrintItem, Promise, Range, Relation, Selection, Statement, Text,
 };
 use super::expr::Node;
 
@@ -224,23 +224,6 @@ impl Display for Relation {
             Self::Greater(value) => write!(f, "> {value}"),
             Self::GreaterEqual(value) => write!(f, ">= {value}"),
             Self::In(range) => write!(f, "in {range}"),
-        }
-    }
-}
-
-impl Display for ChangePart {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Relation(relation) => write!(f, "{relation}"),
-            Self::Radius(value) => write!(f, "radius {value}"),
-            Self::Speed(value) => write!(f, "speed {value}"),
-            Self::Phase(value) => write!(f, "phase {value}"),
-            Self::At(value) => write!(f, "at {value}"),
-            Self::Ratio(value) => write!(f, "ratio {value}"),
-            Self::Inside => f.write_str("inside"),
-            Self::Unbounded => f.write_str("unbounded"),
-            Self::On(line) => write!(f, "on {line}"),
-            Self::To(line) => write!(f, "to {line}"),
         }
     }
 }

@@ -1,12 +1,13 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
-use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind, Period};
+use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind};
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
-use crate::lang::ast::{ChangePart, Command, Name};
+use crate::lang::ast::{Command, Name, Part};
 use crate::mobility::{
     Analysis, Conflict, Directions, PoseClass, analyse, conflict_with, freedom, repair,
 };
 use crate::session::execution::Execution;
+use crate::session::resolve::said::pattern_of;
 use crate::session::resolve::unbind::{Unbind, named, text_of};
 use crate::session::settled::Settled;
 use crate::session::state::State;
@@ -298,7 +299,7 @@ impl Settled {
         let bounds =
             Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
         let parts =
-            vec![ChangePart::Relation(Unbind::of(&self.world).relation(&record, bounds, is_angle))];
+            vec![Part::Relation(Unbind::of(&self.world).relation(&record, bounds, is_angle))];
         let command = text_of(&Command::Change { name: named(&name), parts });
         // A radian counts as the length of what hangs together.
         let effort = if is_angle { change.abs() * self.size() } else { change.abs() };
@@ -352,13 +353,7 @@ struct Mend {
 /// Which values of a constraint a user can change to make up for a residual; none for what has
 /// no value.
 fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field]> {
-    let bounds = match constraint {
-        Constraint::Length(c) => c.bounds,
-        Constraint::Distance(c) => c.bounds,
-        Constraint::Equal(c) => c.bounds,
-        Constraint::Orientation(c) if c.period == Period::Whole => c.bounds,
-        _ => return None,
-    };
+    let bounds = constraint.traits().bounds.filter(|_| pattern_of(constraint).has_relation())?;
     Some(move |change: f64| -> &'static [Field] {
         if bounds.is_equality() {
             &[Field::Lo, Field::Hi]

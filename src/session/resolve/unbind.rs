@@ -1,15 +1,17 @@
 //! The statement that would make a thing as it is now: for `list`, `show` and `save`.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
+use super::said::{Said, field_of, flag_of, word_of};
 use crate::constraint::geometry::wrap;
-use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Period, PointIdx};
+use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, PointIdx, Quantity};
 use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
     Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
-    Name, Node as Syntax, Pair, Range, Relation, Text,
+    Name, Node as Syntax, Pair, Part, Range, Relation, Text,
 };
+use crate::lang::catalogue::Slot;
 use crate::world::{
     ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record, World,
 };
@@ -63,10 +65,6 @@ impl<'a> Unbind<'a> {
         named(self.world.points().name(PointId(p)))
     }
 
-    fn pair_of(&self, from: PointIdx, to: PointIdx) -> Pair {
-        Pair { from: self.point_name(from), to: self.point_name(to) }
-    }
-
     /// The expression behind a value of a constraint: what drives it, or the number itself.
     fn field(&self, record: &Record, field: Field, value: f64) -> Expr {
         record.driver(field).map_or_else(|| literal(value), |formula| self.unbind(formula))
@@ -97,102 +95,48 @@ impl<'a> Unbind<'a> {
 
     /// The statement of a constraint, with its name in front.
     pub(crate) fn constraint_statement(&self, record: &Record) -> Command {
-        let number =
-            |field| self.field(record, field, record.constraint.get(field).unwrap_or_default());
-        let constraint = match &record.constraint {
-            Constraint::Coordinate(c) => Stated::Coordinate {
-                point: self.point_name(c.points[0]),
-                at: match record.driver(Field::X) {
-                    Some(formula) => self.unbind(formula),
-                    None => vector(c.target.x, c.target.y),
-                },
-            },
-            Constraint::Coincidence(c) => {
-                let [a, b] = c.points;
-                Stated::Coincidence(self.pair_of(a, b))
-            }
-            Constraint::Equivalence(c) => {
-                let [a, b, p, q] = c.points;
-                Stated::Equivalence(self.pair_of(a, b), self.pair_of(p, q))
-            }
-            Constraint::Equal(c) => {
-                let [a, b, p, q] = c.points;
-                let is_plain = c.bounds == Bounds::exactly(0.0) && record.drivers().is_empty();
-                let relation = (!is_plain).then(|| self.relation(record, c.bounds, false));
-                Stated::Equal(self.pair_of(a, b), self.pair_of(p, q), relation)
-            }
-            Constraint::Length(c) => {
-                let [a, b] = c.points;
-                Stated::Length(self.pair_of(a, b), Some(self.relation(record, c.bounds, false)))
-            }
-            Constraint::Orientation(c) => {
-                let [a, b, p, q] = c.points;
-                let (one, other) = (self.pair_of(a, b), self.pair_of(p, q));
-                match c.period {
-                    Period::Half if c.bounds == Bounds::exactly(FRAC_PI_2) => {
-                        Stated::Perpendicular(one, other)
-                    }
-                    Period::Half => Stated::Parallel(one, other),
-                    Period::Whole => {
-                        let relation = self.relation(record, c.bounds, true);
-                        Stated::Orientation(one, other, Some(relation))
-                    }
+        let word = word_of(&record.constraint);
+        let mut groups = Said::of(&record.constraint).groups.into_iter();
+        let mut names = || groups.next().into_iter().flatten().map(|p| self.point_name(p));
+        let slots = word.pattern().slots.iter();
+        let parts = slots.filter_map(|slot| {
+            Some(match *slot {
+                Slot::Points(_) | Slot::AllPoints => Part::Points(names().collect()),
+                Slot::Line(role) => {
+                    let mut ends = names();
+                    Part::Line(role, Pair { from: ends.next()?, to: ends.next()? })
                 }
-            }
-            Constraint::Motor(c) => {
-                let [o, p] = c.points;
-                Stated::Motor {
-                    arm: self.pair_of(o, p),
-                    radius: Some(number(Field::Radius)),
-                    speed: Some(number(Field::Speed)),
-                    phase: Some(number(Field::Phase)),
+                Slot::Relation { default } => {
+                    Part::Relation(self.relation_if_needed(record, default)?)
                 }
-            }
-            Constraint::Glider(c) => {
-                let [p, a, b] = c.points;
-                Stated::Glider {
-                    point: self.point_name(p),
-                    on: self.pair_of(a, b),
-                    unbounded: !c.bounded,
+                Slot::Value(role) => Part::Value(role, self.value_of(record, field_of(role))),
+                Slot::Place(role) => {
+                    let [x, y] = [Field::X, Field::Y].map(|field| record.constraint.get(field));
+                    let driver = record.driver(Field::X).map(|formula| self.unbind(formula));
+                    Part::Value(role, driver.or_else(|| Some(vector(x?, y?)))?)
                 }
-            }
-            Constraint::Hinge(c) => {
-                let [p, a, b] = c.points;
-                Stated::Hinge {
-                    point: self.point_name(p),
-                    on: self.pair_of(a, b),
-                    at: number(Field::Ratio),
+                Slot::Flag(role) => {
+                    let flags = record.constraint.traits().flags;
+                    return flags.contains(&flag_of(role)).then_some(Part::Flag(role));
                 }
-            }
-            Constraint::Cog(_) | Constraint::CogVelocity(_) => {
-                let points = record.constraint.points();
-                let (first, second) = (&points[..2], &points[2..]);
-                Stated::Cog {
-                    first: self.pair_of(first[0], first[1]),
-                    second: self.pair_of(second[0], second[1]),
-                    ratio: number(Field::Ratio),
-                    inside: false,
-                }
-            }
-            Constraint::Distance(c) => {
-                let [p, a, b] = c.points;
-                Stated::Distance {
-                    point: self.point_name(p),
-                    line: self.pair_of(a, b),
-                    relation: Some(self.relation(record, c.bounds, false)),
-                }
-            }
-            Constraint::Rigid(_) => {
-                let points = record.constraint.points();
-                Stated::Rigid(points.iter().map(|&p| self.point_name(p)).collect())
-            }
-            Constraint::Rack(c) => {
-                let [o, a, p, q] = c.points;
-                Stated::Rack { wheel: self.pair_of(o, a), on: self.pair_of(p, q) }
-            }
-        };
+            })
+        });
+        let constraint = Stated { word, parts: parts.collect() };
         let label = Some(named(&record.name));
         Command::Constrain(Box::new(ConstraintDecl { label, constraint }))
+    }
+
+    fn value_of(&self, record: &Record, field: Field) -> Expr {
+        self.field(record, field, record.constraint.get(field).unwrap_or_default())
+    }
+
+    /// The relation of a statement, but where it would be the same without.
+    fn relation_if_needed(&self, record: &Record, default: Option<f64>) -> Option<Relation> {
+        let traits = record.constraint.traits();
+        let bounds = traits.bounds?;
+        let is_meant = default.map(Bounds::exactly) == Some(bounds) && record.drivers().is_empty();
+        let is_angle = traits.quantity == Quantity::Angle;
+        (!is_meant).then(|| self.relation(record, bounds, is_angle))
     }
 
     pub(crate) fn constraint_text(&self, record: &Record) -> String {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use linkwork::diag::{SourceId, Span};
 use linkwork::lang::ast::*;
+use linkwork::lang::catalogue::Slot;
 use proptest::collection::vec;
 use proptest::option::of;
 use proptest::prelude::*;
@@ -77,42 +78,35 @@ fn constraint_decl() -> BoxedStrategy<ConstraintDecl> {
         .boxed()
 }
 
+/// Any of them, each part that may be left out there or not.
 fn constraint() -> BoxedStrategy<Constraint> {
-    use Constraint as C;
-    let flag = any::<bool>;
-    prop_oneof![
-        (name(), expr()).prop_map(|(point, at)| C::Coordinate { point, at }),
-        pair().prop_map(C::Coincidence),
-        (pair(), pair()).prop_map(|(a, b)| C::Equivalence(a, b)),
-        (pair(), pair(), of(relation())).prop_map(|(a, b, relation)| C::Equal(a, b, relation)),
-        (pair(), of(relation())).prop_map(|(a, relation)| C::Length(a, relation)),
-        (pair(), pair(), of(relation()))
-            .prop_map(|(a, b, relation)| C::Orientation(a, b, relation)),
-        (pair(), of(expr()), of(expr()), of(expr()))
-            .prop_map(|(arm, radius, speed, phase)| C::Motor { arm, radius, speed, phase }),
-        (name(), pair(), flag()).prop_map(|(point, on, unbounded)| C::Glider {
-            point,
-            on,
-            unbounded
-        }),
-        (name(), pair(), expr()).prop_map(|(point, on, at)| C::Hinge { point, on, at }),
-        (pair(), pair(), expr(), flag()).prop_map(|(first, second, ratio, inside)| C::Cog {
-            first,
-            second,
-            ratio,
-            inside
-        }),
-        (name(), pair(), of(relation())).prop_map(|(point, line, relation)| C::Distance {
-            point,
-            line,
-            relation
-        }),
-        (pair(), pair()).prop_map(|(a, b)| C::Parallel(a, b)),
-        (pair(), pair()).prop_map(|(a, b)| C::Perpendicular(a, b)),
-        vec(name(), 2..5).prop_map(C::Rigid),
-        (pair(), pair()).prop_map(|(wheel, on)| C::Rack { wheel, on }),
-    ]
-    .boxed()
+    let parts = |word: ConstraintWord| {
+        let slots = word.pattern().slots.iter().map(|&slot| slot_part(word, slot));
+        slots.collect::<Vec<_>>().prop_map(move |parts| Constraint {
+            word,
+            parts: parts.into_iter().flatten().collect(),
+        })
+    };
+    select(ConstraintWord::ALL).prop_flat_map(parts).boxed()
+}
+
+/// What may stand in a slot of a statement.
+fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
+    match slot {
+        Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
+        Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
+        Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
+        Slot::Relation { .. } => of(relation()).prop_map(|of| of.map(Part::Relation)).boxed(),
+        Slot::Value(role) if word == ConstraintWord::Motor => {
+            of(expr()).prop_map(move |value| Some(Part::Value(role, value?))).boxed()
+        }
+        Slot::Value(role) | Slot::Place(role) => {
+            expr().prop_map(move |value| Some(Part::Value(role, value))).boxed()
+        }
+        Slot::Flag(role) => {
+            any::<bool>().prop_map(move |is_said| is_said.then_some(Part::Flag(role))).boxed()
+        }
+    }
 }
 
 fn changing() -> BoxedStrategy<Command> {
@@ -136,22 +130,15 @@ fn changing() -> BoxedStrategy<Command> {
 }
 
 /// Each sort of part at most once, one at least.
-fn change_parts() -> BoxedStrategy<Vec<ChangePart>> {
+fn change_parts() -> BoxedStrategy<Vec<Part>> {
     let all =
-        (relation(), vec(expr(), 5), pair(), pair()).prop_map(|(relation, mut values, on, to)| {
-            let mut value = || values.pop().expect("five values");
-            std::vec![
-                ChangePart::Relation(relation),
-                ChangePart::Radius(value()),
-                ChangePart::Speed(value()),
-                ChangePart::Phase(value()),
-                ChangePart::At(value()),
-                ChangePart::Ratio(value()),
-                ChangePart::Inside,
-                ChangePart::Unbounded,
-                ChangePart::On(on),
-                ChangePart::To(to),
-            ]
+        (relation(), vec(expr(), 5), pair(), pair()).prop_map(|(relation, values, on, to)| {
+            let roles = [Role::Radius, Role::Speed, Role::Phase, Role::At, Role::Ratio];
+            let values = roles.into_iter().zip(values).map(|(role, e)| Part::Value(role, e));
+            let flags = [Role::Inside, Role::Unbounded].map(Part::Flag);
+            let lines = [Part::Line(Role::On, on), Part::Line(Role::To, to)];
+            let relation = [Part::Relation(relation)];
+            relation.into_iter().chain(values).chain(flags).chain(lines).collect::<Vec<_>>()
         });
     all.prop_shuffle().prop_flat_map(|all| proptest::sample::subsequence(all, 1..=3)).boxed()
 }

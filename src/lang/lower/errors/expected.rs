@@ -4,8 +4,9 @@ use std::fmt;
 
 use crate::diag::nearest;
 
+use crate::lang::ast::Role;
+use crate::lang::grammar::Rule;
 use crate::lang::lower::constraint;
-use crate::lang::lower::grammar::Rule;
 
 /// What a command that names a file expects.
 pub(crate) const PATH: &str = "a path in quotes";
@@ -153,20 +154,13 @@ fn token(rule: Rule) -> Option<&'static str> {
 /// The word of a keyword's rule, or the one that a clause begins with.
 fn keyword(rule: Rule) -> Option<&'static str> {
     Some(match rule {
-        Rule::radius | Rule::kw_radius => "radius",
-        Rule::speed | Rule::kw_speed => "speed",
-        Rule::phase | Rule::kw_phase => "phase",
-        Rule::at | Rule::kw_at => "at",
-        Rule::ratio | Rule::kw_ratio => "ratio",
         Rule::every | Rule::kw_every => "every",
         Rule::within | Rule::kw_within => "within",
         Rule::in_time | Rule::kw_in => "in",
         Rule::kw_frozen => "frozen",
-        Rule::to_line | Rule::kw_to => "to",
+        Rule::kw_to => "to",
         Rule::kw_over => "over",
-        Rule::on_line | Rule::kw_on => "on",
-        Rule::kw_unbounded => "unbounded",
-        Rule::kw_inside => "inside",
+        Rule::kw_on => "on",
         Rule::kw_cascade => "cascade",
         Rule::kw_for => "for",
         Rule::kw_stop => "stop",
@@ -178,6 +172,11 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::title | Rule::kw_title => "title",
         Rule::x_label | Rule::kw_x => "x",
         Rule::y_label | Rule::kw_y => "y",
-        _ => return None,
+        Rule::kw_radius => "radius",
+        Rule::kw_speed => "speed",
+        Rule::kw_phase => "phase",
+        Rule::kw_at => "at",
+        Rule::kw_ratio => "ratio",
+        _ => return constraint::role(rule).map(Role::word),
     })
 }

@@ -11,7 +11,7 @@ use crate::lang::catalogue;
 
 use super::expected::{Expected, PATH};
 use super::refusal;
-use crate::lang::lower::grammar::Rule;
+use crate::lang::grammar::Rule;
 use crate::lang::lower::prefix::{first_word, is_word_char};
 use crate::lang::lower::{Reader, verb};
 

@@ -1,0 +1,250 @@
+//! The constraints of the language: a row says all of the statement of one but its rule.
+
+use super::{Entry, Section};
+use crate::lang::constraint::{Part, Role};
+use crate::lang::grammar::Rule;
+
+/// How the statement of a constraint is written.
+#[derive(Debug)]
+pub struct Pattern {
+    /// Its parts, in canonical order. All but points can be changed.
+    pub slots: &'static [Slot],
+    /// What `change` can change, for a message.
+    pub takes: &'static str,
+    /// What `help` says of it.
+    pub entry: Entry,
+    /// The rule that reads it.
+    pub(in crate::lang) rule: Rule,
+}
+
+/// A part of a statement, as it is written and what it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Slot {
+    /// So many points in a row.
+    Points(usize),
+    /// All the points there are.
+    AllPoints,
+    /// Two points of a line.
+    Line(Role),
+    /// What holds for the measured value: without one the present value is kept, or this one.
+    Relation {
+        /// The value that is meant where none is given.
+        default: Option<f64>,
+    },
+    /// A number.
+    Value(Role),
+    /// A vector.
+    Place(Role),
+    /// A word alone.
+    Flag(Role),
+}
+
+impl Pattern {
+    /// The slot that a part goes into, if there is one.
+    pub fn slot(&self, part: &Part) -> Option<Slot> {
+        let fits = |slot: &&Slot| match (slot, part) {
+            (Slot::Relation { .. }, Part::Relation(_)) => true,
+            (Slot::Line(role), Part::Line(given, _))
+            | (Slot::Value(role) | Slot::Place(role), Part::Value(given, _))
+            | (Slot::Flag(role), Part::Flag(given)) => role == given,
+            // Where on a bar a point is can be called a ratio too.
+            _ => matches!((slot, part), (Slot::Value(Role::At), Part::Value(Role::Ratio, _))),
+        };
+        self.slots.iter().find(fits).copied()
+    }
+
+    /// Whether its statement can say what holds for the measured value.
+    pub fn has_relation(&self) -> bool {
+        self.slots.iter().any(|slot| matches!(slot, Slot::Relation { .. }))
+    }
+}
+
+macro_rules! constraints {
+    ($($Word:ident $rule:ident {
+        slots: $slots:expr,
+        takes: $takes:expr,
+        usage: $usage:expr,
+        summary: $summary:expr,
+        help: $help:expr,
+        example: $example:expr,
+    })*) => {
+        /// The words that state a constraint.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum ConstraintWord {
+            $(
+                #[doc = concat!("`", $usage, "`")]
+                $Word,
+            )*
+        }
+
+        impl ConstraintWord {
+            /// All of them, in the order of the reference.
+            pub const ALL: &'static [Self] = &[$(Self::$Word),*];
+
+            /// The one that is written so.
+            pub fn named(word: &str) -> Option<Self> {
+                match word {
+                    $(stringify!($rule) => Some(Self::$Word),)*
+                    _ => None,
+                }
+            }
+
+            /// How its statement is written.
+            pub const fn pattern(self) -> &'static Pattern {
+                match self {
+                    $(Self::$Word => &Pattern {
+                        slots: &$slots,
+                        takes: $takes,
+                        rule: Rule::$rule,
+                        entry: Entry {
+                            keyword: stringify!($rule),
+                            section: Section::Constraints,
+                            usage: $usage,
+                            summary: $summary,
+                            help: $help,
+                            example: $example,
+                        },
+                    },)*
+                }
+            }
+        }
+    };
+}
+
+use Slot::{AllPoints, Flag, Line, Place, Points, Relation, Value};
+
+/// What is said of one that is points and nothing else.
+const NOTHING: &str = "this constraint has no part that can be changed";
+
+// Each with the rule that reads it, which is called like its word. A new constraint is one more
+// row.
+constraints! {
+    Coordinate coordinate {
+        slots: [Points(1), Place(Role::At)],
+        takes: "a coordinate takes `at (x, y)`",
+        usage: "coordinate P at POSITION",
+        summary: "a point stays at a place (3.1)",
+        help: "",
+        example: "coordinate A at (3, 4)",
+    }
+    Coincidence coincidence {
+        slots: [Points(2)],
+        takes: NOTHING,
+        usage: "coincidence P Q",
+        summary: "two points are in one place (3.2)",
+        help: "",
+        example: "coincidence A B",
+    }
+    Equivalence equivalence {
+        slots: [Points(2), Points(2)],
+        takes: NOTHING,
+        usage: "equivalence A B, C D",
+        summary: "the vector AB equals the vector CD (3.3)",
+        help: "",
+        example: "equivalence A B, C D",
+    }
+    Equal equal {
+        slots: [Points(2), Points(2), Relation { default: Some(0.0) }],
+        takes: "this takes `= value`, `<= value`, `>= value` or `in a..b`",
+        usage: "equal A B, C D [RELATION]",
+        summary: "the distances AB and CD are equal (3.4)",
+        help: "With `in a..b`, `<= e` or `>= e` the difference of the two is what is bounded.",
+        example: "equal A B, C D\n\
+             equal A B, C D in -1..1",
+    }
+    Length length {
+        slots: [Points(2), Relation { default: None }],
+        takes: "this takes `= value`, `<= value`, `>= value` or `in a..b`",
+        usage: "length A B [RELATION]",
+        summary: "the distance of two points (3.5)",
+        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.\n\
+             A cord is `<=`, a telescope `in`; an expression with `time` makes an actuator.",
+        example: "coupler: length B C = 3.5\n\
+             length A B <= 5\n\
+             length A B in 2..5",
+    }
+    Orientation orientation {
+        slots: [Points(2), Points(2), Relation { default: None }],
+        takes: "an orientation takes `= angle`, `<= angle`, `>= angle` or `in a..b`",
+        usage: "orientation A B, C D [RELATION]",
+        summary: "the angle from AB to CD, counter-clockwise positive (3.6)",
+        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.",
+        example: "orientation A B, C D = 90deg",
+    }
+    Motor motor {
+        slots: [Points(2), Value(Role::Radius), Value(Role::Speed), Value(Role::Phase)],
+        takes: "a motor takes `radius`, `speed` and `phase`",
+        usage: "motor O P [radius R] [speed W] [phase PHI]",
+        summary: "P goes round O (3.7)",
+        help: "The parts come in any order. Radius and phase are the present ones unless given.\n\
+             The angle grows by speed times dt each frame, so a change of speed makes no jump.",
+        example: "crank: motor O P radius 1 speed 1rev phase 90deg",
+    }
+    Glider glider {
+        slots: [Points(1), Line(Role::On), Flag(Role::Unbounded)],
+        takes: "a glider takes `on A B` and `unbounded`",
+        usage: "glider P on A B [unbounded]",
+        summary: "P slides on the segment AB, or on the whole line (3.8)",
+        help: "",
+        example: "glider P on A B\n\
+             glider P on A B unbounded",
+    }
+    Hinge hinge {
+        slots: [Points(1), Line(Role::On), Value(Role::At)],
+        takes: "a hinge takes `on A B` and `at ratio`",
+        usage: "hinge P on A B at RATIO",
+        summary: "P is fixed on the bar AB: P = A + ratio (B - A) (3.9)",
+        help: "",
+        example: "hinge P on A B at 1/3",
+    }
+    Cog cog {
+        slots: [Points(2), Points(2), Value(Role::Ratio), Flag(Role::Inside)],
+        takes: "cogs take `ratio r` and `inside`",
+        usage: "cog O1 A, O2 B ratio R [inside]",
+        summary: "two wheels roll on each other, R the ratio of their radii (3.10)",
+        help: "A is on the rim of the wheel round O1, B of that round O2; R = r2 / r1.\n\
+             A negative ratio, or `inside`, is for internal contact.",
+        example: "cog O1 A, O2 B ratio 4",
+    }
+    Distance distance {
+        slots: [Points(1), Line(Role::To), Relation { default: None }],
+        takes: "a distance takes `= value`, `<= value`, `>= value`, `in a..b` and `to A B`",
+        usage: "distance P to A B [RELATION]",
+        summary: "the distance of P from the line AB, positive on its left",
+        help: "The relation is `= e`, `<= e`, `>= e` or `in a..b`; without one the present value is kept.",
+        example: "distance P to A B = 2",
+    }
+    Parallel parallel {
+        slots: [Points(2), Points(2)],
+        takes: NOTHING,
+        usage: "parallel A B, C D",
+        summary: "AB and CD have one direction, or opposite ones",
+        help: "The nearest of the two.",
+        example: "parallel A B, C D",
+    }
+    Perpendicular perpendicular {
+        slots: [Points(2), Points(2)],
+        takes: NOTHING,
+        usage: "perpendicular A B, C D",
+        summary: "AB and CD are at right angles",
+        help: "The nearest of the two senses.",
+        example: "perpendicular A B, C D",
+    }
+    Rigid rigid {
+        slots: [AllPoints],
+        takes: NOTHING,
+        usage: "rigid A B C ...",
+        summary: "points keep their present shape",
+        help: "One constraint for all of them.",
+        example: "rigid A B C D",
+    }
+    Rack rack {
+        slots: [Points(2), Line(Role::On)],
+        takes: "a rack takes `on P Q`",
+        usage: "rack O A on P Q",
+        summary: "a wheel rolls along a line without slipping",
+        help: "O is the centre of the wheel and A a point of its rim, or any other point that turns with \
+             it. The radius is the height of O over the line as it stands: where the rim touches.",
+        example: "rack O A on P Q",
+    }
+}
