@@ -62,6 +62,7 @@ mod repl;
 pub mod session;
 pub mod solve;
 mod study;
+pub mod terms;
 pub mod world;
 
 pub use diag::Diagnostic;

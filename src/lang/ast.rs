@@ -5,11 +5,11 @@
 use std::sync::Arc;
 
 use crate::diag::Span;
+pub use crate::terms::{Function, Operator};
 
 pub use super::catalogue::ConstraintWord;
 pub use super::constraint::{Constraint, ConstraintDecl, Pair, Part, Range, Relation, Role};
-pub use super::expr::{Axis, BinaryOp, Expr, Ident, Name, NamePart, Node, Number, PartKind, Unit};
-pub use super::function::Function;
+pub use super::expr::{Axis, Expr, Ident, Name, NamePart, Node, Number, PartKind, Unit};
 
 /// One command and its place in the text.
 #[derive(Debug, Clone)]

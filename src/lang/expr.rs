@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::diag::Span;
 
-use super::function::Function;
+use crate::terms::{Function, Operator};
 
 /// A value to be computed, and its place in the text.
 #[derive(Debug, Clone)]
@@ -64,7 +64,7 @@ pub enum Node {
     /// `-e`
     Negate(Box<Expr>),
     /// `a + b` and its like.
-    Binary(BinaryOp, Box<[Expr; 2]>),
+    Binary(Operator, Box<[Expr; 2]>),
     /// `(x, y)`
     Vector(Box<[Expr; 2]>),
     /// `e.x` where `e` is not a name; that of a name is the last part of it.
@@ -135,21 +135,6 @@ impl Unit {
             Self::Ms => 1e-3,
         }
     }
-}
-
-/// The operators between two expressions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum BinaryOp {
-    /// `+`
-    Add,
-    /// `-`
-    Subtract,
-    /// `*`
-    Multiply,
-    /// `/`
-    Divide,
-    /// `^`
-    Power,
 }
 
 /// A component of a vector.

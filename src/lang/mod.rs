@@ -8,7 +8,6 @@ pub mod ast;
 pub mod catalogue;
 mod constraint;
 mod expr;
-mod function;
 mod grammar;
 mod layout;
 mod lower;

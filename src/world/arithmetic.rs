@@ -1,8 +1,9 @@
 //! Arithmetic on values: operators and functions, with errors that point at their place.
 
-use super::{Function, Operator, Value};
+use super::Value;
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, Span, format_number};
+use crate::terms::{Function, Operator};
 
 /// The value itself if it is finite.
 ///

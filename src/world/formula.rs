@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
-use super::{Function, Operator, ParameterId, PointId, Shape, Value};
+use super::{ParameterId, PointId, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
+use crate::terms::{Function, Operator, Shape};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };

@@ -46,7 +46,6 @@ pub use edit::Edit;
 #[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node};
-pub use function::{Function, Shape};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
 pub use motion::Motion;
@@ -59,4 +58,4 @@ pub use state::World;
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
 pub use user::User;
-pub use value::{Operator, Value};
+pub use value::Value;

@@ -1,7 +1,7 @@
 //! Values of expressions, numbers or vectors, and the operators between them.
 
-use super::Shape;
 use crate::constraint::{Real, Vec2};
+use crate::terms::Shape;
 
 /// A value of an expression over any kind of number.
 #[derive(Debug, Clone, Copy)]
@@ -42,30 +42,6 @@ impl<T: Real> Value<T> {
         match self {
             Self::Vector(v) => v,
             Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
-        }
-    }
-}
-
-/// An arithmetic operation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Operator {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-}
-
-impl Operator {
-    /// The sign in the language.
-    pub const fn sign(self) -> &'static str {
-        match self {
-            Self::Add => "+",
-            Self::Subtract => "-",
-            Self::Multiply => "*",
-            Self::Divide => "/",
-            Self::Power => "^",
         }
     }
 }

@@ -7,17 +7,21 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 12] = [
+const ROOMS: [(&str, &[&str]); 13] = [
     ("diag", &[]),
-    ("lang", &["diag"]),
+    ("terms", &[]),
+    ("lang", &["diag", "terms"]),
     ("constraint", &["diag"]),
-    ("world", &["diag", "constraint"]),
+    ("world", &["diag", "terms", "constraint"]),
     ("linalg", &[]),
     ("mobility", &["constraint", "linalg"]),
     ("solve", &["diag", "constraint", "world", "linalg", "mobility"]),
     ("render", &["diag", "constraint", "linalg", "world"]),
     ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
-    ("session", &["diag", "lang", "constraint", "world", "mobility", "solve", "render", "study"]),
+    (
+        "session",
+        &["diag", "terms", "lang", "constraint", "world", "mobility", "solve", "render", "study"],
+    ),
     (
         "repl",
         &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "cli"],

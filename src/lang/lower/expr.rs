@@ -3,7 +3,7 @@
 use pest::iterators::Pair as Parsed;
 
 use crate::diag::{Diagnostic, Span, nearest};
-use crate::lang::ast::{Axis, BinaryOp, Expr, Function, Node, Number, Unit};
+use crate::lang::ast::{Axis, Expr, Function, Node, Number, Operator, Unit};
 
 use super::cursor::Cursor;
 use super::errors::mistake::brief;
@@ -26,17 +26,17 @@ type Result<T> = std::result::Result<T, Diagnostic>;
 #[derive(Clone, Copy)]
 enum Waiting {
     Minus(Span),
-    Binary(BinaryOp),
+    Binary(Operator),
 }
 
 impl Waiting {
     /// The higher, the tighter.
     fn precedence(self) -> u8 {
         match self {
-            Self::Binary(BinaryOp::Add | BinaryOp::Subtract) => 1,
-            Self::Binary(BinaryOp::Multiply | BinaryOp::Divide) => 2,
+            Self::Binary(Operator::Add | Operator::Subtract) => 1,
+            Self::Binary(Operator::Multiply | Operator::Divide) => 2,
             Self::Minus(_) => 3,
-            Self::Binary(BinaryOp::Power) => 4,
+            Self::Binary(Operator::Power) => 4,
         }
     }
 }
@@ -54,7 +54,7 @@ pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Res
                 let op = binary_op(part.as_str());
                 let new = Waiting::Binary(op);
                 // Of equals the left one goes first, but `^` is read from the right.
-                let bar = new.precedence() + u8::from(op == BinaryOp::Power);
+                let bar = new.precedence() + u8::from(op == Operator::Power);
                 while let Some(top) = waiting.pop_if(|top| top.precedence() >= bar) {
                     apply(top, &mut operands, whole)?;
                 }
@@ -69,13 +69,13 @@ pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Res
     Ok(operands.pop().expect("the grammar has an operand in each expression"))
 }
 
-fn binary_op(text: &str) -> BinaryOp {
+fn binary_op(text: &str) -> Operator {
     match text {
-        "+" => BinaryOp::Add,
-        "-" => BinaryOp::Subtract,
-        "*" => BinaryOp::Multiply,
-        "/" => BinaryOp::Divide,
-        _ => BinaryOp::Power,
+        "+" => Operator::Add,
+        "-" => Operator::Subtract,
+        "*" => Operator::Multiply,
+        "/" => Operator::Divide,
+        _ => Operator::Power,
     }
 }
 
@@ -195,14 +195,15 @@ fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
     let Some(word) = name.as_simple() else {
         return Err(refusal::not_a_function(name.span));
     };
-    let Some(function) = Function::named(&word.text) else {
+    if Function::named(&word.text).next().is_none() {
         return Err(refusal::unknown_function(word));
-    };
+    }
     let call_span = word.span.to(cursor.span(&arguments));
     let (arguments, depth) = trees(cursor, arguments)?;
-    if !function.takes(arguments.len()) {
-        return Err(refusal::wrong_count(function, arguments.len(), call_span));
-    }
+    let mut functions = Function::named(&word.text);
+    let Some(function) = functions.find(|function| function.takes(arguments.len())) else {
+        return Err(refusal::wrong_count(word, arguments.len(), call_span));
+    };
     let call = deeper(depth, Node::Call(function, arguments), call_span);
     components(cursor, call, inner)
 }

@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use crate::diag::format_number;
 
 use super::commas;
-use crate::lang::expr::{Axis, BinaryOp, Expr, Name, Node, Number, PartKind};
+use crate::lang::expr::{Axis, Expr, Name, Node, Number, PartKind};
+use crate::terms::Operator;
 
 /// How tight what stands in the text binds: a looser one in its place needs parentheses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,9 +36,9 @@ fn write_at_least(f: &mut Formatter, expr: &Expr, least: Tightness) -> fmt::Resu
 
 fn tightness(node: &Node) -> Tightness {
     match node {
-        Node::Binary(BinaryOp::Add | BinaryOp::Subtract, _) => Tightness::Sum,
-        Node::Binary(BinaryOp::Multiply | BinaryOp::Divide, _) => Tightness::Product,
-        Node::Binary(BinaryOp::Power, _) => Tightness::Power,
+        Node::Binary(Operator::Add | Operator::Subtract, _) => Tightness::Sum,
+        Node::Binary(Operator::Multiply | Operator::Divide, _) => Tightness::Product,
+        Node::Binary(Operator::Power, _) => Tightness::Power,
         Node::Negate(_) => Tightness::Negation,
         Node::Number(number) if number.written.is_sign_negative() => Tightness::Negation,
         _ => Tightness::Atom,
@@ -58,11 +59,11 @@ fn write_node(f: &mut Formatter, node: &Node) -> fmt::Result {
         Node::Binary(op, operands) => {
             let [left, right] = &**operands;
             let (sign, at_left, at_right) = match op {
-                BinaryOp::Add => (" + ", Tightness::Sum, Tightness::Product),
-                BinaryOp::Subtract => (" - ", Tightness::Sum, Tightness::Product),
-                BinaryOp::Multiply => (" * ", Tightness::Product, Tightness::Negation),
-                BinaryOp::Divide => (" / ", Tightness::Product, Tightness::Negation),
-                BinaryOp::Power => ("^", Tightness::Atom, Tightness::Negation),
+                Operator::Add => (" + ", Tightness::Sum, Tightness::Product),
+                Operator::Subtract => (" - ", Tightness::Sum, Tightness::Product),
+                Operator::Multiply => (" * ", Tightness::Product, Tightness::Negation),
+                Operator::Divide => (" / ", Tightness::Product, Tightness::Negation),
+                Operator::Power => ("^", Tightness::Atom, Tightness::Negation),
             };
             write_at_least(f, left, at_left)?;
             f.write_str(sign)?;

@@ -12,7 +12,8 @@ use crate::session::quotas::{DEEPEST_NESTING, MOST_STATEMENTS};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
-use crate::world::{Entity, Shape, Value};
+use crate::terms::Shape;
+use crate::world::{Entity, Value};
 
 impl Execution<'_> {
     /// Goes one level deeper for as long as `inside` runs.

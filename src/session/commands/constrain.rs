@@ -12,7 +12,8 @@ use crate::session::execution::Execution;
 use crate::session::resolve::said::{Said, field_of, flag_of};
 use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
-use crate::world::{Drivers, Edit, Record, Shape, Value};
+use crate::terms::Shape;
+use crate::world::{Drivers, Edit, Record, Value};
 
 /// The parts of a statement that have a value, in the order in which `restore` brings back those
 /// that are live.

@@ -10,7 +10,8 @@ use crate::lang::catalogue::{self, Entry};
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
-use crate::world::{ConstraintId, Entity, Function, PointId, Value};
+use crate::terms::Function;
+use crate::world::{ConstraintId, Entity, PointId, Value};
 
 /// A value as `print` writes it.
 pub(crate) fn format_value(value: Value) -> String {

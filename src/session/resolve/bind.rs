@@ -3,10 +3,9 @@
 use super::scope::{Bound, Meaning, Resolver};
 use crate::constraint::{Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
-use crate::lang::ast::{Axis, BinaryOp, Expr, Node as Syntax};
-use crate::world::{
-    Depends, Entity, Formula, Function, Node, Operator, Rates, Shape, Value, call, operate,
-};
+use crate::lang::ast::{Axis, Expr, Node as Syntax};
+use crate::terms::{Function, Operator, Shape};
+use crate::world::{Depends, Entity, Formula, Node, Rates, Value, call, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -187,7 +186,7 @@ impl Resolver<'_> {
             Syntax::Binary(op, sides) => {
                 let left = self.bind(&sides[0], mode)?;
                 let right = self.bind(&sides[1], mode)?;
-                binary(operator(*op), left, right, expr, sides)
+                binary(*op, left, right, expr, sides)
             }
             Syntax::Vector(parts) => {
                 let x = self.bind(&parts[0], mode)?;
@@ -210,12 +209,7 @@ impl Resolver<'_> {
                 let term = self.bind(inner, mode)?;
                 component(term, *axis, expr.span)
             }
-            Syntax::Call(function, arguments) => {
-                let function = Function::named(function.name())
-                    .find(|f| f.takes(arguments.len()))
-                    .expect("the parser checks the number of arguments");
-                self.bind_call(function, arguments, expr, mode)
-            }
+            Syntax::Call(function, arguments) => self.bind_call(*function, arguments, expr, mode),
         }
     }
 
@@ -354,16 +348,6 @@ impl Resolver<'_> {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),
         }
-    }
-}
-
-fn operator(op: BinaryOp) -> Operator {
-    match op {
-        BinaryOp::Add => Operator::Add,
-        BinaryOp::Subtract => Operator::Subtract,
-        BinaryOp::Multiply => Operator::Multiply,
-        BinaryOp::Divide => Operator::Divide,
-        BinaryOp::Power => Operator::Power,
     }
 }
 

@@ -368,9 +368,9 @@ impl<'a> Resolver<'a> {
         if text.chars().nth(1).is_some() {
             known.extend(RESERVED);
         }
-        match (Function::named(text), nearest(text, known.iter().copied())) {
+        match (Function::named(text).next(), nearest(text, known.iter().copied())) {
             (Some(function), _) => {
-                problem.help(format!("it is a function: `{}`", function.usages()[0]))
+                problem.help(format!("it is a function: `{}`", function.usage()))
             }
             (None, _) if text == ALL => problem.help(format!(
                 "`{ALL}` stands behind `freeze`, `thaw` and `untrace`; `clear` empties the world"

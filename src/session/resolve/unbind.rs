@@ -8,13 +8,11 @@ use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, PointIdx, Quantity};
 use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
-    Axis, BinaryOp, Command, Constraint as Stated, ConstraintDecl, Expr, Function as Word, Ident,
-    Name, Node as Syntax, Pair, Part, Range, Relation, Text,
+    Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Name, Node as Syntax, Pair,
+    Part, Range, Relation, Text,
 };
 use crate::lang::catalogue::Slot;
-use crate::world::{
-    ConstraintId, Entity, Formula, Node, Operator, ParameterId, PointId, Record, World,
-};
+use crate::world::{ConstraintId, Entity, Formula, Node, ParameterId, PointId, Record, World};
 
 /// The place of what no text says.
 pub(crate) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -183,23 +181,12 @@ impl<'a> Unbind<'a> {
             Node::Parameter(id) => Syntax::Name(named(self.world.name_of(Entity::Parameter(*id)))),
             Node::Vector(x, y) => Syntax::Vector(two(x, y)),
             Node::Negate(a) => Syntax::Negate(Box::new(self.unbind(a))),
-            Node::Binary(op, a, b) => Syntax::Binary(sign_of(*op), two(a, b)),
+            Node::Binary(op, a, b) => Syntax::Binary(*op, two(a, b)),
             Node::X(a) => Syntax::Component(Box::new(self.unbind(a)), Axis::X),
             Node::Y(a) => Syntax::Component(Box::new(self.unbind(a)), Axis::Y),
             Node::Call(function, arguments) => {
-                let word = Word::named(function.name()).expect("both lists have the same names");
-                Syntax::Call(word, arguments.iter().map(|a| self.unbind(a)).collect())
+                Syntax::Call(*function, arguments.iter().map(|a| self.unbind(a)).collect())
             }
         })
-    }
-}
-
-fn sign_of(operator: Operator) -> BinaryOp {
-    match operator {
-        Operator::Add => BinaryOp::Add,
-        Operator::Subtract => BinaryOp::Subtract,
-        Operator::Multiply => BinaryOp::Multiply,
-        Operator::Divide => BinaryOp::Divide,
-        Operator::Power => BinaryOp::Power,
     }
 }

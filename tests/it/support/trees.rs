@@ -340,7 +340,7 @@ fn leaf() -> BoxedStrategy<Expr> {
 }
 
 fn expr() -> BoxedStrategy<Expr> {
-    use BinaryOp::{Add, Divide, Multiply, Power, Subtract};
+    use Operator::{Add, Divide, Multiply, Power, Subtract};
     leaf()
         .prop_recursive(4, 16, 4, |inner| {
             let two = || (inner.clone(), inner.clone()).prop_map(|(a, b)| Box::new([a, b]));

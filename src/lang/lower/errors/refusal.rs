@@ -140,7 +140,7 @@ pub(crate) fn unknown_function(word: &Ident) -> Diagnostic {
         "arctan" => Some("atan"),
         "arcsin" => Some("asin"),
         "arccos" => Some("acos"),
-        word => nearest(word, Function::ALL.map(Function::name)),
+        word => nearest(word, Function::ALL.iter().map(|function| function.name())),
     };
     match near {
         Some(near) => problem.help(format!("did you mean `{near}`?")),
@@ -150,14 +150,15 @@ pub(crate) fn unknown_function(word: &Ident) -> Diagnostic {
     }
 }
 
-pub(crate) fn wrong_count(function: Function, n: usize, span: Span) -> Diagnostic {
-    let name = function.name();
+pub(crate) fn wrong_count(word: &Ident, n: usize, span: Span) -> Diagnostic {
+    let name = &*word.text;
     let given = match n {
         0 => "none is given".to_owned(),
         1 => "1 is given".to_owned(),
         _ => format!("{n} are given"),
     };
-    let usages: Vec<_> = function.usages().iter().map(|usage| format!("`{usage}`")).collect();
+    let usages = Function::named(name).map(|function| format!("`{}`", function.usage()));
+    let usages: Vec<_> = usages.collect();
     Diagnostic::error(format!("wrong number of arguments of `{name}`"))
         .at(span, given)
         .help(format!("usage: {}", usages.join(" or ")))

@@ -1,0 +1,10 @@
+//! What expressions are made of, for those who read them and for those who evaluate them:
+//! functions, operations, and what a value is.
+
+mod function;
+mod operator;
+mod shape;
+
+pub use function::Function;
+pub use operator::Operator;
+pub use shape::Shape;
