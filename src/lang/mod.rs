@@ -6,11 +6,13 @@
 
 pub mod ast;
 pub mod catalogue;
+mod commands;
 mod constraint;
 mod expr;
 mod grammar;
 mod layout;
 mod lower;
+mod parts;
 mod print;
 
 pub use lower::{Statements, is_incomplete, parse};

@@ -3,7 +3,7 @@
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
 use crate::diag::{Diagnostic, SourceId, Sources};
-use crate::lang::ast::{Command, Expr, PrintItem};
+use crate::lang::ast::{Command, Expr, Looking, Making, PrintItem};
 use crate::lang::parse;
 use crate::world::Value;
 
@@ -13,7 +13,7 @@ pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<V
     let mut statements = parse(source, &text);
     let (statement, next) = (statements.next().transpose()?, statements.next());
     let expr: Option<&Expr> = match statement.as_ref().map(|statement| &statement.command) {
-        Some(Command::Print(items)) => match &items[..] {
+        Some(Command::Looking(Looking::Print(items))) => match &items[..] {
             [PrintItem::Value(expr)] => Some(expr),
             _ => None,
         },
@@ -46,7 +46,7 @@ pub fn evaluate_binding(text: &str) -> Result<(String, f64), Diagnostic> {
     let (Some(Ok(statement)), None) = (statements.next(), statements.next()) else {
         return Err(expected());
     };
-    let Command::Let(bindings) = &statement.command else { return Err(expected()) };
+    let Command::Making(Making::Let(bindings)) = &statement.command else { return Err(expected()) };
     let [binding] = &bindings[..] else { return Err(expected()) };
     let (mut state, mut scopes) = (State::new(), Scopes::default());
     let mut resolver = Resolver::new(&mut state, &mut scopes, &sources);

@@ -5,7 +5,9 @@ use super::quotas::MOST_STATEMENTS;
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
-use crate::lang::ast::{Command, Expr, Statement};
+use crate::lang::ast::{
+    Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
+};
 
 impl Execution<'_> {
     /// Carries out a statement as part of the command under way.
@@ -35,61 +37,103 @@ impl Execution<'_> {
     fn perform(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let span = statement.span;
         match &statement.command {
-            Command::Let(bindings) => self.let_parameters(bindings)?,
-            Command::Point(declarations) => self.make_points(declarations)?,
-            Command::Freeze(selection) => self.freeze(selection, true)?,
-            Command::Thaw(selection) => self.freeze(selection, false)?,
-            Command::Move { point, to } => self.move_point(point, to)?,
-            Command::Drag { targets, over } => return self.drag(targets, over.as_ref(), span),
+            Command::Making(it) => return self.making(it, span),
             Command::Constrain(declaration) => self.constrain(declaration, span)?,
-            Command::Delete { names, cascade } => self.delete(names, *cascade)?,
-            Command::Off(names) => self.switch(names, false)?,
-            Command::On(names) => self.switch(names, true)?,
-            Command::Change { name, parts } => self.change_thing(name, parts)?,
-            Command::Settings(which) => self.show_settings(which.as_ref())?,
-            Command::Set { setting, value, targets } => self.set(setting, value, targets)?,
-            Command::Undo(n) => self.walk(n.as_ref(), span, &UNDO)?,
-            Command::Redo(n) => self.walk(n.as_ref(), span, &REDO)?,
-            Command::Reset => self.reset()?,
-            Command::Clear => self.clear(),
-            Command::Step { frames, promise } => return self.step(frames.as_ref(), promise, span),
-            Command::Run { time, promise } => return self.run(time, promise, span),
-            Command::Relax(n) => return self.relax(n.as_ref()),
-            Command::Solve(promise) => self.solve(promise, span)?,
-            Command::List(what) => self.list(*what),
-            Command::Show(name) => self.show(name)?,
-            Command::Print(items) => self.print(items)?,
-            Command::Check => self.check(),
-            Command::Why(name) => self.why(name)?,
-            Command::Limits(name) => self.limits(name)?,
-            Command::Effects => self.effects(),
-            Command::Accuracy(promise) => return self.accuracy(promise, span),
-            Command::Assert { left, relation, within } => {
+            Command::Changing(it) => return self.changing(it, span),
+            Command::Running(it) => return self.running(it, span),
+            Command::Looking(it) => return self.looking(it, span),
+            Command::Drawing(it) => return self.drawing(it, span),
+            Command::Building(it) => return self.building(it, span),
+        }
+        Ok(Flow::On)
+    }
+
+    fn making(&mut self, it: &Making, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Making::Let(bindings) => self.let_parameters(bindings)?,
+            Making::Point(declarations) => self.make_points(declarations)?,
+            Making::Freeze(selection) => self.freeze(selection, true)?,
+            Making::Thaw(selection) => self.freeze(selection, false)?,
+            Making::Move { point, to } => self.move_point(point, to)?,
+            Making::Drag { targets, over } => return self.drag(targets, over.as_ref(), span),
+        }
+        Ok(Flow::On)
+    }
+
+    fn changing(&mut self, it: &Changing, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Changing::Delete { names, cascade } => self.delete(names, *cascade)?,
+            Changing::Off(names) => self.switch(names, false)?,
+            Changing::On(names) => self.switch(names, true)?,
+            Changing::Change { name, parts } => self.change_thing(name, parts)?,
+            Changing::Settings(which) => self.show_settings(which.as_ref())?,
+            Changing::Set { setting, value, targets } => self.set(setting, value, targets)?,
+            Changing::Undo(n) => self.walk(n.as_ref(), span, &UNDO)?,
+            Changing::Redo(n) => self.walk(n.as_ref(), span, &REDO)?,
+            Changing::Reset => self.reset()?,
+            Changing::Clear => self.clear(),
+        }
+        Ok(Flow::On)
+    }
+
+    fn running(&mut self, it: &Running, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Running::Step { frames, promise } => return self.step(frames.as_ref(), promise, span),
+            Running::Run { time, promise } => return self.run(time, promise, span),
+            Running::Relax(n) => return self.relax(n.as_ref()),
+            Running::Solve(promise) => self.solve(promise, span)?,
+        }
+        Ok(Flow::On)
+    }
+
+    fn looking(&mut self, it: &Looking, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Looking::List(what) => self.list(*what),
+            Looking::Show(name) => self.show(name)?,
+            Looking::Print(items) => self.print(items)?,
+            Looking::Check => self.check(),
+            Looking::Why(name) => self.why(name)?,
+            Looking::Limits(name) => self.limits(name)?,
+            Looking::Effects => self.effects(),
+            Looking::Accuracy(promise) => return self.accuracy(promise, span),
+            Looking::Assert { left, relation, within } => {
                 self.assert(left, relation, within.as_ref(), span)?;
             }
-            Command::Help(topic) => self.help(topic.as_ref())?,
-            Command::Trace { names, every } => self.trace(names, every.as_ref())?,
-            Command::Untrace(selection) => self.untrace(selection)?,
-            Command::Expose(expose) => self.expose(expose)?,
-            Command::Svg(path) => self.svg(path)?,
-            Command::Record { path, every } => self.record(path, every.as_ref())?,
-            Command::Sample { series, values } => self.sample(series, values)?,
-            Command::Plot { path, parts } => self.plot(path, parts)?,
-            Command::RecordStop => self.record_stop(span)?,
-            Command::For { variable, range, body } => {
+            Looking::Help(topic) => self.help(topic.as_ref())?,
+            Looking::Quit => return Ok(Flow::Quit),
+        }
+        Ok(Flow::On)
+    }
+
+    fn drawing(&mut self, it: &Drawing, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Drawing::Trace { names, every } => self.trace(names, every.as_ref())?,
+            Drawing::Untrace(selection) => self.untrace(selection)?,
+            Drawing::Expose(expose) => self.expose(expose)?,
+            Drawing::Svg(path) => self.svg(path)?,
+            Drawing::Record { path, every } => self.record(path, every.as_ref())?,
+            Drawing::Sample { series, values } => self.sample(series, values)?,
+            Drawing::Plot { path, parts } => self.plot(path, parts)?,
+            Drawing::RecordStop => self.record_stop(span)?,
+        }
+        Ok(Flow::On)
+    }
+
+    fn building(&mut self, it: &Building, span: Span) -> Result<Flow, Diagnostic> {
+        match it {
+            Building::For { variable, range, body } => {
                 return self.repeat(variable, range, body, span);
             }
-            Command::Define(definition) => self.define(definition),
-            Command::Use { definition, arguments, instance } => {
+            Building::Define(definition) => self.define(definition),
+            Building::Use { definition, arguments, instance } => {
                 return self.use_definition(definition, arguments, instance.as_ref(), span);
             }
-            Command::Include(path) => return self.include(path, span),
-            Command::Save(path) => self.save(path)?,
-            Command::Load(path) => return self.load(path, span),
-            Command::Restore { what, name, values } => {
+            Building::Include(path) => return self.include(path, span),
+            Building::Save(path) => self.save(path)?,
+            Building::Load(path) => return self.load(path, span),
+            Building::Restore { what, name, values } => {
                 self.restore(what, name.as_ref(), values, span)?;
             }
-            Command::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)
     }

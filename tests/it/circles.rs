@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::support::sources::{Source, sources};
 
 /// The rooms in which no files may lead to each other.
-const ROOMS: [&str; 11] = [
+const ROOMS: [&str; 12] = [
     "cli",
     "constraint",
     "diag",
@@ -16,6 +16,7 @@ const ROOMS: [&str; 11] = [
     "session",
     "solve",
     "study",
+    "terms",
     "world",
 ];
 
@@ -56,22 +57,31 @@ struct Tree {
     files: BTreeMap<Module, Source>,
     /// What a module passes on: where its items come from.
     passed_on: BTreeMap<Module, BTreeMap<String, Module>>,
+    /// The modules of which a module passes on all.
+    passed_whole: BTreeMap<Module, Vec<Module>>,
 }
 
 impl Tree {
     fn new(sources: Vec<Source>) -> Self {
         let files = sources.into_iter().map(|source| (module_of(&source.path), source)).collect();
-        let mut tree = Self { files, passed_on: BTreeMap::new() };
+        let mut tree = Self { files, passed_on: BTreeMap::new(), passed_whole: BTreeMap::new() };
         for (module, source) in &tree.files {
             let mut items = BTreeMap::new();
+            let mut wholes = Vec::new();
             for import in imports(&source.code()).iter().filter(|import| import.is_public) {
                 for path in &import.paths {
-                    if let (Some(from), Some(item)) = (tree.absolute(path, module), path.last()) {
-                        items.insert(item.clone(), from);
+                    match (tree.absolute(path, module), path.last()) {
+                        (Some(mut from), Some(item)) if item == "*" => {
+                            from.pop();
+                            wholes.push(from);
+                        }
+                        (Some(from), Some(item)) => drop(items.insert(item.clone(), from)),
+                        _ => {}
                     }
                 }
             }
             tree.passed_on.insert(module.clone(), items);
+            tree.passed_whole.insert(module.clone(), wholes);
         }
         tree
     }
@@ -125,12 +135,19 @@ impl Tree {
         Some(here)
     }
 
+    /// Where an item comes from that a module passes on.
+    fn origin(&self, module: &[String], item: &str) -> Option<&Module> {
+        let passed_on = |module: &[String]| self.passed_on.get(module)?.get(item);
+        let wholes = || self.passed_whole.get(module).into_iter().flatten();
+        passed_on(module).or_else(|| wholes().find_map(|whole| passed_on(whole)))
+    }
+
     /// The file that defines what a path names: the longest module of it, and from there on what
     /// that one passes on.
     fn file_of(&self, path: &[String], depth: usize) -> Option<String> {
         let n = (0..=path.len()).rev().find(|&n| self.files.contains_key(&path[..n]))?;
         if let Some(item) = path.get(n)
-            && let Some(from) = self.passed_on.get(&path[..n]).and_then(|items| items.get(item))
+            && let Some(from) = self.origin(&path[..n], item)
             && depth < 8
         {
             let path: Vec<String> = from.iter().chain(&path[n + 1..]).cloned().collect();

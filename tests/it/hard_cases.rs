@@ -10,7 +10,9 @@ use std::thread;
 use crate::support::talk::Talking;
 use linkwork::constraint::ConstraintKind as _;
 use linkwork::diag::Span;
-use linkwork::lang::ast::{Body, Command, Expr, Function, Node, Promise, Statement};
+use linkwork::lang::ast::{
+    Body, Building, Command, Expr, Function, Looking, Making, Node, Promise, Running, Statement,
+};
 use linkwork::session::Session;
 use linkwork::solve::{Method, Status};
 use linkwork::world::{PointId, World};
@@ -50,27 +52,29 @@ fn ease(statement: &Statement, most: Option<f64>) -> Option<Statement> {
         (frames, _) => frames,
     };
     let command = match statement.command.clone() {
-        Command::Assert { .. } => return None,
-        Command::Step { frames, .. } => {
-            Command::Step { frames: cap(frames), promise: Promise::default() }
+        Command::Looking(Looking::Assert { .. }) => return None,
+        Command::Running(Running::Step { frames, .. }) => {
+            Command::Running(Running::Step { frames: cap(frames), promise: Promise::default() })
         }
-        Command::Solve(_) => {
+        Command::Running(Running::Solve(_)) => {
             let in_time = most.map(|_| Expr::literal(FEW_TICKS, span));
-            Command::Solve(Promise { within: None, in_time })
+            Command::Running(Running::Solve(Promise { within: None, in_time }))
         }
-        Command::Drag { targets, over } => Command::Drag { targets, over: cap(over) },
-        Command::For { variable, mut range, body } => {
+        Command::Making(Making::Drag { targets, over }) => {
+            Command::Making(Making::Drag { targets, over: cap(over) })
+        }
+        Command::Building(Building::For { variable, mut range, body }) => {
             if let Some(most) = most
                 && body.iter().any(is_run)
             {
                 range.to = at_most(range.to, most, span);
             }
-            Command::For { variable, range, body: ease_body(&body, most) }
+            Command::Building(Building::For { variable, range, body: ease_body(&body, most) })
         }
-        Command::Define(definition) => {
+        Command::Building(Building::Define(definition)) => {
             let mut definition = (*definition).clone();
             definition.body = ease_body(&definition.body, most);
-            Command::Define(Arc::new(definition))
+            Command::Building(Building::Define(Arc::new(definition)))
         }
         other => other,
     };
@@ -87,8 +91,8 @@ fn at_most(frames: Expr, most: f64, span: Span) -> Expr {
 
 fn is_run(statement: &Statement) -> bool {
     match &statement.command {
-        Command::Step { .. } | Command::Drag { .. } => true,
-        Command::For { body, .. } => body.iter().any(is_run),
+        Command::Running(Running::Step { .. }) | Command::Making(Making::Drag { .. }) => true,
+        Command::Building(Building::For { body, .. }) => body.iter().any(is_run),
         _ => false,
     }
 }
@@ -96,8 +100,9 @@ fn is_run(statement: &Statement) -> bool {
 /// Whether a statement leaves the world as its last run or `solve` left it.
 fn ends_solved(statement: &Statement) -> bool {
     match &statement.command {
-        Command::Step { .. } | Command::Drag { .. } | Command::Solve(_) => true,
-        Command::For { body, .. } => body.last().is_some_and(ends_solved),
+        Command::Running(Running::Step { .. } | Running::Solve(_))
+        | Command::Making(Making::Drag { .. }) => true,
+        Command::Building(Building::For { body, .. }) => body.last().is_some_and(ends_solved),
         _ => false,
     }
 }

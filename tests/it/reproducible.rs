@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use linkwork::lang::ast::Command;
+use linkwork::lang::ast::{Command, Running};
 use linkwork::session::{Nowhere, Session};
 
 /// The places of all points and the clock after 1,000 frames of the guilloche. A change of the
@@ -19,7 +19,7 @@ fn guilloche() -> Session {
     let source = session.add_source("guilloche", &text, None);
     for statement in linkwork::lang::parse(source, &text) {
         let statement = statement.unwrap();
-        if matches!(statement.command, Command::Step { .. }) {
+        if matches!(statement.command, Command::Running(Running::Step { .. })) {
             return session;
         }
         session.execute(&statement, &mut Nowhere).unwrap();

@@ -1,24 +1,38 @@
 //! Every kind of constraint, in one table.
 
-pub mod cog;
-pub mod cog_velocity;
-pub mod coincidence;
-pub mod coordinate;
-pub mod distance;
-pub mod equal;
-pub mod equivalence;
-pub mod glider;
-pub mod hinge;
-pub mod length;
-pub mod motor;
-pub mod orientation;
-pub mod rack;
-pub mod rigid;
+mod cog;
+mod cog_velocity;
+mod coincidence;
+mod coordinate;
+mod distance;
+mod equal;
+mod equivalence;
+mod glider;
+mod hinge;
+mod length;
+mod motor;
+mod orientation;
+mod rack;
+mod rigid;
+
+pub use cog::Cog;
+pub use cog_velocity::CogVelocity;
+pub use coincidence::Coincidence;
+pub use coordinate::Coordinate;
+pub use distance::Distance;
+pub use equal::Equal;
+pub use equivalence::Equivalence;
+pub use glider::Glider;
+pub use hinge::Hinge;
+pub use length::Length;
+pub use motor::{Heading, Motor};
+pub use orientation::{Orientation, Period};
+pub use rack::Rack;
+pub use rigid::Rigid;
 
 use super::{
-    Cog, CogVelocity, Coincidence, ConstraintKind, Coordinate, Declared, Distance, Equal,
-    Equivalence, Field, Given, Glider, Hinge, Length, Motor, Orientation, Point, PointIdx, Rack,
-    Real, Refusal, Rigid, Row, Stateful, Traits, Vec2, Vector,
+    ConstraintKind, Declared, Field, Given, Point, PointIdx, Real, Refusal, Row, Stateful, Traits,
+    Vec2, Vector,
 };
 
 /// Hands a call on to whatever kind a constraint is of.

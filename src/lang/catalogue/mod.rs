@@ -1,10 +1,10 @@
 //! Every command of the language with what `help` says of it.
 
 mod constraints;
-mod mechanism;
-mod session;
 mod topics;
 
+use super::commands::{FAMILIES, Verb};
+use super::grammar::Rule;
 pub use constraints::{ConstraintWord, Pattern, Slot};
 
 /// A command, or a subject that `help` knows.
@@ -75,8 +75,17 @@ impl Section {
 
 /// Every command, in the order of the reference.
 pub fn commands() -> impl Iterator<Item = &'static Entry> {
+    let [making, others @ ..] = FAMILIES;
     let constraints = ConstraintWord::ALL.iter().map(|word| &word.pattern().entry);
-    mechanism::POINTS.iter().chain(constraints).chain(mechanism::CHANGING).chain(session::SESSION)
+    let entries = |verbs: &'static [Verb]| verbs.iter().map(|verb| &verb.entry);
+    entries(making).chain(constraints).chain(others.into_iter().flat_map(entries))
+}
+
+/// The rule that reads statements beginning with a word.
+pub(super) fn rule(word: &str) -> Option<Rule> {
+    let verb = FAMILIES.into_iter().flatten().find(|verb| verb.entry.keyword == word);
+    let constraint = || ConstraintWord::named(word).map(|word| word.pattern().rule);
+    verb.map(|verb| verb.rule).or_else(constraint)
 }
 
 /// Every subject that `help` knows besides the commands.

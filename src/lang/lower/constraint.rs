@@ -14,7 +14,7 @@ pub(super) fn rule(word: &str) -> Option<Rule> {
 }
 
 /// The constraint whose statement `rule` has read; nothing if the rule is another's.
-pub(super) fn lower(rule: Rule, c: &mut Cursor) -> Option<Result<Constraint, Diagnostic>> {
+pub(in crate::lang) fn lower(rule: Rule, c: &mut Cursor) -> Option<Result<Constraint, Diagnostic>> {
     let word = ConstraintWord::ALL.iter().copied().find(|word| word.pattern().rule == rule)?;
     let parts =
         parts(c, |first, second| refusal::twice(second.word, first.word_span, second.word_span));
@@ -25,7 +25,7 @@ pub(super) fn lower(rule: Rule, c: &mut Cursor) -> Option<Result<Constraint, Dia
 }
 
 /// All parts that follow, in their order; `refuse` says what is wrong with two of one sort.
-pub(super) fn parts<'a>(
+pub(in crate::lang) fn parts<'a>(
     c: &mut Cursor<'a>,
     refuse: impl Fn(&Spot<'a>, &Spot<'a>) -> Diagnostic,
 ) -> Result<Vec<Part>, Diagnostic> {

@@ -15,7 +15,7 @@ use super::expr::{MAX_DEPTH, Tree, lower_expr};
 use crate::lang::grammar::Rule;
 
 /// A position in the parts of a statement.
-pub(super) struct Cursor<'a> {
+pub(in crate::lang) struct Cursor<'a> {
     pub reader: Reader<'a>,
     /// Where in the text the part begins that pest has read.
     base: usize,
@@ -24,7 +24,7 @@ pub(super) struct Cursor<'a> {
 }
 
 /// Where a part of a statement stands.
-pub(super) struct Spot<'a> {
+pub(in crate::lang) struct Spot<'a> {
     pub rule: Rule,
     /// The word it begins with.
     pub word: &'a str,
@@ -79,6 +79,11 @@ impl<'a> Cursor<'a> {
         let word = part.clone().into_inner().next().unwrap_or_else(|| part.clone());
         let (span, word_span) = (self.span(&part), self.span(&word));
         Spot { rule, word: word.as_str(), word_span, span }
+    }
+
+    /// What stands at a place.
+    pub fn text_at(&self, span: Span) -> &'a str {
+        &self.reader.text[span.range()]
     }
 
     /// Passes over the first word of a statement.
@@ -203,7 +208,7 @@ impl<'a> Cursor<'a> {
         Ok(Pair { from: inner.name()?, to: inner.name()? })
     }
 
-    pub fn tree(&mut self) -> Result<Tree> {
+    pub(super) fn tree(&mut self) -> Result<Tree> {
         let pair = self.must(Rule::expr);
         lower_expr(self, pair)
     }

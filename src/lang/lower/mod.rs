@@ -9,7 +9,6 @@ mod cursor;
 mod errors;
 mod expr;
 mod prefix;
-mod verb;
 
 #[cfg(test)]
 mod tests;
@@ -20,10 +19,12 @@ use pest::Parser;
 
 use crate::diag::{Diagnostic, SourceId, Span};
 
-use super::ast::{Body, Statement};
+use super::ast::{Body, Command, Statement};
 use super::grammar::{LinkworkParser, Rule};
 use super::layout::{Flaw, Layout, Piece};
-use cursor::Cursor;
+pub(super) use constraint::{lower as constraint, parts};
+pub(super) use cursor::Cursor;
+pub(super) use errors::refusal;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///
@@ -82,6 +83,11 @@ pub fn is_incomplete(text: &str) -> bool {
     matches!(reader.state(layout), State::Open)
 }
 
+/// Does a block in braces belong to the statement?
+fn has_block(rule: Rule) -> bool {
+    matches!(rule, Rule::for_ | Rule::define)
+}
+
 /// How far a text is from being one that can run.
 enum State {
     Whole,
@@ -93,7 +99,7 @@ enum State {
 
 /// A text and the name under which diagnostics know it.
 #[derive(Debug, Clone, Copy)]
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     source: SourceId,
     text: &'a str,
 }
@@ -108,13 +114,14 @@ impl<'a> Reader<'a> {
         let range = at..piece.head.end;
         let (word, rule) = self.verb(&prefix, &range)?;
         let mut cursor = self.read(rule, range)?;
-        let block = match (&piece.block, verb::has_block(rule)) {
+        let block = match (&piece.block, has_block(rule)) {
             (Some(block), true) => self.block(block)?,
             (None, false) => Body::default(),
             (Some(block), false) => return Err(self.needless_block(word, block.start - 1)),
             (None, true) => return Err(self.missing_block(word, piece.head.end)),
         };
-        let command = verb::lower(rule, &mut cursor, prefix.label, block)?;
+        cursor.pass_verb();
+        let command = Command::read(rule, &mut cursor, prefix.label, block)?;
         Ok(Statement { command, span: self.span(piece.whole.clone()) })
     }
 

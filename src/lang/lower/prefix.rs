@@ -7,7 +7,7 @@ use crate::lang::ast::Name;
 use crate::lang::catalogue;
 
 use super::errors::mistake::brief;
-use super::{Reader, constraint, verb};
+use super::{Reader, constraint};
 use crate::lang::grammar::Rule;
 
 /// What stands in front of a verb.
@@ -19,7 +19,7 @@ pub(super) struct Prefix {
 
 impl<'a> Reader<'a> {
     /// Reads `label:` and `add`, in either order; gives what it found and where the verb begins.
-    pub fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
+    pub(super) fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
         let text = &self.text[head.clone()];
         let Some(kind) = prefix_of(text) else {
             return Ok((Prefix::default(), head.start));
@@ -41,13 +41,13 @@ impl<'a> Reader<'a> {
     }
 
     /// The first word and the rule to read its statement with.
-    pub fn verb(
+    pub(super) fn verb(
         &self,
         prefix: &Prefix,
         range: &Range<usize>,
     ) -> Result<(&'a str, Rule), Diagnostic> {
         let word = first_word(&self.text[range.clone()]);
-        let Some(rule) = verb::rule(word) else {
+        let Some(rule) = catalogue::rule(word) else {
             return Err(self.unknown_verb(word, prefix, range));
         };
         let is_constraint = constraint::rule(word).is_some();
@@ -204,7 +204,7 @@ fn assigned_name(text: &str) -> Option<&str> {
     let (name, rest) = text.split_at(name_end(text));
     let rest = rest.trim_start();
     let is_assigned = rest.starts_with('=') && !rest.starts_with("==");
-    (is_assigned && verb::rule(name).is_none()).then_some(name)
+    (is_assigned && catalogue::rule(name).is_none()).then_some(name)
 }
 
 /// The word that `text` begins with; empty if with none.

@@ -1,7 +1,7 @@
 //! What the law tests cannot tell: which tree a text gives, and where its parts lie.
 
 use crate::diag::{SourceId, Sources, Span};
-use crate::lang::ast::{Command, Node, Part, Relation, Statement};
+use crate::lang::ast::{Command, Looking, Node, Part, Relation, Statement};
 use crate::lang::{is_incomplete, parse};
 
 /// The canonical form of each statement of `text`, or its mistake.
@@ -102,7 +102,7 @@ fn precedence_is_that_of_mathematics() {
 #[test]
 fn numbers_keep_their_suffix_and_have_its_value() {
     let check = |text: &str, wanted: f64| {
-        let Command::Print(items) = only(&format!("print {text}")).command else {
+        let Command::Looking(Looking::Print(items)) = only(&format!("print {text}")).command else {
             panic!("a print")
         };
         let [crate::lang::ast::PrintItem::Value(value)] = &*items else { panic!("one value") };

@@ -2,7 +2,7 @@
 
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind};
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
-use crate::lang::ast::{Command, Name, Part};
+use crate::lang::ast::{Changing, Name, Part};
 use crate::mobility::{
     Analysis, Conflict, Directions, PoseClass, analyse, conflict_with, freedom, repair,
 };
@@ -300,7 +300,7 @@ impl Settled {
             Bounds { lo: record.constraint.get(Field::Lo)?, hi: record.constraint.get(Field::Hi)? };
         let parts =
             vec![Part::Relation(Unbind::of(&self.world).relation(&record, bounds, is_angle))];
-        let command = text_of(&Command::Change { name: named(&name), parts });
+        let command = text_of(&Changing::Change { name: named(&name), parts }.into());
         // A radian counts as the length of what hangs together.
         let effort = if is_angle { change.abs() * self.size() } else { change.abs() };
         Some(Mend { text, command, record, effort })

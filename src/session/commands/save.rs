@@ -6,7 +6,9 @@ use super::restorable::{Restorable, ordinals};
 use super::setting_table::SETTINGS;
 use crate::constraint::{Constraint, ConstraintKind as _};
 use crate::diag::Diagnostic;
-use crate::lang::ast::{Command, Expose, Expr, PointDecl, Text};
+use crate::lang::ast::{
+    Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
+};
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
 use crate::session::state::State;
@@ -40,7 +42,7 @@ impl State {
         let mut script = format!("{FIRST_WORDS} `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
-            line(&mut script, Command::Define(definition.clone()));
+            line(&mut script, Building::Define(definition.clone()));
         }
         self.save_points(&mut script);
         for id in self.parameters_in_order() {
@@ -85,13 +87,13 @@ impl State {
                 at: vector(at.x, at.y),
                 frozen: points.is_frozen(id),
             };
-            line(script, Command::Point(vec![declaration]));
+            line(script, Making::Point(vec![declaration]));
         }
         for id in points.ids() {
             if points.weight(id) != 1.0 {
                 line(
                     script,
-                    Command::Set {
+                    Changing::Set {
                         setting: ident("weight"),
                         value: literal(points.weight(id)),
                         targets: vec![named(points.name(id))],
@@ -123,7 +125,7 @@ impl State {
             if let Some(rho) = record.rho() {
                 let targets = vec![named(&record.name)];
                 let value = literal(rho);
-                line(script, Command::Set { setting: ident("rho"), value, targets });
+                line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
             // The values come first: a new ratio makes wheels mesh anew.
             if !record.drivers().is_empty() {
@@ -139,7 +141,7 @@ impl State {
                 restore(script, Restorable::State, name, numbers(&state));
             }
             if !record.is_on {
-                line(script, Command::Off(vec![named(&record.name)]));
+                line(script, Changing::Off(vec![named(&record.name)]));
             }
         }
         if form != now {
@@ -157,7 +159,7 @@ impl State {
         for trace in self.world.traces() {
             let name = points.name(trace.point);
             let every = (trace.every > 1).then(|| literal(trace.every as f64));
-            line(script, Command::Trace { names: vec![named(name)], every });
+            line(script, Drawing::Trace { names: vec![named(name)], every });
             if !trace.samples.is_empty() {
                 let places = trace.samples.iter().map(|s| vector(s.at.x, s.at.y)).collect();
                 restore(script, Restorable::Trace, Some(name), places);
@@ -180,17 +182,17 @@ impl State {
         }
         for (series, values) in &self.series {
             let series = quoted(series);
-            line(script, Command::Sample { series, values: numbers(values) });
+            line(script, Drawing::Sample { series, values: numbers(values) });
         }
         if let Some(every) = self.preferences.expose_every {
-            line(script, Command::Expose(Expose::Every(literal(every as f64))));
+            line(script, Drawing::Expose(Expose::Every(literal(every as f64))));
         }
     }
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
-fn line(script: &mut String, command: Command) {
-    script.push_str(&text_of(&command));
+fn line(script: &mut String, command: impl Into<Command>) {
+    script.push_str(&text_of(&command.into()));
     script.push('\n');
 }
 
@@ -204,5 +206,5 @@ fn numbers(values: &[f64]) -> Vec<Expr> {
 }
 
 fn restore(script: &mut String, what: Restorable, name: Option<&str>, values: Vec<Expr>) {
-    line(script, Command::Restore { what: ident(what.word()), name: name.map(named), values });
+    line(script, Building::Restore { what: ident(what.word()), name: name.map(named), values });
 }

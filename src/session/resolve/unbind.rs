@@ -8,8 +8,8 @@ use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, PointIdx, Quantity};
 use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
-    Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Name, Node as Syntax, Pair,
-    Part, Range, Relation, Text,
+    Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Making, Name, Node as Syntax,
+    Pair, Part, Range, Relation, Text,
 };
 use crate::lang::catalogue::Slot;
 use crate::world::{ConstraintId, Entity, Formula, Node, ParameterId, PointId, Record, World};
@@ -145,7 +145,7 @@ impl<'a> Unbind<'a> {
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         let value = self.unbind(&parameter.formula);
         let binding = crate::lang::ast::Binding { name: named(&parameter.name), value };
-        text_of(&Command::Let(vec![binding]))
+        text_of(&Making::Let(vec![binding]).into())
     }
 
     /// What else there is to know of a constraint.

@@ -18,7 +18,7 @@ pub fn statement() -> BoxedStrategy<Statement> {
         prop_oneof![
             simple_command().prop_map(stated),
             (ident(), range(), body.clone()).prop_map(|(variable, range, body)| {
-                stated(Command::For { variable, range, body })
+                stated(Building::For { variable, range, body })
             }),
             (ident(), vec(ident(), 0..4), body).prop_map(|(name, mut parameters, body)| {
                 let mut seen: Vec<Ident> = Vec::new();
@@ -27,15 +27,15 @@ pub fn statement() -> BoxedStrategy<Statement> {
                     seen.push(parameter.clone());
                     is_new
                 });
-                stated(Command::Define(Arc::new(Definition { name, parameters, body })))
+                stated(Building::Define(Arc::new(Definition { name, parameters, body })))
             }),
         ]
     })
     .boxed()
 }
 
-fn stated(command: Command) -> Statement {
-    Statement { command, span: SPAN }
+fn stated(command: impl Into<Command>) -> Statement {
+    Statement { command: command.into(), span: SPAN }
 }
 
 const SPAN: Span = Span { source: SourceId(0), start: 0, end: 0 };
@@ -43,17 +43,17 @@ const SPAN: Span = Span { source: SourceId(0), start: 0, end: 0 };
 fn simple_command() -> BoxedStrategy<Command> {
     prop_oneof![
         15 => constraint_decl().prop_map(|decl| Command::Constrain(Box::new(decl))),
-        8 => making(),
-        12 => changing(),
-        6 => running(),
-        12 => looking(),
-        8 => pictures(),
-        6 => building(),
+        8 => making().prop_map(Command::from),
+        12 => changing().prop_map(Command::from),
+        6 => running().prop_map(Command::from),
+        12 => looking().prop_map(Command::from),
+        8 => pictures().prop_map(Command::from),
+        6 => building().prop_map(Command::from),
     ]
     .boxed()
 }
 
-fn making() -> BoxedStrategy<Command> {
+fn making() -> BoxedStrategy<Making> {
     let binding = (name(), expr()).prop_map(|(name, value)| Binding { name, value });
     let point = (name(), expr(), any::<bool>()).prop_map(|(name, at, frozen)| PointDecl {
         name,
@@ -62,12 +62,12 @@ fn making() -> BoxedStrategy<Command> {
     });
     let target = (name(), expr()).prop_map(|(point, to)| DragTarget { point, to });
     prop_oneof![
-        vec(binding, 1..3).prop_map(Command::Let),
-        vec(point, 1..3).prop_map(Command::Point),
-        selection().prop_map(Command::Freeze),
-        selection().prop_map(Command::Thaw),
-        (name(), expr()).prop_map(|(point, to)| Command::Move { point, to }),
-        (vec(target, 1..3), of(expr())).prop_map(|(targets, over)| Command::Drag { targets, over }),
+        vec(binding, 1..3).prop_map(Making::Let),
+        vec(point, 1..3).prop_map(Making::Point),
+        selection().prop_map(Making::Freeze),
+        selection().prop_map(Making::Thaw),
+        (name(), expr()).prop_map(|(point, to)| Making::Move { point, to }),
+        (vec(target, 1..3), of(expr())).prop_map(|(targets, over)| Making::Drag { targets, over }),
     ]
     .boxed()
 }
@@ -109,22 +109,22 @@ fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
     }
 }
 
-fn changing() -> BoxedStrategy<Command> {
+fn changing() -> BoxedStrategy<Changing> {
     prop_oneof![
-        (names(), any::<bool>()).prop_map(|(names, cascade)| Command::Delete { names, cascade }),
-        names().prop_map(Command::Off),
-        names().prop_map(Command::On),
-        (name(), change_parts()).prop_map(|(name, parts)| Command::Change { name, parts }),
-        of(ident()).prop_map(Command::Settings),
-        (ident(), expr(), vec(name(), 0..3)).prop_map(|(setting, value, targets)| Command::Set {
+        (names(), any::<bool>()).prop_map(|(names, cascade)| Changing::Delete { names, cascade }),
+        names().prop_map(Changing::Off),
+        names().prop_map(Changing::On),
+        (name(), change_parts()).prop_map(|(name, parts)| Changing::Change { name, parts }),
+        of(ident()).prop_map(Changing::Settings),
+        (ident(), expr(), vec(name(), 0..3)).prop_map(|(setting, value, targets)| Changing::Set {
             setting,
             value,
             targets
         }),
-        of(expr()).prop_map(Command::Undo),
-        of(expr()).prop_map(Command::Redo),
-        Just(Command::Reset),
-        Just(Command::Clear),
+        of(expr()).prop_map(Changing::Undo),
+        of(expr()).prop_map(Changing::Redo),
+        Just(Changing::Reset),
+        Just(Changing::Clear),
     ]
     .boxed()
 }
@@ -143,49 +143,49 @@ fn change_parts() -> BoxedStrategy<Vec<Part>> {
     all.prop_shuffle().prop_flat_map(|all| proptest::sample::subsequence(all, 1..=3)).boxed()
 }
 
-fn running() -> BoxedStrategy<Command> {
+fn running() -> BoxedStrategy<Running> {
     prop_oneof![
-        (of(expr()), promise()).prop_map(|(frames, promise)| Command::Step { frames, promise }),
-        (expr(), promise()).prop_map(|(time, promise)| Command::Run { time, promise }),
-        of(expr()).prop_map(Command::Relax),
-        promise().prop_map(Command::Solve),
+        (of(expr()), promise()).prop_map(|(frames, promise)| Running::Step { frames, promise }),
+        (expr(), promise()).prop_map(|(time, promise)| Running::Run { time, promise }),
+        of(expr()).prop_map(Running::Relax),
+        promise().prop_map(Running::Solve),
     ]
     .boxed()
 }
 
-fn looking() -> BoxedStrategy<Command> {
+fn looking() -> BoxedStrategy<Looking> {
     let item = prop_oneof![expr().prop_map(PrintItem::Value), text().prop_map(PrintItem::Text)];
     prop_oneof![
-        of(select(ListWhat::ALL.to_vec())).prop_map(Command::List),
-        name().prop_map(Command::Show),
-        vec(item, 1..4).prop_map(Command::Print),
-        Just(Command::Check),
-        name().prop_map(Command::Why),
-        name().prop_map(Command::Limits),
-        Just(Command::Effects),
-        promise().prop_map(Command::Accuracy),
-        (expr(), relation(), of(expr())).prop_map(|(left, relation, within)| Command::Assert {
+        of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
+        name().prop_map(Looking::Show),
+        vec(item, 1..4).prop_map(Looking::Print),
+        Just(Looking::Check),
+        name().prop_map(Looking::Why),
+        name().prop_map(Looking::Limits),
+        Just(Looking::Effects),
+        promise().prop_map(Looking::Accuracy),
+        (expr(), relation(), of(expr())).prop_map(|(left, relation, within)| Looking::Assert {
             left,
             relation,
             within
         }),
-        of(ident()).prop_map(Command::Help),
-        Just(Command::Quit),
+        of(ident()).prop_map(Looking::Help),
+        Just(Looking::Quit),
     ]
     .boxed()
 }
 
-fn pictures() -> BoxedStrategy<Command> {
+fn pictures() -> BoxedStrategy<Drawing> {
     prop_oneof![
-        (names(), of(expr())).prop_map(|(names, every)| Command::Trace { names, every }),
-        selection().prop_map(Command::Untrace),
-        Just(Command::Expose(Expose::Now)),
-        expr().prop_map(|frames| Command::Expose(Expose::Every(frames))),
-        Just(Command::Expose(Expose::Off)),
-        text().prop_map(Command::Svg),
-        (text(), of(expr())).prop_map(|(path, every)| Command::Record { path, every }),
-        Just(Command::RecordStop),
-        (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Command::Sample { series, values }),
+        (names(), of(expr())).prop_map(|(names, every)| Drawing::Trace { names, every }),
+        selection().prop_map(Drawing::Untrace),
+        Just(Drawing::Expose(Expose::Now)),
+        expr().prop_map(|frames| Drawing::Expose(Expose::Every(frames))),
+        Just(Drawing::Expose(Expose::Off)),
+        text().prop_map(Drawing::Svg),
+        (text(), of(expr())).prop_map(|(path, every)| Drawing::Record { path, every }),
+        Just(Drawing::RecordStop),
+        (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Drawing::Sample { series, values }),
         (text(), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
             |(path, is_log, title, x, y)| {
                 let parts = [
@@ -194,23 +194,23 @@ fn pictures() -> BoxedStrategy<Command> {
                     x.map(PlotPart::X),
                     y.map(PlotPart::Y),
                 ];
-                Command::Plot { path, parts: parts.into_iter().flatten().collect() }
+                Drawing::Plot { path, parts: parts.into_iter().flatten().collect() }
             }
         ),
     ]
     .boxed()
 }
 
-fn building() -> BoxedStrategy<Command> {
+fn building() -> BoxedStrategy<Building> {
     prop_oneof![
         (ident(), vec(expr(), 0..4), of(name())).prop_map(|(definition, arguments, instance)| {
-            Command::Use { definition, arguments, instance }
+            Building::Use { definition, arguments, instance }
         }),
-        text().prop_map(Command::Include),
-        text().prop_map(Command::Save),
-        text().prop_map(Command::Load),
+        text().prop_map(Building::Include),
+        text().prop_map(Building::Save),
+        text().prop_map(Building::Load),
         (ident(), of(name()), vec(expr(), 0..5))
-            .prop_map(|(what, name, values)| Command::Restore { what, name, values }),
+            .prop_map(|(what, name, values)| Building::Restore { what, name, values }),
     ]
     .boxed()
 }

@@ -12,8 +12,8 @@ use crate::lang::catalogue;
 use super::expected::{Expected, PATH};
 use super::refusal;
 use crate::lang::grammar::Rule;
+use crate::lang::lower::Reader;
 use crate::lang::lower::prefix::{first_word, is_word_char};
-use crate::lang::lower::{Reader, verb};
 
 impl Reader<'_> {
     /// What to say when `rule` does not fit the bytes `range`.
@@ -160,7 +160,7 @@ impl Reader<'_> {
         let before = &self.text[start..at];
         let newline = before.rfind('\n')?;
         let line = before[newline..].trim_start();
-        verb::rule(first_word(line))?;
+        catalogue::rule(first_word(line))?;
         let comma = before[..newline].trim_end().strip_suffix(',')?.len() + start;
         Some(self.span(comma..comma + 1))
     }

@@ -1,0 +1,311 @@
+//! The commands that ask questions: what each says, how it is read and written, and its help.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::Verb;
+use crate::diag::Diagnostic;
+use crate::lang::catalogue::{Entry, Section};
+use crate::lang::constraint::Relation;
+use crate::lang::expr::{Expr, Ident, Name};
+use crate::lang::grammar::Rule;
+use crate::lang::lower::{Cursor, refusal};
+use crate::lang::parts::{Promise, Text};
+use crate::lang::print::{Clause, commas};
+
+/// A command of this family.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Looking {
+    /// `list`, `list points`
+    List(Option<ListWhat>),
+    /// `show C`
+    Show(Name),
+    /// `print C, distance(A, C), "text"`
+    Print(Vec<PrintItem>),
+    /// `check`
+    Check,
+    /// `why C`
+    Why(Name),
+    /// `limits crank`
+    Limits(Name),
+    /// `effects`
+    Effects,
+    /// `accuracy`, `accuracy within 1e-9 in 2ms`
+    Accuracy(Promise),
+    /// `assert distance(u, t, p) = 0 within 1e-9`
+    Assert {
+        /// The left-hand side.
+        left: Expr,
+        /// How it compares, and to what.
+        relation: Relation,
+        /// The tolerance.
+        within: Option<Expr>,
+    },
+    /// `help`, `help motor`
+    Help(Option<Ident>),
+    /// `quit`, `exit`
+    Quit,
+}
+
+/// What a `list` lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ListWhat {
+    /// `list points`
+    Points,
+    /// `list constraints`
+    Constraints,
+    /// `list traces`
+    Traces,
+    /// `list parameters`
+    Parameters,
+    /// `list definitions`
+    Definitions,
+}
+
+impl ListWhat {
+    /// Every list, in the order of the reference.
+    pub const ALL: [Self; 5] =
+        [Self::Points, Self::Constraints, Self::Traces, Self::Parameters, Self::Definitions];
+
+    /// How it is asked for.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Constraints => "constraints",
+            Self::Traces => "traces",
+            Self::Parameters => "parameters",
+            Self::Definitions => "definitions",
+        }
+    }
+}
+
+/// One item of a `print`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PrintItem {
+    /// A number or a vector.
+    Value(Expr),
+    /// A text, as it is.
+    Text(Text),
+}
+
+/// Each with the rule that reads it.
+pub(in crate::lang) const VERBS: &[Verb] = &[
+    Verb {
+        rule: Rule::list,
+        entry: Entry {
+            keyword: "list",
+            section: Section::Looking,
+            usage: "list [points | constraints | traces | parameters | definitions]",
+            summary: "say what there is",
+            help: "",
+            example: "list\n\
+                 list points",
+        },
+    },
+    Verb {
+        rule: Rule::show,
+        entry: Entry {
+            keyword: "show",
+            section: Section::Looking,
+            usage: "show NAME",
+            summary: "a point with its constraints, a constraint with its residual",
+            help: "",
+            example: "show C",
+        },
+    },
+    Verb {
+        rule: Rule::print,
+        entry: Entry {
+            keyword: "print",
+            section: Section::Looking,
+            usage: "print ITEM, ...",
+            summary: "write values and strings on one line",
+            help: "Numbers in the shortest form that reads back to the same bits, vectors as `(x, y)`,\n\
+                 a space between two items.",
+            example: r#"print C, distance(A, C), time
+    print "x is", C.x"#,
+        },
+    },
+    Verb {
+        rule: Rule::check,
+        entry: Entry {
+            keyword: "check",
+            section: Section::Looking,
+            usage: "check",
+            summary: "degrees of freedom; what is redundant, conflicting, near-singular",
+            help: "",
+            example: "check",
+        },
+    },
+    Verb {
+        rule: Rule::why,
+        entry: Entry {
+            keyword: "why",
+            section: Section::Looking,
+            usage: "why NAME",
+            summary: "what holds a point, or what a constraint conflicts with",
+            help: "",
+            example: "why C",
+        },
+    },
+    Verb {
+        rule: Rule::limits,
+        entry: Entry {
+            keyword: "limits",
+            section: Section::Looking,
+            usage: "limits NAME",
+            summary: "how far a thing can go, and what stops it",
+            help: "",
+            example: "limits crank",
+        },
+    },
+    Verb {
+        rule: Rule::effects,
+        entry: Entry {
+            keyword: "effects",
+            section: Section::Looking,
+            usage: "effects",
+            summary: "which effects the scene has switched on, why, and what each costs",
+            help: "",
+            example: "effects",
+        },
+    },
+    Verb {
+        rule: Rule::accuracy,
+        entry: Entry {
+            keyword: "accuracy",
+            section: Section::Looking,
+            usage: "accuracy [within TOLERANCE] [in WALL_TIME]",
+            summary: "what accuracy costs in time on this very scene",
+            help: "Does the longest run since the scene last changed again, on a copy, with every method and
+    many settings. Prints a table and writes `accuracy.csv` and `accuracy.svg`. With a wish it
+    names the one setting to use instead.",
+            example: "accuracy\n\
+                 accuracy within 1e-6\n\
+                 accuracy in 2ms",
+        },
+    },
+    Verb {
+        rule: Rule::assert,
+        entry: Entry {
+            keyword: "assert",
+            section: Section::Looking,
+            usage: "assert VALUE RELATION [within TOLERANCE]",
+            summary: "stop unless this holds",
+            help: "Compares numbers, or vectors by their distance. In a batch a failed one ends the run\n\
+                 with exit status 1.",
+            example: "assert distance(u, t, p) = 0 within 1e-9\n\
+                 assert C.x > 0",
+        },
+    },
+    Verb {
+        rule: Rule::help,
+        entry: Entry {
+            keyword: "help",
+            section: Section::Looking,
+            usage: "help [WORD]",
+            summary: "say how a command is written and what it does",
+            help: "",
+            example: "help\n\
+                 help motor",
+        },
+    },
+    Verb {
+        rule: Rule::quit,
+        entry: Entry {
+            keyword: "quit",
+            section: Section::Looking,
+            usage: "quit",
+            summary: "end the session",
+            help: "",
+            example: "quit",
+        },
+    },
+    Verb {
+        rule: Rule::quit,
+        entry: Entry {
+            keyword: "exit",
+            section: Section::Looking,
+            usage: "exit",
+            summary: "end the session",
+            help: "The same as `quit`.",
+            example: "exit",
+        },
+    },
+];
+
+impl Looking {
+    /// The command whose statement `rule` has read; none if it is of another family.
+    pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
+        Ok(Some(match rule {
+            Rule::list => Self::List(list_what(c)?),
+            Rule::show => Self::Show(c.name()?),
+            Rule::print => Self::Print(print_items(c)?),
+            Rule::check => Self::Check,
+            Rule::why => Self::Why(c.name()?),
+            Rule::limits => Self::Limits(c.name()?),
+            Rule::effects => Self::Effects,
+            Rule::accuracy => Self::Accuracy(c.promise()?),
+            Rule::assert => Self::Assert {
+                left: c.expr()?,
+                relation: relation(c)?,
+                within: c.clause(Rule::within)?,
+            },
+            Rule::help => Self::Help(c.setting_if_any()),
+            Rule::quit => Self::Quit,
+            _ => return Ok(None),
+        }))
+    }
+
+    /// Writes its canonical form.
+    pub(in crate::lang) fn write(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::List(None) => f.write_str("list"),
+            Self::List(Some(what)) => write!(f, "list {}", what.word()),
+            Self::Show(name) => write!(f, "show {name}"),
+            Self::Print(items) => write!(f, "print {}", commas(items)),
+            Self::Check => f.write_str("check"),
+            Self::Why(name) => write!(f, "why {name}"),
+            Self::Limits(name) => write!(f, "limits {name}"),
+            Self::Effects => f.write_str("effects"),
+            Self::Accuracy(promise) => write!(f, "accuracy{promise}"),
+            Self::Assert { left, relation, within } => {
+                write!(f, "assert {left} {relation}{}", Clause(" within ", within))
+            }
+            Self::Help(None) => f.write_str("help"),
+            Self::Help(Some(word)) => write!(f, "help {word}"),
+            Self::Quit => f.write_str("quit"),
+        }
+    }
+}
+
+fn relation(c: &mut Cursor) -> Result<Relation, Diagnostic> {
+    let relation = c.relation_if_any()?;
+    Ok(relation.expect("the grammar has a relation here"))
+}
+
+fn print_items(c: &mut Cursor) -> Result<Vec<PrintItem>, Diagnostic> {
+    let mut items = Vec::new();
+    while let Some(rule) = c.peek() {
+        items.push(if rule == Rule::string {
+            PrintItem::Text(c.text()?)
+        } else {
+            PrintItem::Value(c.expr()?)
+        });
+    }
+    Ok(items)
+}
+
+fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {
+    let Some(word) = c.ident_if_any() else { return Ok(None) };
+    let what = ListWhat::ALL.into_iter().find(|what| what.word() == &*word.text);
+    what.map(Some).ok_or_else(|| refusal::unknown_list(&word, &ListWhat::ALL.map(ListWhat::word)))
+}
+
+impl Display for PrintItem {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Value(value) => write!(f, "{value}"),
+            Self::Text(text) => write!(f, "{text}"),
+        }
+    }
+}
