@@ -195,7 +195,7 @@ impl std::fmt::Display for Way {
         f.write_str(self.method.word())?;
         match self.method {
             Method::Auto => Ok(()),
-            Method::Relaxation | Method::Successive | Method::Anderson => {
+            method if method.is_relaxed() => {
                 write!(f, " (rho {}, iterations {})", format_number(self.rho), self.iterations)
             }
             _ => write!(f, " (iterations {})", self.iterations),

@@ -76,6 +76,27 @@ impl Method {
         }
     }
 
+    /// Whether the relaxation coefficient is its step.
+    pub const fn is_relaxed(self) -> bool {
+        match self {
+            Self::Relaxation | Self::Successive | Self::Anderson => true,
+            Self::Auto | Self::Descent | Self::Newton | Self::Conjugate | Self::Nesterov => false,
+        }
+    }
+
+    /// Whether it converges so fast that the tolerance says how far it goes, not the iterations.
+    pub const fn goes_to_tolerance(self) -> bool {
+        match self {
+            Self::Auto | Self::Newton => true,
+            Self::Relaxation
+            | Self::Successive
+            | Self::Descent
+            | Self::Conjugate
+            | Self::Nesterov
+            | Self::Anderson => false,
+        }
+    }
+
     /// The method a word of the command language stands for.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|method| method.word() == word)

@@ -20,6 +20,8 @@ pub fn picture(study: &Study, title: &str) -> String {
     };
     let series: Vec<Series> = Method::ALL.into_iter().enumerate().map(line).collect();
     let series = series.into_iter().filter(|series| !series.data.is_empty()).collect();
+    let exact = Method::ALL.into_iter().filter(|method| method.goes_to_tolerance());
+    let exact: Vec<&str> = exact.map(Method::word).collect();
     let frontier = study.frontier().into_iter().map(|row| (datum(row).x, datum(row).y)).collect();
     let error = format!("{}, relative to the scene's size", study.measure.words());
     let time = if study.is_still { "time for the solve" } else { "time a frame" };
@@ -31,9 +33,8 @@ pub fn picture(study: &Study, title: &str) -> String {
         series,
         frontier,
         note: format!(
-            "numbers at the marks: {} and {} tolerance, others most iterations a frame",
-            Method::Auto.word(),
-            Method::Newton.word()
+            "numbers at the marks: {} tolerance, others most iterations a frame",
+            exact.join(" and ")
         ),
     }
     .svg()

@@ -28,18 +28,13 @@ const TOLERANCES: std::ops::RangeInclusive<i32> = 2..=12;
 /// Every method over its settings, the coarsest first.
 pub fn ladder() -> Vec<Rung> {
     let rungs = |method: Method| -> Vec<Rung> {
-        if goes_to_tolerance(method) {
+        if method.goes_to_tolerance() {
             TOLERANCES.map(|k| Rung { method, step: Step::Tolerance(power_of_ten(k)) }).collect()
         } else {
             ITERATIONS.map(|n| Rung { method, step: Step::Iterations(n) }).to_vec()
         }
     };
     Method::ALL.into_iter().flat_map(rungs).collect()
-}
-
-/// Methods that converge so fast that the tolerance says how far they go.
-const fn goes_to_tolerance(method: Method) -> bool {
-    matches!(method, Method::Auto | Method::Newton)
 }
 
 /// The double nearest to 10^-k.

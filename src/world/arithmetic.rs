@@ -112,7 +112,7 @@ pub fn call<T: Real>(
                 function.of_numbers(&arguments.iter().map(|a| a.number()).collect::<Vec<T>>())
             };
             Number(value.ok_or_else(|| {
-                let given = number(usize::from(function == Function::Mod)).value();
+                let given = number(function.limited_argument()).value();
                 let at = format_number(given);
                 Diagnostic::error(format!("`{}` has no value at {at}", function.name()))
                     .at(span, "outside its domain")

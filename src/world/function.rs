@@ -4,6 +4,14 @@ use crate::constraint::Real;
 use crate::terms::Function;
 
 impl Function {
+    /// The argument that says whether there is a value.
+    pub(super) const fn limited_argument(self) -> usize {
+        match self {
+            Self::Mod => 1,
+            _ => 0,
+        }
+    }
+
     /// The value for numbers; none outside the domain. Only for functions of numbers to a
     /// number.
     pub(super) fn of_numbers<T: Real>(self, a: &[T]) -> Option<T> {

@@ -21,4 +21,5 @@ mod scripts;
 mod solve;
 mod study;
 mod support;
+mod touches;
 mod work;

@@ -57,7 +57,7 @@ pub(super) const TOPICS: &[Entry] = &[
         usage: "set SETTING VALUE",
         summary: "what `set` can change",
         help: "dt          time of one frame, 1/60\n\
-             method      auto, relaxation, successive, descent, newton, conjugate, nesterov, anderson\n\
+             method      how frames are solved, auto; `help method` lists the others\n\
              rho         relaxation coefficient, 0.5; also for some constraints\n\
              weight      how strongly a point resists being moved; for some points\n\
              iterations  most iterations between two frames, 30\n\

@@ -10,6 +10,7 @@ use crate::lang::catalogue::{self, Entry};
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
+use crate::solve::Method;
 use crate::terms::Function;
 use crate::world::{ConstraintId, Entity, PointId, Value};
 
@@ -270,6 +271,9 @@ impl State {
         }
         if let Some(Setting { name, what, text: now, .. }) = Setting::named(word) {
             let _ = writeln!(text, "set {name}: {what}; now {}", now(self));
+            if *name == "method" {
+                let _ = writeln!(text, "  {}", Method::ALL.map(Method::word).join(", "));
+            }
         }
         if text.is_empty()
             && let Some(entry) = catalogue::about(word)

@@ -1,10 +1,11 @@
 //! What every kind of constraint promises, held against random scenes of one generator.
 
 use linkwork::constraint::{
-    Activity, Bounds, Carried, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
-    Coordinate, Distance, Equal, Equivalence, Field, Glider, Hinge, Jet, Kind, Length, Motor,
-    Orientation, Period, Point, PointIdx, Quantity, Rack, Real, Rigid, Row, Vec2, Vector,
+    Activity, Bounds, Carried, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind, Distance,
+    Equal, Equivalence, Field, Given, Glider, Hinge, Jet, Kind, Length, Motor, Orientation, Period,
+    Point, PointIdx, Quantity, Rack, Real, Rigid, Row, Vec2, Vector,
 };
+use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestCaseError};
 
@@ -50,6 +51,7 @@ struct Scene {
 
 impl Scene {
     /// The constraint, as it would have been stated in the plane so moved.
+    #[allow(clippy::match_wildcard_for_single_variants, reason = "a new kind comes there too")]
     fn constraint(&self, by: Similarity) -> Constraint {
         let p = &self.points;
         let [n0, n1, n2] = self.numbers;
@@ -63,10 +65,6 @@ impl Scene {
             _ => Bounds { lo, hi: f64::INFINITY },
         };
         match self.kind {
-            Kind::Coordinate => {
-                let target = by.point(Point::new(4.0 * n0, 4.0 * n1));
-                Coordinate { points: [p[0]], target }.into()
-            }
             Kind::Coincidence => Coincidence { points: [p[0], p[1]] }.into(),
             Kind::Equivalence => Equivalence { points: four }.into(),
             Kind::Equal => {
@@ -100,7 +98,38 @@ impl Scene {
                 Rigid::new(&p[..n_points.min(p.len())], &before).into()
             }
             Kind::Rack => Rack::new(four, &before).into(),
+            kind => self.declared(kind, by),
         }
+    }
+
+    /// A constraint of a kind with nothing special about it: as its statement would make it.
+    fn declared(&self, kind: Kind, by: Similarity) -> Constraint {
+        let is_of_kind =
+            |word: &&ConstraintWord| Kind::stated_by(word.pattern().entry.keyword) == Some(kind);
+        let word = ConstraintWord::ALL.iter().find(is_of_kind).expect("a word states it");
+        let mut points = self.points.iter().copied();
+        let groups = word.pattern().slots.iter().filter_map(|slot| match slot {
+            Slot::Points(n) => Some(points.by_ref().take(*n).collect()),
+            Slot::AllPoints => Some(points.by_ref().collect()),
+            Slot::Line(_) => Some(points.by_ref().take(2).collect()),
+            _ => None,
+        });
+        let groups: Vec<Vec<PointIdx>> = groups.collect();
+        let [n0, n1, n2] = self.numbers;
+        let place = by.point(Point::new(4.0 * n0, 4.0 * n1));
+        let values = [
+            (Field::X, place.x),
+            (Field::Y, place.y),
+            (Field::Radius, (4.0 * n0.abs() + 0.1) * by.scale),
+            (Field::Phase, 3.0 * n1 + by.angle),
+            (Field::Speed, n2),
+            (Field::Ratio, self.ratio()),
+        ];
+        let before = by.points(&self.before);
+        let word = word.pattern().entry.keyword;
+        let (bounds, flags) = (None, &[]);
+        let given = Given { word, groups: &groups, bounds, values: &values, flags, x: &before };
+        kind.declare(&given).expect("points that are apart")
     }
 
     fn ratio(&self) -> f64 {

@@ -1,0 +1,246 @@
+//! What a new thing touches is counted, by the files that name one that is there: a question
+//! asked of each kind in a place of its own would be one more file. `docs/architecture.md` lists
+//! them.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use linkwork::constraint::Kind;
+use linkwork::lang::catalogue::{self, ConstraintWord, Section};
+use linkwork::solve::Method;
+use linkwork::terms::Function;
+
+use crate::support::sources::{Source, sources};
+
+const GRAMMAR: &str = "grammar/linkwork.pest";
+
+/// What names each kind of constraint besides its own file; a script that shows it is the sixth.
+const OF_A_KIND: [&str; 4] =
+    ["constraint/kinds/mod.rs", GRAMMAR, "lang/catalogue/constraints.rs", "render/classify.rs"];
+
+/// What names one kind to go a shorter way with it, or to say more of it. Without that it would
+/// go the way of all others; what would be wrong then does not belong here.
+const SHORTER_WAYS: &[(Kind, &[&str])] = &[
+    // What other tools call it, and what is likely meant instead.
+    (Kind::Coincidence, &["lang/lower/prefix.rs"]),
+    (Kind::Glider, &["lang/lower/prefix.rs", "solve/frame/dyad.rs"]),
+    (Kind::Distance, &["lang/lower/errors/mistake.rs"]),
+    // Bars are found by the meeting of two circles, and swept in shares.
+    (Kind::Equal, &["solve/frame/dyad.rs"]),
+    (
+        Kind::Length,
+        &[
+            "lang/lower/errors/refusal.rs",
+            "session/commands/diagnose.rs",
+            "session/resolve/unbind.rs",
+            "solve/frame/branch.rs",
+            "solve/frame/decomposition.rs",
+            "solve/frame/dyad.rs",
+            "solve/method/sweep.rs",
+        ],
+    ),
+    (
+        Kind::Orientation,
+        &["lang/lower/prefix.rs", "session/commands/diagnose.rs", "session/resolve/unbind.rs"],
+    ),
+    // A motor is what drives: its turn is an input, its end is what `limits` asks for.
+    (
+        Kind::Motor,
+        &[
+            "mobility/range.rs",
+            "mobility/travel.rs",
+            "render/style.rs",
+            "session/commands/motor_range.rs",
+            "session/resolve/unbind.rs",
+            "solve/dead_point.rs",
+            "solve/frame/dyad.rs",
+            "solve/frame/interpolate.rs",
+            "solve/island/inputs.rs",
+            "solve/island/mod.rs",
+        ],
+    ),
+    // `set cog` says in which of two forms wheels are made.
+    (
+        Kind::Cog,
+        &[
+            "constraint/kinds/cog_velocity.rs",
+            "lang/lower/prefix.rs",
+            "session/commands/constrain.rs",
+            "session/commands/save.rs",
+            "session/commands/settings.rs",
+        ],
+    ),
+    (Kind::CogVelocity, &["session/commands/constrain.rs", "session/commands/save.rs"]),
+];
+
+/// The most files of the program, its grammar and its scripts that a new one touches.
+const MOST_OF_A_CONSTRAINT: usize = 6;
+const MOST_OF_A_COMMAND: usize = 4;
+const MOST_OF_A_METHOD: usize = 3;
+const MOST_OF_A_FUNCTION: usize = 2;
+
+#[test]
+fn a_constraint_touches_six_files() {
+    for &kind in Kind::ALL {
+        let own = format!("constraint/kinds/{}.rs", snake(&format!("{kind:?}")));
+        let mut wanted = set(&OF_A_KIND);
+        wanted.insert(own);
+        assert!(wanted.len() < MOST_OF_A_CONSTRAINT, "a script shows it too");
+        if kind == Kind::CogVelocity {
+            // Stated as the other form is.
+            wanted = &wanted - &set(&[GRAMMAR, "lang/catalogue/constraints.rs"]);
+        }
+        for (_, files) in SHORTER_WAYS.iter().filter(|(special, _)| *special == kind) {
+            wanted.extend(set(files));
+        }
+        assert_eq!(naming(|source| names_kind(source, kind)), wanted, "of {kind:?}");
+    }
+}
+
+#[test]
+fn each_constraint_is_shown_by_a_script() {
+    let texts: String = scripts().into_iter().collect();
+    for word in ConstraintWord::ALL {
+        let keyword = word.pattern().entry.keyword;
+        assert!(has_word(&texts, keyword), "no script states `{keyword}`");
+    }
+}
+
+#[test]
+fn a_command_touches_four_files() {
+    for entry in catalogue::commands().filter(|entry| entry.section != Section::Constraints) {
+        let word = entry.keyword;
+        let family = match entry.section {
+            Section::Points => "making",
+            Section::Changing => "changing",
+            Section::Running => "running",
+            Section::Looking => "looking",
+            Section::Pictures => "drawing",
+            Section::Building => "building",
+            Section::Constraints | Section::Topics => unreachable!("it is a command"),
+        };
+        let own = format!("lang/commands/{family}.rs");
+        let variant = capitalised(if word == "exit" { "quit" } else { word });
+        let path = format!("{}::{variant}", capitalised(family));
+        let found = naming(|source| match &*source.path {
+            GRAMMAR => has_word(&source.text, &format!("kw_{word}")),
+            path if path == own => source.text.contains(&format!("keyword: \"{word}\"")),
+            // What writes such a statement names it too.
+            "session/commands/save.rs"
+            | "session/commands/diagnose.rs"
+            | "session/resolve/unbind.rs"
+            | "session/overrides.rs" => false,
+            _ => has_word(&source.code(), &path),
+        });
+        assert_eq!(found, set(&[GRAMMAR, &own, "session/dispatch.rs"]), "of `{word}`");
+        assert!(found.len() < MOST_OF_A_COMMAND, "what it does is a file more");
+    }
+}
+
+#[test]
+fn a_method_touches_three_files() {
+    for method in Method::ALL {
+        // What is tried by default, and the only one that the user gives a coefficient.
+        if matches!(method, Method::Auto | Method::Relaxation) {
+            continue;
+        }
+        let (path, word) = (format!("Method::{method:?}"), format!("\"{}\"", method.word()));
+        let found = naming(|source| {
+            let code = source.code();
+            has_word(&code, &path) || code.contains(&word)
+        });
+        let wanted = set(&["solve/settings.rs", "solve/method/mod.rs"]);
+        assert_eq!(found, wanted, "of {method:?}");
+        assert!(found.len() < MOST_OF_A_METHOD, "its own file is one more");
+    }
+}
+
+#[test]
+fn a_function_touches_two_files() {
+    for function in Function::ALL {
+        let path = format!("Function::{function:?}");
+        let names = |source: &Source| match &*source.path {
+            "terms/function.rs" => true,
+            "world/function.rs" => has_word(&source.code(), &format!("Self::{function:?}")),
+            _ => has_word(&source.code(), &path),
+        };
+        let found = naming(names);
+        // Rates are asked of the solver: what is bound and evaluated has to know.
+        let is_rate = matches!(function, Function::Velocity | Function::Acceleration);
+        assert!(is_rate || found.len() == MOST_OF_A_FUNCTION, "{function:?}: {found:?}");
+    }
+}
+
+fn set(files: &[&str]) -> BTreeSet<String> {
+    files.iter().map(|&file| file.to_owned()).collect()
+}
+
+fn capitalised(word: &str) -> String {
+    let (first, rest) = word.split_at(1);
+    first.to_uppercase() + rest
+}
+
+fn snake(name: &str) -> String {
+    let mut snake = String::new();
+    for c in name.chars() {
+        if c.is_uppercase() && !snake.is_empty() {
+            snake.push('_');
+        }
+        snake.extend(c.to_lowercase());
+    }
+    snake
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The sources and the grammar that something is true of.
+fn naming(is_named: impl Fn(&Source) -> bool) -> BTreeSet<String> {
+    let text = fs::read_to_string(root().join(GRAMMAR)).expect("the grammar can be read");
+    let all = sources().into_iter().chain([Source { path: GRAMMAR.to_owned(), text }]);
+    let all = all.filter(|source| !source.path.ends_with("tests.rs"));
+    all.filter(is_named).map(|source| source.path).collect()
+}
+
+/// The texts of all scripts.
+fn scripts() -> Vec<String> {
+    let list = |folder: &Path| fs::read_dir(folder).expect("a folder can be listed");
+    let folders =
+        list(&root().join("scripts")).map(|entry| entry.expect("it can be listed").path());
+    let files = folders.filter(|path| path.is_dir()).flat_map(|folder| list(&folder));
+    let paths = files.map(|entry| entry.expect("it can be listed").path());
+    let scripts = paths.filter(|path| path.extension().is_some_and(|ending| ending == "link"));
+    scripts.map(|path| fs::read_to_string(path).expect("a script can be read")).collect()
+}
+
+/// Whether a source names a kind of constraint: its type, its variant, or its word.
+fn names_kind(source: &Source, kind: Kind) -> bool {
+    let code = source.code();
+    let name = format!("{kind:?}");
+    let words = ConstraintWord::ALL.iter().map(|word| word.pattern().entry.keyword);
+    let mut words = words.filter(|word| Kind::stated_by(word) == Some(kind));
+    if source.path == GRAMMAR {
+        return words.any(|word| has_word(&code, &format!("kw_{word}")));
+    }
+    let is_table = source.path.starts_with("constraint/kinds/")
+        || source.path == "lang/catalogue/constraints.rs";
+    // What else is called so.
+    let table = code.replace("Quantity::Length", "");
+    let imports = code.split("use crate::constraint::").skip(1);
+    let mut imports = imports.filter_map(|rest| rest.split(';').next());
+    has_word(&code, &format!("Constraint::{name}"))
+        || has_word(&code, &format!("Kind::{name}"))
+        || is_table && has_word(&table, &name)
+        || imports.any(|import| has_word(import, &name))
+        || words.any(|word| code.contains(&format!("\"{word}\"")))
+}
+
+/// Whether a text has a word that is not part of another.
+fn has_word(text: &str, word: &str) -> bool {
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    text.match_indices(word).any(|(at, _)| {
+        !is_part(text[..at].chars().next_back()) && !is_part(text[at + word.len()..].chars().next())
+    })
+}
