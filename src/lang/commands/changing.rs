@@ -38,7 +38,7 @@ pub enum Changing {
     Set {
         /// Which setting.
         setting: Ident,
-        /// Its value; a word is a [`Node::Name`], see [`Expr::as_word`].
+        /// Its value; a word is a name, see [`Expr::as_word`].
         value: Expr,
         /// What it is set for; empty: for the whole session.
         targets: Vec<Name>,
