@@ -43,6 +43,10 @@ pub trait ConstraintKind {
     /// where they stand.
     fn set(&mut self, field: Field, value: f64) -> bool;
 
+    /// The longest length that it asks for, 0 if none: a scene is at least as large. Asked
+    /// wherever a live value changes, so not one of the traits.
+    fn nominal_length(&self) -> f64;
+
     /// What sort of a constraint it is.
     fn traits(&self) -> Traits;
 

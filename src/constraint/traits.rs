@@ -23,8 +23,6 @@ pub struct Traits {
     pub is_wheel: bool,
     /// What it carries on from pose to pose.
     pub carried: Carried,
-    /// The longest length that it asks for, 0 if none: a scene is at least as large.
-    pub nominal_length: f64,
     /// The words that its statement has to say besides its points and values.
     pub flags: &'static [Flag],
     /// What is wrong with its values.

@@ -4,7 +4,7 @@ use super::dependence::Dependence;
 use super::motions::{Random, motions};
 use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRows};
-use crate::constraint::{ConstraintKind, Point, Traits, Vector};
+use crate::constraint::{ConstraintKind, Point, Vector};
 use nalgebra::{DMatrix, DVector};
 
 /// What becomes of the motions a pose seems to allow.
@@ -60,8 +60,8 @@ pub fn classify(
 fn is_generic(scene: &ConstraintSystem, island: &UnitRows, n_motions: usize) -> bool {
     // What is linear and asks for no length holds in every affine image of the mechanism.
     let straight = island.filtered(|row| {
-        let Traits { is_linear, nominal_length, .. } = scene.constraints[row.source.0].traits();
-        is_linear && nominal_length == 0.0
+        let constraint = scene.constraints[row.source.0];
+        constraint.traits().is_linear && constraint.nominal_length() == 0.0
     });
     let mut random = Random::new();
     let mut y: Vec<f64> = (0..island.n_unknowns()).map(|_| random.next()).collect();

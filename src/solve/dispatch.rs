@@ -228,6 +228,6 @@ pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
         hi - lo
     };
     let size = extent(|p| p.x).max(extent(|p| p.y));
-    let size = size.max(constraint.traits().nominal_length);
+    let size = size.max(constraint.nominal_length());
     (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
 }

@@ -205,6 +205,10 @@ impl ConstraintKind for Cog {
         field == Field::Ratio
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "cog",
@@ -215,7 +219,6 @@ impl ConstraintKind for Cog {
             is_linear: false,
             is_wheel: true,
             carried: Carried::ByPose,
-            nominal_length: 0.0,
             flags: &[],
             flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
         }

@@ -132,6 +132,10 @@ impl ConstraintKind for CogVelocity {
         field == Field::Ratio
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "cog",
@@ -143,7 +147,6 @@ impl ConstraintKind for CogVelocity {
             is_linear: false,
             is_wheel: true,
             carried: Carried::ByFrame,
-            nominal_length: 0.0,
             flags: &[],
             flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
         }

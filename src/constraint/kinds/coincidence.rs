@@ -81,6 +81,10 @@ impl ConstraintKind for Coincidence {
         false
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "coincidence",
@@ -91,7 +95,6 @@ impl ConstraintKind for Coincidence {
             is_linear: true,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

@@ -92,6 +92,10 @@ impl ConstraintKind for Coordinate {
         true
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "coordinate",
@@ -102,7 +106,6 @@ impl ConstraintKind for Coordinate {
             is_linear: true,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

@@ -114,6 +114,10 @@ impl ConstraintKind for Distance {
         self.bounds.set(field, value)
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "distance",
@@ -124,7 +128,6 @@ impl ConstraintKind for Distance {
             is_linear: false,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: Flaw::of_range(self.bounds),
         }

@@ -137,6 +137,10 @@ impl ConstraintKind for Equal {
         self.bounds.set(field, value)
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "equal",
@@ -147,7 +151,6 @@ impl ConstraintKind for Equal {
             is_linear: false,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: Flaw::of_range(self.bounds),
         }

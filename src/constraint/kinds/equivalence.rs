@@ -82,6 +82,10 @@ impl ConstraintKind for Equivalence {
         false
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "equivalence",
@@ -92,7 +96,6 @@ impl ConstraintKind for Equivalence {
             is_linear: true,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

@@ -141,6 +141,10 @@ impl ConstraintKind for Glider {
         false
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "glider",
@@ -151,7 +155,6 @@ impl ConstraintKind for Glider {
             is_linear: false,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: if self.bounded { &[] } else { &[Flag::Unbounded] },
             flaw: None,
         }

@@ -94,6 +94,10 @@ impl ConstraintKind for Hinge {
         field == Field::Ratio
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "hinge",
@@ -104,7 +108,6 @@ impl ConstraintKind for Hinge {
             is_linear: true,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

@@ -104,8 +104,13 @@ impl ConstraintKind for Length {
         self.bounds.set(field, value)
     }
 
-    fn traits(&self) -> Traits {
+    fn nominal_length(&self) -> f64 {
         let Bounds { lo, hi } = self.bounds;
+        (if hi.is_finite() { hi } else { lo }).abs()
+    }
+
+    fn traits(&self) -> Traits {
+        let hi = self.bounds.hi;
         Traits {
             word: "length",
             quantity: Quantity::Length,
@@ -115,7 +120,6 @@ impl ConstraintKind for Length {
             is_linear: false,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: (if hi.is_finite() { hi } else { lo }).abs(),
             flags: &[],
             flaw: Flaw::of_range(self.bounds).or((hi < 0.0).then_some(Flaw::NegativeLength)),
         }

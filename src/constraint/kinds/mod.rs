@@ -133,6 +133,9 @@ macro_rules! define {
             fn set(&mut self, field: Field, value: f64) -> bool {
                 each!(self [$($Name)*] c => c.set(field, value))
             }
+            fn nominal_length(&self) -> f64 {
+                each!(self [$($Name)*] c => c.nominal_length())
+            }
             fn traits(&self) -> Traits {
                 each!(self [$($Name)*] c => c.traits())
             }

@@ -195,8 +195,11 @@ impl ConstraintKind for Motor {
         true
     }
 
+    fn nominal_length(&self) -> f64 {
+        self.drive.radius.abs()
+    }
+
     fn traits(&self) -> Traits {
-        let radius = self.drive.radius;
         Traits {
             word: "motor",
             quantity: Quantity::Length,
@@ -206,9 +209,8 @@ impl ConstraintKind for Motor {
             is_linear: true,
             is_wheel: false,
             carried: Carried::ByClock,
-            nominal_length: radius.abs(),
             flags: &[],
-            flaw: (radius < 0.0).then_some(Flaw::NegativeRadius),
+            flaw: (self.drive.radius < 0.0).then_some(Flaw::NegativeRadius),
         }
     }
 

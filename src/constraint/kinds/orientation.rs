@@ -198,6 +198,10 @@ impl ConstraintKind for Orientation {
         self.bounds.set(field, if is_open { PI.copysign(value) } else { value })
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: match self.period {
@@ -212,7 +216,6 @@ impl ConstraintKind for Orientation {
             is_linear: false,
             is_wheel: false,
             carried: Carried::ByPose,
-            nominal_length: 0.0,
             flags: &[],
             flaw: Flaw::of_range(self.bounds),
         }

@@ -159,6 +159,10 @@ impl ConstraintKind for Rack {
         field == Field::Radius
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "rack",
@@ -169,7 +173,6 @@ impl ConstraintKind for Rack {
             is_linear: false,
             is_wheel: true,
             carried: Carried::ByPose,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

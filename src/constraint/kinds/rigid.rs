@@ -233,6 +233,10 @@ impl ConstraintKind for Rigid {
         false
     }
 
+    fn nominal_length(&self) -> f64 {
+        0.0
+    }
+
     fn traits(&self) -> Traits {
         Traits {
             word: "rigid",
@@ -244,7 +248,6 @@ impl ConstraintKind for Rigid {
             is_linear: false,
             is_wheel: false,
             carried: Carried::Nothing,
-            nominal_length: 0.0,
             flags: &[],
             flaw: None,
         }

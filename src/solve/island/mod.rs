@@ -229,7 +229,7 @@ impl Island {
             return;
         }
         self.remembered.take();
-        if new.traits().nominal_length != self.constraints[c].traits().nominal_length {
+        if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
@@ -325,7 +325,7 @@ impl Island {
     /// The longest length that a constraint asks for, 0 if none does. The size is no less.
     pub fn wanted(&self) -> f64 {
         self.wanted.unwrap_or_else(|| {
-            let lengths = self.constraints.iter().map(|c| c.traits().nominal_length);
+            let lengths = self.constraints.iter().map(ConstraintKind::nominal_length);
             lengths.fold(0.0, f64::max)
         })
     }
