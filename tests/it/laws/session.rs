@@ -1,7 +1,8 @@
 //! The laws of a session: a command is whole or nothing, `undo` and `redo` are exact, and what
 //! is saved goes on to the same bits.
 
-use crate::support::desk::{Seat, check_same};
+use crate::support::compare::check_same;
+use crate::support::talk::Talking;
 use proptest::prelude::*;
 
 /// What there is before anything random happens: a four-bar with a driven crank, an actuator,
@@ -93,36 +94,21 @@ fn statements(most: usize) -> impl Strategy<Value = Vec<String>> {
 }
 
 /// Carries out a statement; whether it took effect. One that fails must have none.
-fn tries(seat: &mut Seat, statement: &str) -> bool {
-    let before = seat.world();
-    let is_done = seat.run("random", statement).is_ok();
+fn tries(talking: &mut Talking, statement: &str) -> bool {
+    let before = talking.script();
+    let is_done = talking.execute(statement).is_ok();
     if !is_done {
-        check_same(&seat.world(), &before, &format!("`{statement}` failed"));
+        check_same(&talking.script(), &before, &format!("`{statement}` failed"));
     }
     is_done
 }
 
-fn scene() -> Seat {
-    let mut seat = Seat::new(".");
-    seat.must(SCENE);
-    seat
-}
-
-/// A world of its own made by a saved script.
-fn loaded(script: &str) -> Seat {
-    let mut seat = Seat::new(".");
-    if let Err(problem) = seat.run("saved", script) {
-        panic!("a saved session cannot be read:\n{}", seat.drawn(&problem));
-    }
-    seat
-}
-
 fn undo_and_redo(statements: &[String]) {
-    let mut seat = scene();
-    let mut worlds = vec![seat.world()];
+    let mut talking = Talking::after(SCENE);
+    let mut worlds = vec![talking.script()];
     for statement in statements {
-        tries(&mut seat, statement);
-        let world = seat.world();
+        tries(&mut talking, statement);
+        let world = talking.script();
         if worlds.last() != Some(&world) {
             worlds.push(world);
         }
@@ -130,29 +116,29 @@ fn undo_and_redo(statements: &[String]) {
     // Commands that left no mark in the text are steps of their own: walk until it changes.
     let mut walk = |command: &str, wanted: &String| {
         for _ in 0..=statements.len() {
-            if seat.world() == *wanted {
+            if talking.script() == *wanted {
                 return;
             }
-            assert!(seat.run("walk", command).is_ok(), "`{command}` led nowhere");
+            assert!(talking.execute(command).is_ok(), "`{command}` led nowhere");
         }
-        check_same(&seat.world(), wanted, &format!("after `{command}`"));
+        check_same(&talking.script(), wanted, &format!("after `{command}`"));
     };
     worlds.iter().rev().for_each(|world| walk("undo", world));
     worlds.iter().for_each(|world| walk("redo", world));
 }
 
 fn saved_goes_on(before: &[String], after: &[String]) {
-    let mut seat = scene();
+    let mut talking = Talking::after(SCENE);
     for statement in before {
-        tries(&mut seat, statement);
+        tries(&mut talking, statement);
     }
-    let script = seat.world();
-    let mut other = loaded(&script);
-    check_same(&other.world(), &script, "a loaded world saves otherwise");
+    let script = talking.script();
+    let mut other = Talking::after(&script);
+    check_same(&other.script(), &script, "a loaded world saves otherwise");
     for statement in after {
-        let is_done = tries(&mut seat, statement);
+        let is_done = tries(&mut talking, statement);
         assert_eq!(tries(&mut other, statement), is_done, "`{statement}` knows what was loaded");
-        check_same(&other.world(), &seat.world(), &format!("after `{statement}`"));
+        check_same(&other.script(), &talking.script(), &format!("after `{statement}`"));
     }
 }
 
@@ -170,8 +156,7 @@ fn config() -> ProptestConfig {
 
 #[test]
 fn what_was_at_rest_when_it_was_saved_is_not_solved_again() {
-    let mut seat = Seat::new(".");
-    seat.must(
+    let mut talking = Talking::after(
         "point A = (0.8, -1.77), B = (0.35, -2.2) frozen, C = (-1.94, 2.21) frozen
          point D = (-0.49, -0.97)
          hinge A on B C at 0.3
@@ -180,11 +165,11 @@ fn what_was_at_rest_when_it_was_saved_is_not_solved_again() {
          length D C = 9
          step 2",
     );
-    let mut other = loaded(&seat.world());
+    let mut other = Talking::after(&talking.script());
     for statement in ["solve", "step"] {
-        seat.must(statement);
-        other.must(statement);
-        check_same(&other.world(), &seat.world(), &format!("after `{statement}`"));
+        talking.run(statement);
+        other.run(statement);
+        check_same(&other.script(), &talking.script(), &format!("after `{statement}`"));
     }
 }
 
@@ -203,13 +188,13 @@ proptest! {
 
     #[test]
     fn looking_changes_nothing(statements in statements(10)) {
-        let mut seat = scene();
-        let mut looked_at = scene();
+        let mut talking = Talking::after(SCENE);
+        let mut looked_at = Talking::after(SCENE);
         for statement in &statements {
-            let is_done = seat.run("random", statement).is_ok();
+            let is_done = talking.execute(statement).is_ok();
             assert_eq!(tries(&mut looked_at, statement), is_done);
-            looked_at.talk("list; show B; print velocity(B), time; set; check; assert B = A");
+            looked_at.type_in("list; show B; print velocity(B), time; set; check; assert B = A");
         }
-        check_same(&looked_at.world(), &seat.world(), "looked at");
+        check_same(&looked_at.script(), &talking.script(), "looked at");
     }
 }
