@@ -1,6 +1,8 @@
 //! The solver on mechanisms whose answers are known.
 
 mod hard;
+mod live_values;
 mod memory;
 mod motion;
 mod rates;
+mod settings;
