@@ -6,6 +6,7 @@ use linkwork::diag::{Diagnostic, Paint, SourceId, render};
 use linkwork::lang::ast::Statement;
 use linkwork::lang::parse;
 use linkwork::session::{Flow, Session};
+use linkwork::world::World;
 
 use super::notebook::Notebook;
 
@@ -83,6 +84,10 @@ impl Talking {
     /// A problem as the user sees it.
     pub fn drawn(&self, problem: &Diagnostic) -> String {
         render(problem, self.session.sources(), Paint::Plain)
+    }
+
+    pub fn world(&self) -> &World {
+        self.session.world()
     }
 
     /// The script that makes the world as it is: the same text, the same world.
