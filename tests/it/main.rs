@@ -18,6 +18,7 @@ mod readme;
 mod render;
 mod reproducible;
 mod scripts;
+mod session;
 mod solve;
 mod study;
 mod support;

@@ -135,6 +135,29 @@ fn a_pipe_is_answered_line_by_line() {
 }
 
 #[test]
+fn a_value_from_outside_is_unused_only_where_no_file_takes_it() {
+    let folder = folder(&[
+        ("a.link", "let r = 3\nprint r"),
+        ("b.link", "let s = 3\nprint s"),
+        ("c.link", "print 1"),
+    ]);
+    let set = ["--set", "r=5", "--set", "s=6", "--set", "t=7"];
+    let warned = |files: &[&str]| -> Vec<String> {
+        let out = run(folder.path(), &[&["run"], files, &set[..]].concat(), "");
+        assert_eq!(out.status.code(), Some(0));
+        let is_named = |name: &&str| {
+            text(&out.stderr).matches(&format!("no `let` took `--set {name}=...`")).count() == 1
+        };
+        ["r", "s", "t"].iter().filter(|name| is_named(name)).map(ToString::to_string).collect()
+    };
+    assert_eq!(warned(&["a.link"]), ["s", "t"]);
+    assert_eq!(warned(&["a.link", "b.link"]), ["t"]);
+    assert_eq!(warned(&["b.link", "a.link", "c.link"]), ["t"]);
+    assert_eq!(warned(&["c.link", "b.link", "b.link"]), ["r", "t"]);
+    assert_eq!(warned(&["c.link", "c.link"]), ["r", "s", "t"]);
+}
+
+#[test]
 fn values_from_outside_win_over_a_let() {
     let folder = folder(&[("a.link", "let r = 3, s = 2 * r\nprint r, s\nlet r = 4\nprint r")]);
     let out = run(folder.path(), &["run", "a.link", "--set", "r=90deg / 2", "--set", "q=1"], "");

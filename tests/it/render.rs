@@ -417,7 +417,7 @@ fn ghosts_are_the_fainter_the_older() {
         .filter_map(|e| e.get("opacity")?.parse().ok())
         .collect();
     assert_eq!(opacities.len(), 3);
-    assert!(opacities.is_sorted() && opacities[2] < 0.6, "{opacities:?}");
+    assert!(opacities.is_sorted_by(|a, b| a < b) && opacities[2] < 0.6, "{opacities:?}");
     let n_names = with_class(&document, "name").len();
     assert_eq!(n_names, 5, "ghosts have no names");
 }

@@ -24,11 +24,14 @@ fn said(text: &str) -> (Vec<String>, Vec<String>, Notebook) {
     if let Err(problem) = run(&mut session, &mut notebook, text) {
         panic!("{}: {:?}", problem.message, problem.labels);
     }
-    let told = notebook
-        .told
-        .iter()
-        .map(|what| [&[what.message.to_string()], &what.notes[..]].concat().join("; "));
-    (std::mem::take(&mut notebook.printed), told.collect(), notebook)
+    (std::mem::take(&mut notebook.printed), told(&notebook), notebook)
+}
+
+/// The notes, each with what it adds.
+fn told(notebook: &Notebook) -> Vec<String> {
+    let whole =
+        |what: &Diagnostic| [&[what.message.to_string()], &what.notes[..]].concat().join("; ");
+    notebook.told.iter().map(whole).collect()
 }
 
 const FOUR_BAR: &str = "
@@ -156,6 +159,45 @@ fn a_motion_past_its_branches_has_no_reference() {
     ",
     );
     assert!(told.iter().any(|t| t.starts_with("there is no reference")), "{told:?}");
+}
+
+/// A wheel that turns by 200 degrees a time unit, and one of twice the radius that it drives.
+const WHEELS: &str = "
+point O = (0, 0) frozen, P = (1, 0)
+let w = 200deg
+coordinate P at (cos(w * time), sin(w * time))
+point C = (3, 0) frozen, R = (5, 0)
+length C R = 2
+cog O P, C R ratio 2
+";
+
+/// The notes of a study of these wheels, in which the clock goes a millisecond on at each look.
+fn study_of_wheels(motion: &str) -> Vec<String> {
+    let mut session = Session::new();
+    let mut notebook = Notebook { tick: 1e-3, ..Notebook::default() };
+    let text = format!("{WHEELS}\n{motion}; accuracy");
+    run(&mut session, &mut notebook, &text).expect("it is sound");
+    told(&notebook)
+}
+
+#[test]
+fn a_motion_that_turns_the_other_way_in_shorter_frames_has_no_reference() {
+    // Seen once a time unit, 200 degrees are 160 the other way; seen twice, they are what they
+    // are. The second wheel turns back by half of that: by 80 degrees forwards or by 100
+    // backwards, which are opposite each other.
+    let told = study_of_wheels(
+        "set dt 1; step; assert R = C + polar(2, 80deg) within 1e-9
+         step 2; assert R = C + polar(2, 240deg) within 1e-9",
+    );
+    let words = "with frames half as long points come out elsewhere";
+    assert!(told.iter().any(|t| t.contains(words)), "{told:?}");
+}
+
+#[test]
+fn the_same_motion_in_frames_that_are_short_enough_has_one() {
+    let told =
+        study_of_wheels("set dt 1/10; step 10; assert R = C + polar(2, -100deg) within 1e-9");
+    assert!(!told.iter().any(|t| t.contains("there is no reference")), "{told:?}");
 }
 
 #[test]

@@ -6,37 +6,32 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::support::desk::{Seat, check_golden};
+use crate::support::compare::{check_golden, golden, golden_files};
+use crate::support::talk::Talking;
 use linkwork::lang::is_incomplete;
 
 #[test]
 fn sessions_go_as_written() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden/sessions");
-    let mut files: Vec<PathBuf> = fs::read_dir(&folder)
-        .expect("the folder is there")
-        .map(|entry| entry.expect("it can be listed").path())
-        .filter(|path| path.extension().is_some_and(|ending| ending == "txt"))
-        .collect();
-    files.sort();
+    let files = golden_files("sessions", "txt");
     assert!(!files.is_empty());
     files.iter().for_each(|file| check(file));
 }
 
 fn check(file: &Path) {
-    let golden = fs::read_to_string(file).expect("the session can be read");
-    let mut seat = Seat::new("sessions");
+    let text = fs::read_to_string(file).expect("the session can be read");
+    let mut talking = Talking::reading(golden("sessions"));
     let mut got = String::new();
-    for typed in typed(&golden) {
+    for typed in typed(&text) {
         for line in typed.lines() {
             let line = if line.is_empty() { ">".to_owned() } else { format!("> {line}") };
             writeln!(got, "{line}").expect("writing to a string");
         }
-        seat.talk(&typed);
+        let seen = talking.type_in(&typed);
         // How many iterations a run took is the solver's affair, not the session's.
         let is_receipt = |line: &&str| line.contains(" by ") && line.contains(" a frame, ");
-        for line in seat.said().lines().filter(|line| !is_receipt(line)) {
+        for line in seen.lines().filter(|line| !is_receipt(line)) {
             writeln!(got, "{line}").expect("writing to a string");
         }
     }
@@ -44,14 +39,14 @@ fn check(file: &Path) {
 }
 
 /// What is typed in a session: line by line, but for lines that hold a statement open.
-fn typed(golden: &str) -> Vec<String> {
+fn typed(text: &str) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
-    for line in golden.lines() {
-        let Some(text) = line.strip_prefix('>') else { continue };
-        let text = text.strip_prefix(' ').unwrap_or(text);
+    for line in text.lines() {
+        let Some(line) = line.strip_prefix('>') else { continue };
+        let line = line.strip_prefix(' ').unwrap_or(line);
         match pieces.last_mut().filter(|last| is_incomplete(last)) {
-            Some(last) => write!(last, "\n{text}").expect("writing to a string"),
-            None => pieces.push(text.to_owned()),
+            Some(last) => write!(last, "\n{line}").expect("writing to a string"),
+            None => pieces.push(line.to_owned()),
         }
     }
     pieces

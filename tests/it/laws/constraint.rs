@@ -392,6 +392,20 @@ proptest! {
         }
     }
 
+    /// What is shown of a constraint is what the solver works on: where one row asks for
+    /// something, the residual is its value, sign and all; where several do, it is no smaller
+    /// than any.
+    #[test]
+    fn a_residual_is_that_of_its_rows(scene in scenes(0.35, N_POINTS)) {
+        check_residual(&scene)?;
+    }
+
+    /// The same where one point takes several parts.
+    #[test]
+    fn a_residual_is_that_of_its_rows_with_repeated_points(scene in scenes(0.35, 3)) {
+        check_residual(&scene)?;
+    }
+
     /// Rows, equations and differences of equations tell the same story.
     #[test]
     fn derivatives_agree(scene in scenes(0.0, N_POINTS), speeds in proptest::collection::vec((-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0), N_POINTS)) {
@@ -515,6 +529,24 @@ fn check_satisfies(scene: &Scene) -> Result<(), TestCaseError> {
         n_steps += 1;
     }
     Ok(())
+}
+
+fn check_residual(scene: &Scene) -> Result<(), TestCaseError> {
+    let c = scene.constraint(Similarity::NONE);
+    let (f, tolerance) = (c.residual(&scene.x), 1e-12 * scene.size(&c));
+    let asking: Vec<f64> =
+        rows(&c, &scene.x).iter().filter(|row| row.is_active).map(|row| row.f).collect();
+    match asking[..] {
+        [] => close(f, 0.0, 0.0),
+        // Of a body a distance is shown, however few points it has.
+        [row] if scene.kind == Kind::Rigid => close(f, row.abs(), tolerance),
+        [row] => close(f, row, tolerance),
+        _ => {
+            let largest = asking.iter().fold(0.0_f64, |most, row| most.max(row.abs()));
+            prop_assert!(f >= largest - tolerance, "{f} for {asking:?}");
+            Ok(())
+        }
+    }
 }
 
 fn check_derivatives(scene: &Scene, speeds: &[(f64, f64, f64, f64)]) -> Result<(), TestCaseError> {

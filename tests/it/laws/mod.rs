@@ -1,8 +1,11 @@
 //! Laws over random input: what holds for every scene, session, text and matrix.
 
+mod claims;
 mod constraint;
 mod lang;
 mod linalg;
+mod random_scene;
+mod random_session;
 mod scenes;
 mod session;
 mod solve;

@@ -1,128 +1,25 @@
 //! Laws of sessions on random scenes of all constraint types under random edits.
 
+use super::random_scene::{after, edit, renamed, scene, shadow, use_of_shadow};
+use crate::support::fresh::{can_be_stated, inverse_masses};
 use crate::support::talk::Talking;
 use linkwork::constraint::ConstraintKind as _;
 use linkwork::constraint::Row;
-use linkwork::session::Session;
-use linkwork::world::{Entity, PointId};
+use linkwork::world::{Entity, World};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
-const N_POINTS: usize = 7;
-const N_CONSTRAINTS: usize = 9;
-
-fn point() -> impl Strategy<Value = String> {
-    (0..N_POINTS).prop_map(|k| format!("p{k}"))
-}
-
-fn constraint_name() -> impl Strategy<Value = String> {
-    (0..N_CONSTRAINTS).prop_map(|k| format!("c{k}"))
-}
-
-/// A number as a user may type it: mostly ordinary, some hard.
-fn number() -> impl Strategy<Value = String> {
-    prop_oneof![
-        8 => (-50..50i32).prop_map(|n| format!("{}", f64::from(n) / 10.0)),
-        1 => Just("0".to_owned()),
-        1 => prop_oneof![Just("1e-9"), Just("1e6"), Just("-1"), Just("1 + sin(time)")]
-            .prop_map(str::to_owned),
-    ]
-}
-
-fn angle() -> impl Strategy<Value = String> {
-    (-36..=36i32).prop_map(|n| format!("{}deg", 10 * n))
-}
-
-fn relation(value: impl Strategy<Value = String> + Clone) -> impl Strategy<Value = String> {
-    prop_oneof![
-        2 => Just(String::new()),
-        4 => value.clone().prop_map(|v| format!("= {v}")),
-        1 => value.clone().prop_map(|v| format!("<= {v}")),
-        1 => value.prop_map(|v| format!(">= {v}")),
-    ]
-}
-
-/// A statement of a constraint of any type, with its name in front.
-fn constraint() -> impl Strategy<Value = String> {
-    let body = prop_oneof![
-        4 => (point(), point(), relation(number().boxed())).prop_map(|(a, b, r)| format!("length {a} {b} {r}")),
-        1 => (point(), number(), number()).prop_map(|(a, x, y)| format!("coordinate {a} at ({x}, {y})")),
-        1 => (point(), point()).prop_map(|(a, b)| format!("coincidence {a} {b}")),
-        1 => [point(), point(), point(), point()]
-            .prop_map(|[a, b, c, d]| format!("equivalence {a} {b}, {c} {d}")),
-        1 => ([point(), point(), point(), point()], relation(number().boxed()))
-            .prop_map(|([a, b, c, d], r)| format!("equal {a} {b}, {c} {d} {r}")),
-        2 => ([point(), point(), point(), point()], relation(angle().boxed()))
-            .prop_map(|([a, b, c, d], r)| format!("orientation {a} {b}, {c} {d} {r}")),
-        2 => (point(), point(), number(), number())
-            .prop_map(|(a, b, r, v)| format!("motor {a} {b} radius abs({r}) speed {v}")),
-        2 => ([point(), point(), point()], any::<bool>()).prop_map(|([a, b, c], free)| {
-            format!("glider {a} on {b} {c} {}", if free { "unbounded" } else { "" })
-        }),
-        1 => ([point(), point(), point()], number())
-            .prop_map(|([a, b, c], mu)| format!("hinge {a} on {b} {c} at {mu}")),
-        1 => ([point(), point(), point(), point()], number())
-            .prop_map(|([a, b, c, d], r)| format!("cog {a} {b}, {c} {d} ratio {r}")),
-        1 => ([point(), point(), point()], relation(number().boxed()))
-            .prop_map(|([a, b, c], r)| format!("distance {a} to {b} {c} {r}")),
-        1 => ([point(), point(), point(), point()], prop_oneof![Just("parallel"), Just("perpendicular")])
-            .prop_map(|([a, b, c, d], word)| format!("{word} {a} {b}, {c} {d}")),
-        1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),
-        1 => [point(), point(), point(), point()]
-            .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
-    ];
-    (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
-}
-
-/// Any edit or run.
-fn edit() -> impl Strategy<Value = String> {
-    prop_oneof![
-        8 => constraint(),
-        1 => constraint_name().prop_map(|c| format!("delete {c}")),
-        1 => point().prop_map(|p| format!("delete {p} cascade")),
-        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("point {p} = ({x}, {y})")),
-        2 => point().prop_map(|p| format!("freeze {p}")),
-        1 => point().prop_map(|p| format!("thaw {p}")),
-        1 => constraint_name().prop_map(|c| format!("off {c}")),
-        1 => constraint_name().prop_map(|c| format!("on {c}")),
-        2 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} = {v}")),
-        1 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} speed {v}")),
-        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("move {p} to ({x}, {y})")),
-        2 => (point(), number(), number(), 1..6u32)
-            .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
-        3 => (1..8u32).prop_map(|n| format!("step {n}")),
-        1 => Just("solve".to_owned()),
-        1 => Just("relax 5".to_owned()),
-        1 => point().prop_map(|p| format!("trace {p}")),
-        1 => Just("reset".to_owned()),
-        1 => prop_oneof![Just("hold"), Just("stop"), Just("reverse")]
-            .prop_map(|word| format!("set dead-points {word}")),
-        1 => prop_oneof![Just("auto"), Just("relaxation"), Just("newton"), Just("nesterov")]
-            .prop_map(|word| format!("set method {word}")),
-        1 => (1..3u32).prop_map(|n| format!("undo {n}")),
-        1 => Just("redo".to_owned()),
-    ]
-}
-
-/// Points all over the place, a few of them frozen.
-fn scene() -> impl Strategy<Value = Vec<String>> {
-    let places = prop::collection::vec((-50..50i32, -50..50i32, 0..4u32), N_POINTS);
-    let points = places.prop_map(|places| {
-        let lines = places.into_iter().enumerate().map(|(k, (x, y, frozen))| {
-            let frozen = if frozen == 0 { " frozen" } else { "" };
-            format!("point p{k} = ({}, {}){frozen}", f64::from(x) / 10.0, f64::from(y) / 10.0)
-        });
-        lines.collect::<Vec<_>>()
-    });
-    (points, prop::collection::vec(constraint(), 0..N_CONSTRAINTS))
-        .prop_map(|(points, constraints)| [points, constraints].concat())
-}
-
-fn assert_finite(session: &Session) {
-    let points = session.world().points();
+fn assert_finite(world: &World) {
+    let points = world.points();
     for p in points.ids() {
         assert!(points.at(p).is_finite(), "{} is at {:?}", points.name(p), points.at(p));
     }
+}
+
+/// Where all points are, to the bit, in the order in which they were made.
+fn places(world: &World) -> Vec<[u64; 2]> {
+    let points = world.points();
+    points.ids().map(|p| [points.at(p).x.to_bits(), points.at(p).y.to_bits()]).collect()
 }
 
 /// What the constraints of a scene that are on ask for: for each row the value, and what makes it
@@ -140,19 +37,17 @@ struct Demands {
 fn demands(talking: &mut Talking, method: &str) -> Demands {
     talking.talk.told();
     talking.run(&format!("set method {method}; solve"));
-    assert_finite(&talking.session);
+    assert_finite(talking.world());
     let told = talking.talk.told().concat();
     let (has_converged, is_best_fit) =
         (told.starts_with("converged"), told.starts_with("best fit"));
-    let points = talking.session.world().points();
+    let points = talking.world().points();
     let x = points.column();
-    let all = (0..x.len()).map(PointId::new);
-    let w: Vec<f64> =
-        all.map(|p| if points.is_alive(p) { points.inverse_mass(p) } else { 0.0 }).collect();
+    let w = inverse_masses(talking.world());
     let size = points.ids().map(|p| x[p.idx()].to_vector().norm()).fold(1.0, f64::max);
     let mut rows = Vec::new();
     let mut has_collapsed = false;
-    for (_, record) in talking.session.world().constraints().filter(|(_, record)| record.is_on) {
+    for (_, record) in talking.world().constraints().filter(|(_, record)| record.is_on) {
         let held = record.constraint.points();
         let is_near = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm() <= 1e-6 * size;
         has_collapsed |= held.iter().any(|&a| held.iter().any(|&b| a < b && is_near(a, b)));
@@ -172,15 +67,6 @@ fn energy(demands: &Demands, measured_at: &Demands) -> f64 {
     0.5 * scaled.map(|f| f * f).sum::<f64>()
 }
 
-fn after(statements: &[String]) -> Talking {
-    let mut talking = Talking::after("");
-    for statement in statements {
-        // A refusal is an answer too.
-        let _ = talking.execute(statement);
-    }
-    talking
-}
-
 proptest! {
     #![proptest_config(Config::with_cases(60))]
 
@@ -191,11 +77,11 @@ proptest! {
     ) {
         let mut talking = after(&scene);
         for edit in &edits {
-            let before = talking.session.to_script();
+            let before = talking.script();
             let result = talking.execute(edit);
-            assert_finite(&talking.session);
+            assert_finite(talking.world());
             if let Err(why) = result {
-                prop_assert_eq!(talking.session.to_script(), before, "{}: {}", edit, why.message);
+                prop_assert_eq!(talking.script(), before, "{}: {}", edit, why.message);
             }
         }
     }
@@ -207,18 +93,18 @@ proptest! {
     ) {
         let mut talking = after(&scene);
         for edit in edits.iter().filter(|e| !e.starts_with("undo") && !e.starts_with("redo")) {
-            let before = talking.session.to_script();
+            let before = talking.script();
             if talking.execute(edit).is_err() {
                 continue;
             }
-            let after = talking.session.to_script();
+            let after = talking.script();
             if after == before {
                 continue;
             }
             talking.run("undo");
-            prop_assert_eq!(talking.session.to_script(), before, "undo {}", edit);
+            prop_assert_eq!(talking.script(), before, "undo {}", edit);
             talking.run("redo");
-            prop_assert_eq!(talking.session.to_script(), after, "redo {}", edit);
+            prop_assert_eq!(talking.script(), after, "redo {}", edit);
         }
     }
 
@@ -231,24 +117,41 @@ proptest! {
         for edit in &edits {
             let _ = talking.execute(edit);
         }
-        let kept = talking.session.to_script();
+        prop_assume!(can_be_stated(talking.world()));
+        let kept = talking.script();
         let mut again = Talking::after(&kept);
-        prop_assert_eq!(again.session.to_script(), kept);
+        prop_assert_eq!(again.script(), kept);
         for session in [&mut talking, &mut again] {
             let _ = session.execute("step 3");
         }
-        prop_assert_eq!(again.session.to_script(), talking.session.to_script());
+        prop_assert_eq!(again.script(), talking.script());
+    }
+
+    #[test]
+    fn what_a_definition_makes_does_not_depend_on_the_names_outside(
+        scene in scene(),
+        definition in shadow(),
+        instance in use_of_shadow(),
+        edits in prop::collection::vec(edit(), 1..15),
+    ) {
+        let mut talking = after(&scene);
+        let mut other = after(&scene.iter().map(|statement| renamed(statement)).collect::<Vec<_>>());
+        for statement in [definition, instance].iter().chain(&edits) {
+            let is_done = talking.execute(statement).is_ok();
+            prop_assert_eq!(other.execute(&renamed(statement)).is_ok(), is_done, "{}", statement);
+            prop_assert_eq!(places(other.world()), places(talking.world()), "{}", statement);
+        }
     }
 
     #[test]
     fn every_question_has_an_answer(scene in scene(), edits in prop::collection::vec(edit(), 1..8)) {
         let mut talking = after(&[scene, edits].concat());
-        let before = talking.session.to_script();
+        let before = talking.script();
         talking.run("check");
-        let names: Vec<(String, bool)> = talking.session.world().constraints()
+        let names: Vec<(String, bool)> = talking.world().constraints()
             .map(|(id, record)| {
                 let is_motor = record.constraint.kind() == linkwork::constraint::Kind::Motor;
-                (talking.session.world().name_of(Entity::Constraint(id)).to_owned(), is_motor)
+                (talking.world().name_of(Entity::Constraint(id)).to_owned(), is_motor)
             })
             .collect();
         for (name, is_motor) in names {
@@ -257,7 +160,7 @@ proptest! {
                 talking.run(&format!("limits {name}"));
             }
         }
-        prop_assert_eq!(talking.session.to_script(), before);
+        prop_assert_eq!(talking.script(), before);
     }
 }
 
@@ -268,7 +171,9 @@ proptest! {
 
     #[test]
     fn what_auto_calls_a_best_fit_is_no_worse_than_what_relaxation_finds(scene in scene()) {
-        let kept = after(&scene).session.to_script();
+        let talking = after(&scene);
+        prop_assume!(can_be_stated(talking.world()));
+        let kept = talking.script();
         let auto = demands(&mut Talking::after(&kept), "auto");
         let relaxation = demands(&mut Talking::after(&kept), "relaxation");
         prop_assume!(!relaxation.has_collapsed);
@@ -292,14 +197,14 @@ fn a_session_saved_after_a_change_of_settings_solves_anew_as_the_one_it_was_save
              solve; step 2",
         );
         talking.run(change);
-        let kept = talking.session.to_script();
+        let kept = talking.script();
         let mut again = Talking::after(&kept);
-        assert_eq!(again.session.to_script(), kept);
+        assert_eq!(again.script(), kept);
         for session in [&mut talking, &mut again] {
             session.run("step 3");
         }
-        assert_eq!(again.session.to_script(), talking.session.to_script());
-        assert_ne!(again.session.to_script(), kept);
+        assert_eq!(again.script(), talking.script());
+        assert_ne!(again.script(), kept);
     }
 }
 
@@ -312,11 +217,11 @@ fn a_session_saved_after_a_point_was_deleted_leaves_a_saddle_to_the_same_side() 
          orientation p1 p4, p0 p5 = 0.288
          delete p2",
     );
-    let mut again = Talking::after(&talking.session.to_script());
+    let mut again = Talking::after(&talking.script());
     for session in [&mut talking, &mut again] {
         session.run("step 3");
     }
-    assert_eq!(again.session.to_script(), talking.session.to_script());
+    assert_eq!(again.script(), talking.script());
 }
 
 #[test]
@@ -328,9 +233,9 @@ fn a_deletion_that_was_undone_is_no_edit() {
          delete p6 cascade
          undo",
     );
-    let mut again = Talking::after(&talking.session.to_script());
+    let mut again = Talking::after(&talking.script());
     for session in [&mut talking, &mut again] {
         session.run("step 3");
     }
-    assert_eq!(again.session.to_script(), talking.session.to_script());
+    assert_eq!(again.script(), talking.script());
 }

@@ -1,7 +1,9 @@
 //! The solver on mechanisms whose answers are known.
 
 mod hard;
+mod live_values;
 mod memory;
 mod motion;
 mod rates;
 mod replaced;
+mod settings;

@@ -1,6 +1,7 @@
 //! What tests share: sessions whose talk is kept, scenes for the solver, random statements.
 
-pub mod desk;
+pub mod compare;
+pub mod fresh;
 pub mod notebook;
 pub mod scene;
 pub mod sources;

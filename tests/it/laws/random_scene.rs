@@ -1,0 +1,166 @@
+//! Random points with constraints of every kind among them, and edits of such scenes.
+
+use crate::support::talk::Talking;
+use proptest::prelude::*;
+
+const N_POINTS: usize = 7;
+const N_CONSTRAINTS: usize = 9;
+
+fn point() -> impl Strategy<Value = String> {
+    (0..N_POINTS).prop_map(|k| format!("p{k}"))
+}
+
+fn constraint_name() -> impl Strategy<Value = String> {
+    (0..N_CONSTRAINTS).prop_map(|k| format!("c{k}"))
+}
+
+/// A number as a user may type it: mostly ordinary, some hard.
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => (-50..50i32).prop_map(|n| format!("{}", f64::from(n) / 10.0)),
+        1 => Just("0".to_owned()),
+        1 => prop_oneof![Just("1e-9"), Just("1e6"), Just("-1"), Just("1 + sin(time)")]
+            .prop_map(str::to_owned),
+    ]
+}
+
+fn angle() -> impl Strategy<Value = String> {
+    (-36..=36i32).prop_map(|n| format!("{}deg", 10 * n))
+}
+
+fn relation(value: impl Strategy<Value = String> + Clone) -> impl Strategy<Value = String> {
+    prop_oneof![
+        2 => Just(String::new()),
+        4 => value.clone().prop_map(|v| format!("= {v}")),
+        1 => value.clone().prop_map(|v| format!("<= {v}")),
+        1 => value.prop_map(|v| format!(">= {v}")),
+    ]
+}
+
+/// A statement of a constraint of any type, with its name in front.
+fn constraint() -> impl Strategy<Value = String> {
+    let body = prop_oneof![
+        4 => (point(), point(), relation(number().boxed())).prop_map(|(a, b, r)| format!("length {a} {b} {r}")),
+        1 => (point(), number(), number()).prop_map(|(a, x, y)| format!("coordinate {a} at ({x}, {y})")),
+        1 => (point(), point()).prop_map(|(a, b)| format!("coincidence {a} {b}")),
+        1 => [point(), point(), point(), point()]
+            .prop_map(|[a, b, c, d]| format!("equivalence {a} {b}, {c} {d}")),
+        1 => ([point(), point(), point(), point()], relation(number().boxed()))
+            .prop_map(|([a, b, c, d], r)| format!("equal {a} {b}, {c} {d} {r}")),
+        2 => ([point(), point(), point(), point()], relation(angle().boxed()))
+            .prop_map(|([a, b, c, d], r)| format!("orientation {a} {b}, {c} {d} {r}")),
+        2 => (point(), point(), number(), number())
+            .prop_map(|(a, b, r, v)| format!("motor {a} {b} radius abs({r}) speed {v}")),
+        2 => ([point(), point(), point()], any::<bool>()).prop_map(|([a, b, c], free)| {
+            format!("glider {a} on {b} {c} {}", if free { "unbounded" } else { "" })
+        }),
+        1 => ([point(), point(), point()], number())
+            .prop_map(|([a, b, c], mu)| format!("hinge {a} on {b} {c} at {mu}")),
+        1 => ([point(), point(), point(), point()], number())
+            .prop_map(|([a, b, c, d], r)| format!("cog {a} {b}, {c} {d} ratio {r}")),
+        1 => ([point(), point(), point()], relation(number().boxed()))
+            .prop_map(|([a, b, c], r)| format!("distance {a} to {b} {c} {r}")),
+        1 => ([point(), point(), point(), point()], prop_oneof![Just("parallel"), Just("perpendicular")])
+            .prop_map(|([a, b, c, d], word)| format!("{word} {a} {b}, {c} {d}")),
+        1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),
+        1 => [point(), point(), point(), point()]
+            .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
+    ];
+    (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
+}
+
+/// A definition with names of its own that are names outside too.
+pub fn shadow() -> impl Strategy<Value = String> {
+    (point(), constraint_name(), number()).prop_map(|(p, c, l)| {
+        format!(
+            "define shadow(O) {{ point {p} = O + (1, 0); {c}: length O {p} = abs({l})
+             off {c}; on {c}; freeze {p}; step; thaw {p}; change {c} <= 2 }}"
+        )
+    })
+}
+
+/// An instance of it.
+pub fn use_of_shadow() -> impl Strategy<Value = String> {
+    (point(), 0..3u32).prop_map(|(p, k)| format!("use shadow({p}) as s{k}"))
+}
+
+/// The same statement with other names for the points and constraints outside of definitions.
+pub fn renamed(statement: &str) -> String {
+    if statement.starts_with("define ") {
+        return statement.to_owned();
+    }
+    let mut text = String::new();
+    let mut letters = statement.chars().peekable();
+    let mut before = ' ';
+    while let Some(letter) = letters.next() {
+        let is_first = !before.is_alphanumeric() && before != '.';
+        let is_name = is_first && letters.peek().is_some_and(char::is_ascii_digit);
+        text.push(match letter {
+            'p' if is_name => 'u',
+            'c' if is_name => 'v',
+            _ => letter,
+        });
+        before = letter;
+    }
+    text
+}
+
+/// Any edit or run.
+pub fn edit() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => constraint(),
+        1 => constraint_name().prop_map(|c| format!("delete {c}")),
+        1 => point().prop_map(|p| format!("delete {p} cascade")),
+        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("point {p} = ({x}, {y})")),
+        2 => point().prop_map(|p| format!("freeze {p}")),
+        1 => point().prop_map(|p| format!("thaw {p}")),
+        1 => constraint_name().prop_map(|c| format!("off {c}")),
+        1 => constraint_name().prop_map(|c| format!("on {c}")),
+        2 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} = {v}")),
+        1 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} speed {v}")),
+        1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("move {p} to ({x}, {y})")),
+        2 => (point(), number(), number(), 1..6u32)
+            .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
+        3 => (1..8u32).prop_map(|n| format!("step {n}")),
+        1 => Just("solve".to_owned()),
+        1 => Just("relax 5".to_owned()),
+        1 => point().prop_map(|p| format!("trace {p}")),
+        1 => Just("reset".to_owned()),
+        1 => prop_oneof![Just("hold"), Just("stop"), Just("reverse")]
+            .prop_map(|word| format!("set dead-points {word}")),
+        1 => prop_oneof![Just("auto"), Just("relaxation"), Just("newton"), Just("nesterov")]
+            .prop_map(|word| format!("set method {word}")),
+        1 => (2..13u32).prop_map(|n| format!("set tolerance 1e-{n}")),
+        1 => (1..60u32).prop_map(|n| format!("set iterations {n}")),
+        1 => prop_oneof![Just("holonomic"), Just("velocity")]
+            .prop_map(|word| format!("set cog {word}")),
+        1 => shadow(),
+        1 => use_of_shadow(),
+        1 => (1..3u32).prop_map(|n| format!("undo {n}")),
+        1 => Just("redo".to_owned()),
+    ]
+}
+
+/// Points all over the place, a few of them frozen.
+pub fn scene() -> impl Strategy<Value = Vec<String>> {
+    let places = prop::collection::vec((-50..50i32, -50..50i32, 0..4u32), N_POINTS);
+    let points = places.prop_map(|places| {
+        let lines = places.into_iter().enumerate().map(|(k, (x, y, frozen))| {
+            let frozen = if frozen == 0 { " frozen" } else { "" };
+            format!("point p{k} = ({}, {}){frozen}", f64::from(x) / 10.0, f64::from(y) / 10.0)
+        });
+        lines.collect::<Vec<_>>()
+    });
+    (points, prop::collection::vec(constraint(), 0..N_CONSTRAINTS))
+        .prop_map(|(points, constraints)| [points, constraints].concat())
+}
+
+/// After these statements.
+pub fn after(statements: &[String]) -> Talking {
+    let mut talking = Talking::after("");
+    for statement in statements {
+        // A refusal is an answer too.
+        let _ = talking.execute(statement);
+    }
+    talking
+}

@@ -1,0 +1,5 @@
+//! What commands do to a mechanism that moves, and which thing a name means.
+
+mod names;
+mod picture_hash;
+mod start_and_switch;

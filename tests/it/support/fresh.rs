@@ -1,0 +1,116 @@
+//! What holds of a world, evaluated anew: nothing is asked that the session or the solver keeps
+//! from one command to the next.
+
+use linkwork::constraint::{Constraint, ConstraintKind as _, Field, Point, Vec2};
+use linkwork::diag::Diagnostic;
+use linkwork::world::{Environment, ParameterId, PointId, Value, World};
+
+/// A world as its formulas see it: each parameter is what its own formula gives now.
+struct Fresh<'a>(&'a World);
+
+impl Environment<f64> for Fresh<'_> {
+    fn parameter(&self, id: ParameterId) -> Result<Value, Diagnostic> {
+        self.0.parameter(id).expect("a mentioned parameter lives").formula.evaluate(self)
+    }
+
+    fn position(&self, id: PointId) -> Vec2<f64> {
+        let Point { x, y } = self.0.points().at(id);
+        Vec2 { x, y }
+    }
+
+    fn time(&self) -> f64 {
+        self.0.clock().time()
+    }
+
+    fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
+        None
+    }
+}
+
+/// The loosest tolerance that random sessions set.
+const LOOSEST: f64 = 1e-2;
+
+/// What is wrong with a world that is said to be solved to a tolerance, relative to its size:
+/// values that are not what their expressions give, and constraints that do not hold.
+pub fn flaws(world: &World, tolerance: f64) -> Vec<String> {
+    let most = tolerance * size(world);
+    let (x, w) = (world.points().column(), inverse_masses(world));
+    let mut flaws = Vec::new();
+    for (_, record) in world.constraints().filter(|(_, record)| record.is_on) {
+        for (field, formula) in record.drivers() {
+            let wanted = match (field, formula.evaluate(&Fresh(world))) {
+                (Field::X, Ok(Value::Vector(v))) => v.x,
+                (Field::Y, Ok(Value::Vector(v))) => v.y,
+                (_, Ok(value)) => value.number(),
+                (_, Err(why)) => {
+                    flaws.push(format!("{}: {field:?} has no value: {}", record.name, why.message));
+                    continue;
+                }
+            };
+            let is = record.constraint.get(*field).expect("what is driven is there");
+            if (is - wanted).abs() > most {
+                flaws.push(format!("{}: {field:?} is {is}, not {wanted}", record.name));
+            }
+        }
+        // Wheels whose ratio is live are solved in parts of a frame, each with a ratio of its own:
+        // how they mesh by then is known to the solver alone.
+        if record.driver(Field::Ratio).is_some_and(|_| is_wheels(&record.constraint)) {
+            continue;
+        }
+        let violation = record.constraint.violation(x, &w);
+        // Between frozen points it is compared with the tolerance that was set when it was made
+        // or they were moved: that it was tightened since is not seen.
+        let is_held = record.constraint.points().iter().all(|&p| w[p as usize] == 0.0);
+        let most = if is_held { most.max(LOOSEST * size(world)) } else { most };
+        if violation > most {
+            flaws.push(format!("{}: off by {violation:e}, not {most:e}", record.name));
+        }
+    }
+    flaws
+}
+
+fn is_wheels(constraint: &Constraint) -> bool {
+    matches!(constraint, Constraint::Cog(_) | Constraint::CogVelocity(_))
+}
+
+/// The inverse mass of every point by handle, 0 where there is none any more.
+pub fn inverse_masses(world: &World) -> Vec<f64> {
+    let points = world.points();
+    let all = (0..points.column().len()).map(PointId::new);
+    all.map(|p| if points.is_alive(p) { points.inverse_mass(p) } else { 0.0 }).collect()
+}
+
+/// Whether a script can state this world: not a rack whose rim point has come to lie on its
+/// centre, which a statement takes for a wheel of radius 0.
+pub fn can_be_stated(world: &World) -> bool {
+    let x = world.points().column();
+    let has_radius = |constraint: &Constraint| match constraint {
+        Constraint::Rack(rack) => x[rack.points[0] as usize] != x[rack.points[1] as usize],
+        _ => true,
+    };
+    world.constraints().all(|(_, record)| has_radius(&record.constraint))
+}
+
+/// Whether a point ran away to where angles ask for next to nothing: the residual of what
+/// contradicts itself is 0 there, relative to the size.
+pub fn has_run_away(world: &World) -> bool {
+    size(world) > 1e9
+}
+
+/// How far a world extends, and no less than the lengths that are asked for in it.
+fn size(world: &World) -> f64 {
+    let points = world.points();
+    let extent = |of: fn(Point) -> f64| {
+        let values = points.ids().map(|p| of(points.at(p)));
+        let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), value| {
+            (f64::min(lo, value), f64::max(hi, value))
+        });
+        ends.1 - ends.0
+    };
+    let asked = world.constraints().map(|(_, record)| match &record.constraint {
+        Constraint::Length(c) if c.bounds.hi.is_finite() => c.bounds.hi,
+        c @ Constraint::Motor(_) => c.get(Field::Radius).unwrap_or(0.0),
+        _ => 0.0,
+    });
+    asked.fold(extent(|p| p.x).max(extent(|p| p.y)), f64::max)
+}
