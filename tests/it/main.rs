@@ -9,6 +9,7 @@ mod circles;
 mod examples;
 mod front_door;
 mod golden;
+mod habits;
 mod hard_cases;
 mod laws;
 mod long_texts;
