@@ -117,6 +117,9 @@ pub struct Budget<'a> {
     pub tolerance: Option<f64>,
     /// Asked between iterations; true ends the work where it stands.
     pub stop: Option<&'a dyn Fn() -> bool>,
+    /// The largest position error of this run that is known already: a smaller one is not worked
+    /// out.
+    pub known_error: f64,
 }
 
 impl Budget<'_> {

@@ -256,7 +256,7 @@ fn record(
     let begun = (host.now)();
     let settings = Settings { method: Method::Auto, tolerance, ..motion.settings };
     let is_over = || (host.stop)() || (host.now)() - begun > seconds;
-    let budget = Budget { tolerance: None, stop: Some(&is_over) };
+    let budget = Budget { tolerance: None, stop: Some(&is_over), ..Budget::default() };
     let mut replay = Replay::new(motion, n_parts);
     let mut at = Vec::new();
     let (mut n_done, mut n_bad) = (0, 0);

@@ -49,7 +49,7 @@ impl Subject<'_> {
         let settings = rung.settings(&self.motion.settings);
         let begun = (host.now)();
         let is_over = || (host.stop)() || (host.now)() - begun > seconds;
-        let budget = Budget { tolerance: None, stop: Some(&is_over) };
+        let budget = Budget { tolerance: None, stop: Some(&is_over), ..Budget::default() };
         let mut outcome = RunOutcome {
             seconds: 0.0,
             residual: 0.0,
@@ -132,7 +132,7 @@ impl Subject<'_> {
         settings: &Settings,
         host: &StudyHost,
     ) -> Result<(World, Report), Diagnostic> {
-        let budget = Budget { tolerance: None, stop: Some(host.stop) };
+        let budget = Budget { tolerance: None, stop: Some(host.stop), ..Budget::default() };
         let (world, report, _) =
             self.solve(settings, Step::Tolerance(settings.tolerance), &budget, host)?;
         Ok((world, report))
@@ -153,7 +153,7 @@ impl Subject<'_> {
         let mut solver = Solver::new();
         // The scene is taken in before the clock runs: a mechanism is built once and solved often.
         let at_once = || true;
-        let nothing = Budget { tolerance: None, stop: Some(&at_once) };
+        let nothing = Budget { tolerance: None, stop: Some(&at_once), ..Budget::default() };
         solver.settle(&mut world, settings, &nothing);
         let before = (host.now)();
         let mut report = match step {

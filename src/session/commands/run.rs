@@ -18,6 +18,8 @@ pub(crate) struct Limits {
     pub tolerance: Option<f64>,
     /// The wall time that no frame is to exceed.
     pub seconds: Option<f64>,
+    /// The largest position error that is known of the run.
+    pub known_error: f64,
 }
 
 /// So many frames, and the hands that are at work in them.
@@ -52,7 +54,8 @@ impl Execution<'_> {
             Err(Diagnostic::error("expected a number above 0")
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
-        Ok(Limits { tolerance: positive(&promise.within)?, seconds: positive(&promise.in_time)? })
+        let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
+        Ok(Limits { tolerance, seconds, known_error: 0.0 })
     }
 
     pub(crate) fn step(
@@ -172,6 +175,7 @@ impl Execution<'_> {
             }
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
+            let limits = Limits { known_error: summary.error_on_the_way, ..limits };
             let mut report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
             if report.status != Status::Converged {
                 let next = self.met(way_back.is_some(), k, n);
@@ -226,7 +230,8 @@ impl Execution<'_> {
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
-        let budget = Budget { tolerance: limits.tolerance, stop };
+        let Limits { tolerance, known_error, .. } = *limits;
+        let budget = Budget { tolerance, stop, known_error };
         let share = k as f64 / frames.n as f64;
         let hand = |world: &mut World| move_by(frames.hands, share, world);
         let report = solver.step(world, &preferences.solve, &budget, hand);
@@ -242,7 +247,7 @@ impl Execution<'_> {
         frames: Frames,
         limits: &Limits,
     ) -> Result<(), Diagnostic> {
-        let limits = Limits { tolerance: limits.tolerance, seconds: None };
+        let limits = Limits { seconds: None, ..*limits };
         let again = way.frame..k;
         self.go_back(way);
         for k in again {
@@ -310,12 +315,13 @@ impl Execution<'_> {
             let is_over = || {
                 host.is_interrupted() || deadline.is_some_and(|deadline| host.seconds() >= deadline)
             };
-            let budget = Budget { tolerance: limits.tolerance, stop: Some(&is_over) };
+            let budget =
+                Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
         if is_measured {
             let State { solver, world, preferences, .. } = &mut *self.state;
-            let budget = Budget { tolerance: limits.tolerance, stop: None };
+            let budget = Budget { tolerance: limits.tolerance, stop: None, ..Budget::default() };
             solver.agree(world, &preferences.solve, &budget, &mut report)?;
         }
         let text = format!(

@@ -17,10 +17,6 @@ const FREE_SURPRISE: f64 = 0.02;
 /// A motion that is smaller than this part of the size is not worth a second look.
 pub(crate) const NO_MOTION: f64 = 1e-6;
 
-/// On what is nearer to its singular pose than this, as the sine of an angle or as a volume, errors
-/// grow more than fivefold.
-const SENSITIVE: f64 = 0.2;
-
 /// Squares of singular values below this count as freedom: in the middle of the range in
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
 const RANK_CUT: f64 = 1e-10;
@@ -36,9 +32,9 @@ pub(crate) struct Attempt {
     pub correction: f64,
     /// Whether a singular pose lies on the way, or may.
     pub may_cross: bool,
-    /// Whether the pose is next to a singular one: an error of a length is a much larger one of a
-    /// place there.
-    pub is_sensitive: bool,
+    /// How near the pose is to a singular one, as the sine of an angle or as a volume: an error of a
+    /// length is one of a place divided by this.
+    pub least_side: f64,
 }
 
 impl Attempt {
@@ -63,7 +59,7 @@ pub(crate) fn attempt(
     limits: &Limits,
     work: &mut Counters,
 ) -> Option<Attempt> {
-    let mut sum = Attempt::default();
+    let mut sum = Attempt { least_side: 1.0, ..Attempt::default() };
     let Island { plan, constraints, x, .. } = island;
     for block in &mut plan.blocks {
         let which = &plan.constraints[block.first as usize..block.end as usize];
@@ -75,7 +71,7 @@ pub(crate) fn attempt(
         }
         if block.has_branches() {
             sum.may_cross |= may_cross(block.side, found.side);
-            sum.is_sensitive |= found.side.abs() < SENSITIVE;
+            sum.least_side = sum.least_side.min(found.side.abs());
         }
         block.next_side = found.side;
     }
@@ -127,7 +123,7 @@ fn attempt_rest(
                 island.watch.next_volumes[k] = now;
                 if let (Some(before), Some(now)) = (island.watch.volumes[k], now) {
                     sum.may_cross |= before.may_cross(now);
-                    sum.is_sensitive |= now.value.abs() < SENSITIVE;
+                    sum.least_side = sum.least_side.min(now.value.abs());
                 }
             }
         }

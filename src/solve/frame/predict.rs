@@ -16,6 +16,13 @@ use crate::solve::velocity;
 /// and expecting them to go on makes them grow.
 const WELL_EXPECTED: f64 = 1e-4;
 
+/// On what is nearer to its singular pose than this, as the sine of an angle or as a volume, errors
+/// grow more than fivefold.
+const SENSITIVE: f64 = 0.2;
+/// Position errors are larger than the residual over that sine by no more than this, through the
+/// points that depend on each other: what cannot be the largest of a run is not worked out.
+const ROUGHLY: f64 = 10.0;
+
 /// Solves a frame: the values of the constraints and the frozen points are those at its end.
 pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
     if island.status != Status::Converged || island.inputs.is_disturbed {
@@ -37,14 +44,14 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
             || attempt.is_safe(motion_since(island, island.history.origin()), limits)
                 && island.watched_point_over().is_none())
     {
-        return accept(island, attempt);
+        return accept(island, attempt, limits);
     }
     island.x[..n_free].copy_from_slice(island.history.origin());
     let sides = island.sides();
     if !island.has_velocities()
         && let Some(attempt) = substep::frame(island, limits, work)
     {
-        return accept(island, attempt);
+        return accept(island, attempt, limits);
     }
     island.turned_over = None;
     island.set_sides(sides);
@@ -104,12 +111,15 @@ fn project_prediction(island: &mut Island, limits: &Limits, work: &mut Counters)
 }
 
 /// The frame ends at the present pose.
-fn accept(island: &mut Island, attempt: Attempt) -> Outcome {
+fn accept(island: &mut Island, attempt: Attempt, limits: &Limits) -> Outcome {
     island.history.advance();
     island.keep_sides();
     island.accept_pose();
-    if attempt.is_sensitive {
-        island.position_error = velocity::position_error(island);
+    if attempt.least_side < SENSITIVE {
+        let rough = attempt.worst.max(f64::EPSILON * limits.size) / attempt.least_side;
+        if ROUGHLY * rough > limits.budget.known_error {
+            island.position_error = velocity::position_error(island);
+        }
     }
     let Attempt { worst, n_iterations, .. } = attempt;
     Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }

@@ -12,6 +12,7 @@ use super::attempt::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use super::interpolate::Ends;
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
+use crate::solve::island::sides::Sides;
 use crate::solve::method::{Limits, newton};
 use crate::solve::report::Counters;
 
@@ -37,6 +38,7 @@ const MOST_ITERATIONS: u32 = 12;
 const MOST_NODES: usize = 4;
 
 /// Poses at instants of the frame; 0 is its beginning, 1 its end.
+#[derive(Clone)]
 struct Track {
     /// The latest last; no more than expectations are made from.
     nodes: Vec<(f64, Vec<Point>)>,
@@ -262,43 +264,78 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// A walk and its island, to come back to.
+struct Checkpoint {
+    x: Box<[Point]>,
+    sides: Sides,
+    states: Vec<(u32, Vec<f64>)>,
+    track: Track,
+    motion: Motion,
+    n_iterations: u32,
+}
+
+impl Checkpoint {
+    fn new(island: &Island, walk: &Walk) -> Self {
+        let states = island.stateful.iter();
+        let states = states.filter_map(|&c| Some((c, island.constraints[c as usize].state()?)));
+        Self {
+            x: island.x[..island.n_free].into(),
+            sides: island.sides(),
+            states: states.collect(),
+            track: walk.track.clone(),
+            motion: walk.motion.clone(),
+            n_iterations: walk.n_iterations,
+        }
+    }
+
+    fn restore(self, island: &mut Island, walk: &mut Walk, t: f64) {
+        island.x[..self.x.len()].copy_from_slice(&self.x);
+        island.set_sides(self.sides);
+        for (c, state) in &self.states {
+            island.constraints[*c as usize].set_state(state);
+        }
+        let Self { track, motion, n_iterations, .. } = self;
+        (walk.track, walk.motion, walk.n_iterations, walk.t) = (track, motion, n_iterations, t);
+    }
+}
+
 /// Solves a frame from the pose it begins with; none if the motion cannot be followed. The
 /// values of all constraints are those at the end of the frame afterwards.
 pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Option<Attempt> {
-    let start: Box<[Point]> = island.x[..island.n_free].into();
-    let sides = island.sides();
     let limits = Limits { n_iterations: limits.n_iterations.min(MOST_ITERATIONS), ..*limits };
     let ends = Ends::of_frame(island);
     let mut walk = Walk::new(island, ends, limits);
-    if walk.go(island, 1.0, work) && walk.motion.is_some() {
+    let next_to = 1.0 - NEXT_TO;
+    let is_next_to = walk.go(island, next_to, work);
+    let before = is_next_to.then(|| Checkpoint::new(island, &walk));
+    if is_next_to && walk.go(island, 1.0, work) && walk.motion.is_some() {
         return walk.last;
     }
-    let (there, last) = (island.x[..start.len()].to_vec(), walk.last.filter(|_| walk.t == 1.0));
-    let turned_over = island.turned_over.take();
     // It ends in a singular pose, or close to one, or where there is none.
-    let here = island.sides();
-    island.x[..start.len()].copy_from_slice(&start);
-    island.set_sides(sides);
-    walk.ends.restore_states(island);
-    let mut again = Walk::new(island, walk.ends, limits);
-    if let Some(attempt) = through(island, &mut again, work) {
-        return Some(attempt);
+    if let Some(before) = before {
+        let last = walk.last.filter(|_| walk.t == 1.0);
+        let there = Checkpoint::new(island, &walk);
+        let turned_over = island.turned_over.take();
+        before.restore(island, &mut walk, next_to);
+        if let Some(attempt) = through(island, &mut walk, work) {
+            return Some(attempt);
+        }
+        if let Some(last) = last {
+            there.restore(island, &mut walk, 1.0);
+            walk.ends.interpolate(island, 1.0);
+            island.turned_over = turned_over;
+            return Some(last);
+        }
     }
-    again.ends.interpolate(island, 1.0);
-    again.ends.restore_states(island);
-    island.turned_over = turned_over;
-    island.x[..there.len()].copy_from_slice(&there);
-    island.set_sides(here);
-    last
+    walk.ends.interpolate(island, 1.0);
+    walk.ends.restore_states(island);
+    None
 }
 
 /// Solves a frame that ends in a singular pose, where the equations do not say where the points
 /// are but the motion does: from a little before to a little beyond, and in between by the
 /// polynomial of degree 5 that has places, velocities and accelerations of both.
 fn through(island: &mut Island, walk: &mut Walk, work: &mut Counters) -> Option<Attempt> {
-    if !walk.go(island, 1.0 - NEXT_TO, work) {
-        return None;
-    }
     let (here, before) = (walk.track.here().to_vec(), walk.motion.take()?);
     walk.motion = Some(before.clone());
     walk.h = 2.0 * NEXT_TO;
@@ -322,5 +359,10 @@ fn through(island: &mut Island, walk: &mut Walk, work: &mut Counters) -> Option<
     island.update_sides();
     island.sides_are_next();
     let n_iterations = walk.n_iterations + outcome.n_iterations;
-    Some(Attempt { worst: outcome.worst, n_iterations, is_sensitive: true, ..Attempt::default() })
+    Some(Attempt {
+        worst: outcome.worst,
+        n_iterations,
+        least_side: f64::EPSILON,
+        ..Attempt::default()
+    })
 }

@@ -18,15 +18,12 @@ struct Guest {
 }
 
 /// Visits islands side by side; gives the work that was.
-fn visit_all(
-    guests: &mut [Guest],
-    settings: &Settings,
-    tolerance: Option<f64>,
-    task: Task,
-) -> Counters {
+fn visit_all(guests: &mut [Guest], settings: &Settings, budget: &Budget, task: Task) -> Counters {
+    // What stops the work cannot be asked on another core; it is looked after before.
+    let (tolerance, known_error) = (budget.tolerance, budget.known_error);
     let each = |guest: &mut Guest| {
+        let budget = Budget { tolerance, stop: None, known_error };
         let mut work = Counters::default();
-        let budget = Budget { tolerance, stop: None };
         guest.visit = Some(visit(&mut guest.island, settings, &budget, task, &mut work));
         work
     };
@@ -107,7 +104,7 @@ impl Solver {
         let islands = due.iter().filter_map(|&k| Some((k, self.partition.lend(k)?)));
         let mut guests: Vec<Guest> =
             islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
-        let work = visit_all(&mut guests, settings, budget.tolerance, task);
+        let work = visit_all(&mut guests, settings, budget, task);
         report.counters.add(&work);
         for Guest { k, island, visit } in guests {
             self.partition.give_back(k, island);

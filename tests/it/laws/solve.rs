@@ -209,7 +209,7 @@ fn a_budget_ends_the_work_and_keeps_the_pose() {
     let mut s = Scene::new();
     jansen(&mut s);
     let stop = || true;
-    let budget = Budget { tolerance: None, stop: Some(&stop) };
+    let budget = Budget { tolerance: None, stop: Some(&stop), ..Budget::default() };
     let before = s.bits();
     let report = s.solver.settle(&mut s.world, &s.settings, &budget);
     assert!(report.is_interrupted);
