@@ -32,7 +32,16 @@ fn pass(world: &mut World, solver: &mut Solver) -> Counters {
 }
 
 fn pass_with(world: &mut World, solver: &mut Solver, hand: impl FnOnce(&mut World)) -> Counters {
-    let report = solver.step(world, &Settings::default(), &Budget::default(), hand);
+    frame(world, solver, &Settings::default(), hand)
+}
+
+fn frame(
+    world: &mut World,
+    solver: &mut Solver,
+    settings: &Settings,
+    hand: impl FnOnce(&mut World),
+) -> Counters {
+    let report = solver.step(world, settings, &Budget::default(), hand);
     report.expect("values at every time").counters
 }
 
@@ -190,4 +199,25 @@ fn an_island_is_built_once() {
     let counters = work(FOUR_BAR);
     assert_eq!(counters.islands_rebuilt, 0);
     assert_eq!(counters.islands_visited, COUNTED as u64);
+}
+
+#[test]
+fn a_looser_tolerance_is_no_more_work() {
+    let crankshaft = include_str!("../../scripts/bench/w4-crankshaft.link");
+    let crankshaft = crankshaft.replace("step frames", "");
+    for script in [FOUR_BAR, &crankshaft] {
+        let work = |tolerance: f64| {
+            let (mut world, mut solver) = (world(script), Solver::new());
+            let settings = Settings { tolerance, ..Settings::default() };
+            let mut all = Counters::default();
+            (0..360).for_each(|_| all.add(&frame(&mut world, &mut solver, &settings, |_| {})));
+            all
+        };
+        let tight = work(1e-12);
+        for tolerance in [1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+            let loose = work(tolerance);
+            assert!(loose.evaluations <= tight.evaluations, "{tolerance}: {loose:?} {tight:?}");
+            assert!(loose.substeps <= tight.substeps, "{tolerance}: {loose:?} {tight:?}");
+        }
+    }
 }

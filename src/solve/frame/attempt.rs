@@ -47,7 +47,12 @@ impl Attempt {
 
 /// The longest way a free point went since a pose.
 pub(crate) fn motion_since(island: &Island, before: &[Point]) -> f64 {
-    let moves = island.x.iter().zip(before).map(|(a, b)| *a - *b);
+    motion_between(&island.x, before)
+}
+
+/// The longest way between two poses.
+pub(crate) fn motion_between(now: &[Point], before: &[Point]) -> f64 {
+    let moves = now.iter().zip(before).map(|(a, b)| *a - *b);
     moves.fold(0.0_f64, |most, d| most.max(d.x.abs()).max(d.y.abs()))
 }
 

@@ -2,7 +2,7 @@
 //! follow the motion in smaller steps where that is not safe, and where there is no solution
 //! settle for the best fit.
 
-use super::attempt::{Attempt, attempt, motion_since};
+use super::attempt::{Attempt, attempt, motion_between, motion_since};
 use super::{settle, substep};
 use crate::constraint::Point;
 use crate::solve::island::Island;
@@ -23,6 +23,25 @@ const SENSITIVE: f64 = 0.2;
 /// points that depend on each other: what cannot be the largest of a run is not worked out.
 const ROUGHLY: f64 = 10.0;
 
+/// A tolerance of less than this part of the size is fine enough to follow any motion.
+const FINE: f64 = 1e-8;
+/// The same relative to the motion of a frame: expectations from four poses make 15 times as much of
+/// what they are off, and a correction of 30 percent is a surprise.
+const FINE_MOTION: f64 = 3e-3;
+
+/// The limits for following a motion. Poses that are off by as much as they move are no ground
+/// to expect the next one from: a frame would seem to need ever smaller steps.
+fn following<'a>(island: &Island, limits: &Limits<'a>) -> Limits<'a> {
+    let fine = FINE * limits.size;
+    if limits.tolerance <= fine {
+        return *limits;
+    }
+    let history = &island.history;
+    let way =
+        if history.n_past() > 0 { motion_between(history.origin(), history.past(1)) } else { 0.0 };
+    Limits { tolerance: (FINE_MOTION * way).clamp(fine, limits.tolerance), ..*limits }
+}
+
 /// Solves a frame: the values of the constraints and the frozen points are those at its end.
 pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
     if island.status != Status::Converged || island.inputs.is_disturbed {
@@ -37,7 +56,8 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
         project_prediction(island, limits, work);
     }
-    if let Some(attempt) = attempt(island, is_predicted, limits, work)
+    let near = following(island, limits);
+    if let Some(attempt) = attempt(island, is_predicted, &near, work)
         && (island.has_velocities()
             || is_open
             || island.plan.is_linear()
@@ -49,7 +69,7 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     island.x[..n_free].copy_from_slice(island.history.origin());
     let sides = island.sides();
     if !island.has_velocities()
-        && let Some(attempt) = substep::frame(island, limits, work)
+        && let Some(attempt) = substep::frame(island, &near, work)
     {
         return accept(island, attempt, limits);
     }

@@ -34,6 +34,8 @@ const VAGUE: f64 = 0.75;
 const NEXT_TO: f64 = 1.0 / 64.0;
 /// More iterations than this in a step near its solution: there is none.
 const MOST_ITERATIONS: u32 = 12;
+/// What a pose may be off, as a part of the size, so that steps of a part of a frame are understood.
+const FINE: f64 = 1e-8;
 /// How many poses an expectation is made from where the velocity is not known.
 const MOST_NODES: usize = 4;
 
@@ -302,7 +304,9 @@ impl Checkpoint {
 /// Solves a frame from the pose it begins with; none if the motion cannot be followed. The
 /// values of all constraints are those at the end of the frame afterwards.
 pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Option<Attempt> {
-    let limits = Limits { n_iterations: limits.n_iterations.min(MOST_ITERATIONS), ..*limits };
+    let tolerance = limits.tolerance.min(FINE * limits.size);
+    let n_iterations = limits.n_iterations.min(MOST_ITERATIONS);
+    let limits = Limits { tolerance, n_iterations, ..*limits };
     let ends = Ends::of_frame(island);
     let mut walk = Walk::new(island, ends, limits);
     let next_to = 1.0 - NEXT_TO;
