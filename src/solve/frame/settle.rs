@@ -33,6 +33,9 @@ const PROGRESS: f64 = 1e-3;
 /// An energy below this part of that at the last push is of another scene: a chain that was pulled
 /// straight and is let back by a hair has a saddle where it had a best fit.
 const MUCH_LESS: f64 = 1e-2;
+/// Where what moves is smaller than this part of the size, as on an arc of a radius of a million,
+/// solutions are refined beyond the tolerance.
+const SMALL_PART: f64 = 1e-3;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
 
@@ -115,6 +118,11 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     if best.is_converged() && !island.plan.is_linear() {
         let from = if best_is_from_feasible { island.feasible.take() } else { None };
         nearest::approach(island, &mut workspace, from.as_deref().unwrap_or(&start), limits, work);
+        let width = extent(&island.x[..n_free]);
+        if width > 0.0 && width <= SMALL_PART * limits.size {
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            newton::refine(&mut workspace, &mut pose, work);
+        }
         best.worst = workspace.rows.worst;
         best.energy = workspace.rows.energy;
     }
@@ -123,6 +131,16 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         mark_converged(island);
     }
     best
+}
+
+/// The larger of width and height of some points.
+fn extent(points: &[Point]) -> f64 {
+    let extent = |of: fn(&Point) -> f64| {
+        let ends = |(lo, hi): (f64, f64), v: f64| (lo.min(v), hi.max(v));
+        let (lo, hi) = points.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        hi - lo
+    };
+    extent(|p| p.x).max(extent(|p| p.y))
 }
 
 /// The way down from the start; ranges that it begins outside of hold it to their stops if that

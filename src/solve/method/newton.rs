@@ -19,6 +19,10 @@ const LEAST_DAMPING_STRETCHED: f64 = 1e-6;
 /// What is added to the matrix even at the solution. Rank-deficient systems need it to have
 /// a factor; it is far below the smallest square of a singular value that matters.
 const FLOOR: f64 = 1e-11;
+/// The same where a solution is refined: it is near, and so is the rounding of its slope.
+const REFINED_FLOOR: f64 = 1e-14;
+/// How many steps a refinement takes at most; it converges quadratically.
+const MOST_REFINED: u32 = 8;
 /// A step longer than this part of the size is no longer a small change.
 const LONGEST_STEP: f64 = 0.5;
 /// Steps that gain less of what they promise are taken in part, or back.
@@ -90,6 +94,29 @@ pub(crate) fn solve_near(
     let end = descend(workspace, pose, limits, &mut way, work);
     let status = if end == End::Met { Status::Converged } else { Status::Stalled };
     workspace.outcome(status, way.n_iterations)
+}
+
+/// Takes steps that are hardly damped from a solution, as long as each is less than half as long as
+/// the one before. The tolerance is a part of the whole; what moves may be so small a part of it
+/// that residuals far below still leave it open.
+pub(crate) fn refine(workspace: &mut Workspace, pose: &mut Pose, work: &mut Counters) {
+    workspace.evaluate(pose, work);
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_REFINED {
+        let energy = workspace.rows.energy;
+        workspace.assemble(Stiffness::None);
+        workspace.update_slope();
+        workspace.remember(pose);
+        if solve_step(workspace, REFINED_FLOOR, work).is_none() {
+            return;
+        }
+        let reach = workspace.equations.reach(&workspace.step);
+        if reach >= 0.5 * before || workspace.try_step(pose, 1.0, work) > energy {
+            workspace.reject(pose, work);
+            return;
+        }
+        before = reach;
+    }
 }
 
 /// How far a solve has come.
