@@ -19,6 +19,12 @@ impl Dependence {
         [(self.row, 1.0)].into_iter().chain(self.on.iter().map(|&(row, c)| (row, -c)))
     }
 
+    /// Leaves out rows whose multiples are below this part of the largest.
+    pub fn keep_above(&mut self, part: f64) {
+        let most = self.on.iter().fold(0.0, |most: f64, (_, c)| most.max(c.abs()));
+        self.on.retain(|(_, c)| c.abs() > part * most);
+    }
+
     /// How far the rows contradict each other: what the stress makes of their values, for a
     /// stress of length 1. No motion changes it, to first order.
     pub fn misfit(&self, rows: &[UnitRow]) -> f64 {
@@ -27,6 +33,10 @@ impl Dependence {
         work / squared.sqrt()
     }
 }
+
+/// Multiples below this part of the largest are rounding: independent rows are told apart by 1e-5,
+/// and rounding of 1e-14 is divided by that.
+const ROUNDING: f64 = 1e-9;
 
 /// All dependent rows of an island, taken in order of creation. `tolerance` is what may be
 /// left of a row of length 1 that depends on others.
@@ -46,10 +56,9 @@ pub fn dependences(island: &UnitRows, tolerance: f64) -> Vec<Dependence> {
                     .explain(row)
                     .0
             });
-            let most = on.iter().fold(0.0, |most: f64, (_, c)| most.max(c.abs()));
-            // Others are rounding, or the trace of a tolerance.
-            let least = most * (10.0 * tolerance).max(1e-7);
-            Dependence { row, on: on.into_iter().filter(|(_, c)| c.abs() > least).collect() }
+            let mut dependence = Dependence { row, on };
+            dependence.keep_above(ROUNDING);
+            dependence
         })
         .collect()
 }

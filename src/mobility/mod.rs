@@ -14,6 +14,7 @@ mod range;
 mod repair;
 mod settle;
 mod system;
+mod tracer;
 mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
@@ -24,8 +25,8 @@ pub use range::{MotorRange, RangeEnd, Reach, dead_end, range};
 pub use repair::repair;
 pub use system::ConstraintSystem;
 
-use dependence::dependences;
-use projector::Projector;
+use dependence::{Dependence, dependences};
+use projector::{FINE, Projector, TAU};
 use system::UnitRows;
 
 /// What there is to say about a scene at a pose.
@@ -129,25 +130,24 @@ pub fn analyse(scene: &ConstraintSystem, tolerance: f64) -> Analysis {
 impl Analysis {
     fn add(&mut self, scene: &ConstraintSystem, island: &UnitRows, tolerance: f64) {
         let mut projector = Projector::of(island);
-        let n_free = projector.nullity();
-        let n_redundant = (island.rows.len() + n_free).saturating_sub(island.n_unknowns());
-        self.degrees_of_freedom += n_free;
-        self.n_redundant += n_redundant;
-        if let Some(found) = projector.extreme_singular_values() {
+        let rank = Rank::of(scene, island, &mut projector, tolerance);
+        self.degrees_of_freedom += rank.n_free;
+        self.n_redundant += rank.n_redundant(island);
+        self.pose = self.pose.max(rank.pose);
+        if let Some(found) = projector.extreme_singular_values(rank.cut) {
             let ratio = |(least, most): (f64, f64)| least / most;
             if self.singular_values.is_none_or(|known| ratio(found) < ratio(known)) {
                 self.singular_values = Some(found);
             }
         }
         self.conflicts.extend(conflict::conflicts(scene, island, tolerance));
-        if n_redundant == 0 {
-            return;
-        }
-        let dependences = dependences(island, NOTHING);
-        for dependence in &dependences {
+        for mut dependence in rank.dependences {
             if dependence.misfit(&island.rows).abs() > tolerance {
                 // It is not implied but contradicted.
                 continue;
+            }
+            if rank.pose > PoseClass::Regular {
+                dependence.keep_above(AT_SINGULAR_POSE);
             }
             let source = |row: usize| island.rows[row].source.0;
             let constraint = source(dependence.row);
@@ -156,8 +156,57 @@ impl Analysis {
             depends_on.retain(|&c| c != constraint);
             self.redundant.push(Redundant { constraint, depends_on });
         }
-        if island.worst() <= tolerance {
-            self.pose = self.pose.max(pose_class::classify(scene, island, &dependences));
+    }
+}
+
+/// At a singular pose positions are known to the root of what residuals are, and multiples of rows
+/// that have no part in a dependence are as large.
+const AT_SINGULAR_POSE: f64 = 1e-6;
+
+/// How many motions the rows of an island leave, and which rows depend on others.
+struct Rank {
+    n_free: usize,
+    /// Eigenvalues of `J^T J` below this count as 0.
+    cut: f64,
+    dependences: Vec<Dependence>,
+    pose: PoseClass,
+}
+
+impl Rank {
+    fn of(
+        scene: &ConstraintSystem,
+        island: &UnitRows,
+        projector: &mut Projector,
+        tolerance: f64,
+    ) -> Self {
+        let regular =
+            |n_free, cut| Self { n_free, cut, dependences: Vec::new(), pose: PoseClass::Regular };
+        let mut rank = regular(projector.nullity(), TAU);
+        if rank.n_redundant(island) == 0 {
+            return rank;
         }
+        rank.dependences = dependences(island, NOTHING);
+        if island.worst() > tolerance {
+            return rank;
+        }
+        rank.pose = pose_class::classify(scene, island, &rank.dependences);
+        if rank.pose != PoseClass::MobileSingular
+            || pose_class::goes_on(scene, island, projector, rank.n_free)
+        {
+            return rank;
+        }
+        // Something holds it, if only weakly: more closely looked at it is no freedom.
+        let mut closer = regular(projector.count_below(FINE), FINE);
+        if closer.n_free == rank.n_free {
+            return Self { pose: PoseClass::Locked, ..rank };
+        }
+        if closer.n_redundant(island) > 0 {
+            closer.dependences = dependences(island, FINE.sqrt());
+        }
+        closer
+    }
+
+    fn n_redundant(&self, island: &UnitRows) -> usize {
+        (island.rows.len() + self.n_free).saturating_sub(island.n_unknowns())
     }
 }

@@ -12,7 +12,8 @@ use nalgebra::{DMatrix, DVector};
 pub enum PoseClass {
     /// The rows are as independent here as anywhere near.
     Regular,
-    /// They are less so, and yet all motions go on: the mechanism lives by its proportions.
+    /// They are less so, and yet all motions go on, as far as a step along them was followed: the
+    /// mechanism lives by its proportions.
     MobileSingular,
     /// Several motions cross here, and it is not said which one will go on.
     ChangePoint,
@@ -77,6 +78,57 @@ fn is_generic(scene: &ConstraintSystem, island: &UnitRows, n_motions: usize) -> 
     let x: Vec<Point> = scene.x.iter().zip(&moves).map(|(x, d)| *x + *d * k).collect();
     let nearby = ConstraintSystem { x: &x, ..*scene }.rows_like(island);
     Projector::of(&nearby).nullity() >= n_motions
+}
+
+/// How far a motion is followed before it is said to go on, as a part of the extent of what moves.
+const FOLLOWED: f64 = 1e-2;
+/// How many motions are.
+const MOST_FOLLOWED: usize = 3;
+/// Newton steps onto the motion double the digits; what needs more is pulled back.
+const MOST_STEPS: usize = 8;
+/// Their damping: rows that resist by less than its root are not felt, and FINE is far below.
+const DAMPING: f64 = 1e-13;
+
+/// Whether the motions an island seems to have really go on: a step along each is followed by
+/// Newton steps onto where the rows hold as exactly as they do here, and that is not back at the
+/// start.
+pub fn goes_on(
+    scene: &ConstraintSystem,
+    island: &UnitRows,
+    projector: &mut Projector,
+    n_motions: usize,
+) -> bool {
+    let moving = || island.points.iter().map(|&p| scene.x[p as usize].to_vector());
+    let first = moving().next().unwrap_or(Vector::ZERO);
+    let width = moving().map(|p| (p - first).norm()).fold(0.0, f64::max);
+    let size = if width > 0.0 { width } else { extent(scene, island) };
+    let held = island.rows.iter().flat_map(|row| scene.constraints[row.source.0].points());
+    let farthest = held.map(|&p| scene.x[p as usize].to_vector().norm()).fold(0.0, f64::max);
+    let exact = (8.0 * f64::EPSILON * farthest).max(1e-13 * size).max(island.worst());
+    let motions = motions(projector, island.n_unknowns(), n_motions.min(MOST_FOLLOWED));
+    let rows_at = |way: &[f64]| {
+        let moves = scene.displacements(&island.points, way);
+        let x: Vec<Point> = scene.x.iter().zip(&moves).map(|(x, d)| *x + *d).collect();
+        ConstraintSystem { x: &x, ..*scene }.rows_like(island)
+    };
+    motions.iter().all(|motion| {
+        let moves = scene.displacements(&island.points, motion.as_slice());
+        let most = moves.iter().map(|d| d.norm()).fold(0.0, f64::max);
+        let h = FOLLOWED * size / most;
+        let mut way: Vec<f64> = motion.iter().map(|v| v * h).collect();
+        for _ in 0..MOST_STEPS {
+            let there = rows_at(&way);
+            if there.worst() <= 10.0 * exact {
+                let along: f64 = way.iter().zip(motion.iter()).map(|(a, b)| a * b).sum();
+                return along >= 0.5 * h;
+            }
+            let mut step = vec![0.0; there.n_unknowns()];
+            there.rows.iter().for_each(|row| row.add_to(-row.f, &mut step));
+            Projector::of(&there).solve_damped(DAMPING, &mut step);
+            way.iter_mut().zip(&step).for_each(|(way, step)| *way += step);
+        }
+        false
+    })
 }
 
 /// The largest distance of a point of the island from their middle.

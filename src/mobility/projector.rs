@@ -6,6 +6,10 @@ use crate::linalg::NormalMatrix;
 /// Eigenvalues of J^T J below this count as 0: singular values below 1e-5.
 pub const TAU: f64 = 1e-10;
 
+/// The same where a motion below [`TAU`] was tried and does not go on: rounding of rows of length
+/// 1 leaves less.
+pub const FINE: f64 = 1e-14;
+
 /// Holds motions that no row resists, while projecting. What is left of resisted ones is
 /// `MU / sigma^2` a round; rounding along free ones is `1e-16 / MU`.
 const MU: f64 = 1e-8;
@@ -95,24 +99,25 @@ impl Projector {
     }
 
     /// The smallest singular value of J that is not 0, and the largest; none without rows.
+    /// Eigenvalues of `J^T J` below `cut` count as 0.
     ///
     /// Found by counting eigenvalues, to 1 part in 1000.
-    pub fn extreme_singular_values(&mut self) -> Option<(f64, f64)> {
-        let n_null = self.nullity();
+    pub fn extreme_singular_values(&mut self, cut: f64) -> Option<(f64, f64)> {
+        let n_null = self.count_below(cut);
         let n = self.normal.n_unknowns();
         if n_null == n {
             return None;
         }
         // No eigenvalue is larger than the sum of all, the number of rows.
         let most = 2.0 * self.rows.len() as f64;
-        let smallest = self.bisect(most, |count| count > n_null);
-        let largest = self.bisect(most, |count| count == n);
+        let smallest = self.bisect(cut, most, |count| count > n_null);
+        let largest = self.bisect(cut, most, |count| count == n);
         Some((smallest.sqrt(), largest.sqrt()))
     }
 
-    /// Where, between `TAU` and `most`, the count of eigenvalues below begins to be `enough`.
-    fn bisect(&mut self, most: f64, enough: impl Fn(usize) -> bool) -> f64 {
-        let (mut low, mut high) = (TAU, most);
+    /// Where, between two bounds, the count of eigenvalues below begins to be `enough`.
+    fn bisect(&mut self, least: f64, most: f64, enough: impl Fn(usize) -> bool) -> f64 {
+        let (mut low, mut high) = (least, most);
         while high > 1.002 * low {
             let middle = (low * high).sqrt();
             if enough(self.count_below(middle)) { high = middle } else { low = middle }

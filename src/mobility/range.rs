@@ -82,7 +82,7 @@ const MOST_STEPS: usize = 15_000;
 const SAME: f64 = 1e-6;
 
 /// How far the motor at place `motor` of a scene can turn, everything else standing as it is.
-/// Distances up to `tolerance` count as none.
+/// Distances up to `tolerance`, a part of the size of what it drives, count as none.
 pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRange {
     let Constraint::Motor(it) = scene.constraints[motor] else {
         unreachable!("the range of a motor was asked for")
@@ -99,7 +99,7 @@ pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRan
         return range;
     }
     let Some(first) = mechanism.begin(scene.x) else {
-        let is_solved = scene.rows(tolerance).0.worst() <= 10.0 * tolerance;
+        let is_solved = mechanism.holds(scene.x, 10.0 * tolerance);
         range.reach = if is_solved { Reach::Rigid } else { Reach::Unsatisfied };
         return range;
     };

@@ -2,7 +2,6 @@
 
 use super::settle::Subset;
 use super::system::ConstraintSystem;
-use crate::constraint::ConstraintKind;
 
 /// How much the constraint to be changed still counts, from round to round: less and less, so
 /// that the others hold and it changes as little as they allow.
@@ -17,13 +16,13 @@ pub fn repair(
     among: &[usize],
     tolerance: f64,
 ) -> Option<f64> {
-    let subset = Subset::new(*scene, among);
-    let mut x = scene.x.to_vec();
+    let subset = Subset::new(scene, among);
+    let mut x = subset.start();
     for counts in COUNTS {
         x = subset.settle(x, (constraint, counts), 0.0).x;
     }
     // The last bits: what the value is measured on has to be a solution of the others.
     let reached = subset.settle(x, (constraint, 0.0), 1e-3 * tolerance);
-    let change = scene.constraints[constraint].residual(&reached.x);
+    let change = subset.residual(constraint, &reached.x);
     (reached.worst <= tolerance && change.is_finite()).then_some(change)
 }

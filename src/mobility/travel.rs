@@ -3,6 +3,7 @@
 
 use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRows};
+use super::tracer::without_tracers;
 use crate::constraint::{
     Activity, Carried, Constraint, ConstraintKind, Field, Point, PointIdx, Vector,
 };
@@ -66,10 +67,11 @@ impl Waypoint {
 }
 
 impl<'a> Mechanism<'a> {
-    /// What hangs together with the constraint at place `motor` of a scene, which is a motor.
+    /// What hangs together with the constraint at place `motor` of a scene, which is a motor, but
+    /// for points that only follow.
     pub fn new(scene: &ConstraintSystem<'a>, motor: usize) -> Self {
         let moves = |p: &&PointIdx| scene.w[**p as usize] > 0.0;
-        let sources = scene.neighbours(motor);
+        let sources = without_tracers(scene, motor);
         let constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
         let mut held: Vec<_> =
@@ -106,6 +108,11 @@ impl<'a> Mechanism<'a> {
     /// Corrections up to this are rounding.
     pub fn noise(&self) -> f64 {
         10.0 * self.tolerance
+    }
+
+    /// Whether everything holds at this pose, up to a part of the size.
+    pub fn holds(&mut self, x: &[Point], tolerance: f64) -> bool {
+        self.rows(&Stand { x: x.to_vec(), turn: 0.0 }).worst() <= tolerance * self.size
     }
 
     /// Whether anything of it can move.

@@ -50,7 +50,8 @@ impl State {
         if subject.parts.constraints[place].kind() != Kind::Motor {
             return None;
         }
-        Some(subject.with(|scene| range(scene, place, subject.slack)))
+        let tolerance = subject.slack / subject.size();
+        Some(subject.with(|scene| range(scene, place, tolerance)))
     }
 
     fn limits_of(&self, motor: ConstraintId) -> String {

@@ -545,3 +545,67 @@ fn position_errors_are_estimated_where_nothing_is_free() {
     let error = found.position_error(1e-6).unwrap();
     assert!((error / 1.414e-3 - 1.0).abs() < 0.02, "{error}");
 }
+
+#[test]
+fn a_bar_with_a_small_part_in_a_dependence_is_named() {
+    // Of three bars that hold P the third lies `off` the first: it is cos(off) times the first
+    // and sin(off) times the second.
+    for (off, expected) in [(9e-6_f64, &[0, 1][..]), (1e-7, &[0, 1]), (0.0, &[0])] {
+        let mut model = Model::default();
+        let a = model.ground(-1.0, 0.0);
+        let b = model.ground(0.0, -1.0);
+        let c = model.ground(-2.0 * off.cos(), -2.0 * off.sin());
+        let p = model.point(0.0, 0.0);
+        let bars = [(a, 1.0), (b, 1.0), (c, 2.0)].map(|(q, length)| model.bar_of(q, p, length));
+        let found = model.analyse();
+        assert_eq!(found.redundant.len(), 1, "{off}");
+        assert_eq!(found.redundant[0].constraint, bars[2], "{off}");
+        assert_eq!(found.redundant[0].depends_on, expected, "{off}");
+    }
+}
+
+/// Bars in a row along a line between two frozen points, all off by the same: a pose from which
+/// no first-order step leads.
+fn in_a_row(lengths: &[f64], span: f64) -> Model {
+    let mut model = Model::default();
+    let off = (span - lengths.iter().sum::<f64>()) / lengths.len() as f64;
+    let mut at = 0.0;
+    let mut last = model.ground(0.0, 0.0);
+    for (k, length) in lengths.iter().enumerate() {
+        at += length + off;
+        let is_end = k + 1 == lengths.len();
+        let next = if is_end { model.ground(span, 0.0) } else { model.point(at, 0.0) };
+        model.bar_of(last, next, *length);
+        last = next;
+    }
+    model
+}
+
+#[test]
+fn bars_in_a_row_conflict_only_if_no_polygon_has_these_sides() {
+    let mut state = 1_u32;
+    let mut random = move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1 << 24)
+    };
+    let mut n_false = 0;
+    for round in 0..200 {
+        let lengths: Vec<f64> = (0..2 + round % 4).map(|_| 1.0 + 3.0 * random()).collect();
+        let sum: f64 = lengths.iter().sum();
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let span = sum * (0.4 + 0.9 * random());
+        let (most, rest) = (longest.max(span), sum + span - longest.max(span));
+        if (most / rest - 1.0).abs() < 1e-3 {
+            continue;
+        }
+        let conflicts = in_a_row(&lengths, span).analyse().conflicts;
+        if most < rest {
+            n_false += conflicts.len();
+        } else if span > sum {
+            let all: Vec<usize> = (0..lengths.len()).collect();
+            assert_eq!(conflicts.len(), 1, "{lengths:?} {span}");
+            assert_eq!(conflicts[0].constraints, all, "{lengths:?} {span}");
+        }
+    }
+    assert_eq!(n_false, 0);
+}

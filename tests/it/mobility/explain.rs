@@ -313,3 +313,49 @@ fn check_says_what_the_program_says() {
     assert_eq!(run("lenght A B\n", &[]).0, Some(2));
     std::fs::remove_file(&script).unwrap();
 }
+
+#[test]
+fn what_keeps_bars_on_a_line_is_part_of_the_conflict() {
+    // Bars of 3.5 and 7 over a span of 10 meet 1.46 beside the line, where the glider is not.
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (10, 0) frozen, P = (3, 0)
+         line: glider P on A B unbounded
+         l1: length A P = 3.5
+         l2: length P B = 7
+         solve",
+    );
+    let found = talking.session.examine();
+    assert_eq!(found.conflicting.len(), 1, "{found:?}");
+    assert_eq!(found.conflicting[0].0, ["line", "l1", "l2"]);
+    // `why` names the same of each member that is off.
+    for name in ["l1", "l2"] {
+        let said = talking.ask(&format!("why {name}")).remove(0);
+        for other in ["line", "l1", "l2"].iter().filter(|other| **other != name) {
+            assert!(said.contains(other), "{said}");
+        }
+    }
+    talking.run("off line; solve within 1e-9");
+}
+
+#[test]
+fn an_arc_of_a_radius_of_a_million_is_nearly_singular_and_not_mobile() {
+    for radius in [1e6, 3e6, 3e5] {
+        let turn = 1.745_329_251_994_329_5 / radius;
+        let mut talking = check(
+            &format!(
+                "let r = {radius}, turn = {turn}
+                 point P = (0, 0) frozen, D = (-10, 0) frozen, M = (0, r) frozen
+                 point Q = (1.7, 0.0001), E = (11, 0.001)
+                 length Q M = r; length Q E = 10
+                 orientation Q E, Q M = 90deg
+                 orientation D P, Q E = turn
+                 solve"
+            ),
+            0,
+            0,
+            Pose::Regular,
+        );
+        assert!(talking.session.examine().near_singular.is_some());
+        talking.run("assert Q.x = r * sin(turn) within 1e-6");
+    }
+}

@@ -365,3 +365,43 @@ fn each_frame_that_may_have_changed_branch_is_told_but_not_all_of_very_many() {
     talking.run("drag B to (1.9, 0) over 20");
     assert_eq!(talking.session.last_run().unwrap().n_turned_over, 0);
 }
+
+/// A crank-rocker with change points or dead points, and what else hangs on it.
+fn with_followers(followers: &str) -> [Talking; 2] {
+    let scene = |lengths: [f64; 4], theta: f64| {
+        let [a, b, c, d] = lengths;
+        Talking::after(&format!(
+            "point A = (0, 0) frozen, D = ({d}, 0) frozen
+             point B = polar({a}, {theta}deg), C = ({d}, {c})
+             length B C = {b}; length C D = {c}
+             crank: motor A B radius {a} speed 1rev phase {theta}deg
+             solve
+             {followers}"
+        ))
+    };
+    [scene([1.0, 3.0, 2.0, 4.0], 60.0), scene([3.0, 2.5, 2.5, 4.0], 40.0)]
+}
+
+#[test]
+fn what_constrains_nothing_changes_no_limit() {
+    let upper = reaching(3.0, 4.0, 5.0);
+    for followers in [
+        "",
+        "point P = B + 3 * (C - B); hinge P on B C at 3",
+        "point P = B + 1000 * (C - B); hinge P on B C at 1000",
+        "point P = B + 1000 * (C - B), Q = P + 7 * (A - P)
+         hinge P on B C at 1000; hinge Q on P A at 7",
+        "point P = C; coincidence P C; point F = (1e5, 1e5) frozen",
+        "point F = (-3e4, 2e4) frozen, G = (-3e4, 2.1e4); length F G = 1000",
+    ] {
+        let [folding, swinging] = with_followers(followers);
+        let found = range(&folding.session, "crank");
+        assert_eq!(found.reach, Reach::Full(2), "{followers}: {found:?}");
+        // It folds flat once a turn, as a + d = b + c: with the crank away from the other pivot.
+        assert_eq!(found.change_points.len(), 2, "{followers}: {found:?}");
+        for at in found.change_points {
+            assert!((wrap(at).abs().to_degrees() - 180.0).abs() < 1e-6, "{followers}: {at}");
+        }
+        check_ends(&swinging, -upper, upper);
+    }
+}
