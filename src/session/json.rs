@@ -11,7 +11,7 @@ impl Check {
         let redundant = self.redundant.iter();
         let conflicting = self.conflicting.iter();
         let unsatisfiable = self.unsatisfiable.iter();
-        indented(&json!({
+        let mut object = json!({
             "degrees_of_freedom": self.degrees_of_freedom,
             "redundant": redundant
                 .map(|(name, depends_on)| json!({ "constraint": name, "depends_on": depends_on }))
@@ -23,7 +23,12 @@ impl Check {
             "pose": self.pose_word(),
             "status": self.status.word(),
             "residual": self.residual,
-        }))
+        });
+        if let Some(after) = &self.from_here {
+            object["solved_from_here"] =
+                json!({ "status": after.status.word(), "residual": after.residual });
+        }
+        indented(&object)
     }
 }
 

@@ -11,6 +11,7 @@ mod answer;
 mod ask;
 mod commands;
 mod completion;
+mod culprits;
 mod dispatch;
 mod execution;
 mod host;
@@ -34,7 +35,7 @@ use std::path::PathBuf;
 pub use answer::Answer;
 pub use ask::evaluate_binding;
 pub use commands::accuracy::Telling;
-pub use commands::diagnose::{Check, Unsatisfiable};
+pub use commands::diagnose::{Check, FromHere, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
 pub use completion::Completion;
 pub use execution::Flow;
@@ -49,6 +50,7 @@ pub use crate::mobility::{MotorRange, PoseClass, RangeEnd, Reach};
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
+use crate::solve::present;
 use crate::world::{ConstraintId, Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
@@ -140,7 +142,13 @@ impl Session {
     pub fn residual(&self, constraint: &str) -> Option<f64> {
         let Entity::Constraint(id) = self.world().names().get(constraint)? else { return None };
         let record = self.world().constraint(id).filter(|record| record.is_on)?;
-        Some(record.constraint.residual(self.world().points().column()))
+        if record.drivers().is_empty() {
+            return Some(record.constraint.residual(self.world().points().column()));
+        }
+        // The value that was asked for last need not be the value now.
+        let (world, _) = present(self.world());
+        let record = world.constraint(id)?;
+        Some(record.constraint.residual(world.points().column()))
     }
 
     /// The texts read so far; places in diagnostics are places in these.

@@ -4,7 +4,7 @@ use super::execution::Execution;
 use super::summary::Summary;
 use crate::constraint::{Carried, Constraint, ConstraintKind as _};
 use crate::diag::{Diagnostic, listed};
-use crate::solve::Status;
+use crate::solve::{Settings, Status, verdict};
 use crate::study::freedoms;
 
 /// Scenes up to so many constraints are analysed for the receipt of every run: it takes less
@@ -19,17 +19,38 @@ impl Execution<'_> {
     /// Tells the user what the command under way ran, if it ran anything.
     pub(super) fn report_run(&mut self) {
         let Some(mut summary) = self.run.take() else { return };
+        self.judge_the_end(&mut summary);
         summary.position_error = self.estimate_position_error(&summary);
         self.tell_turned_over(&summary);
         let line = summary.line();
         match (summary.broken(0), summary.missed_at) {
             (Some((message, label)), Some(span)) => {
-                self.warn(&Diagnostic::warning(message).at(span, label).note(line));
+                let mut warning = Diagnostic::warning(message).at(span, label);
+                if let Some(culprits) = &summary.culprits {
+                    warning = culprits.explain(warning);
+                }
+                self.warn(&warning.note(line));
             }
             _ if summary.n_frames > 0 => self.note(line),
             _ => {}
         }
         self.history.last_run = Some(summary);
+    }
+
+    /// Sees to it that a receipt says converged only of a pose that is, where looking costs
+    /// little beside what ran.
+    fn judge_the_end(&mut self, summary: &mut Summary) {
+        let n = self.state.world.n_constraints();
+        let is_cheap = n <= SMALL || summary.seconds >= LONG;
+        if !is_cheap || summary.n_frames == 0 || summary.n_missed > 0 {
+            return;
+        }
+        let settings = Settings { tolerance: summary.tolerance, ..self.state.preferences.solve };
+        let verdict = verdict(&self.state.world, &settings);
+        if !verdict.is_met() {
+            summary.own_up(&verdict, self.state.world.clock().frame);
+            summary.culprits = Some(self.state.culprits(summary.worst_status, &[]));
+        }
     }
 
     /// Warns of frames that may have changed branch.

@@ -4,13 +4,16 @@ use super::state::State;
 use crate::constraint::{Constraint, ConstraintKind as _, Quantity};
 use crate::diag::format_rounded;
 use crate::mobility::ConstraintSystem;
-use crate::solve::{Budget, Report, Settings, Solver};
-use crate::world::{ConstraintId, Entity, PointId, World};
+use crate::solve::{Budget, Settings, Solver, Status, Verdict, verdict};
+use crate::world::{ConstraintId, Entity, PointId, Record, World};
 
 /// A settled copy of the world, as the analysis takes it.
 pub(super) struct Settled {
     pub world: World,
-    pub report: Report,
+    /// How solving ended.
+    pub status: Status,
+    /// How the pose stands that it came to.
+    pub verdict: Verdict,
     pub parts: Parts,
     /// The distance up to which a constraint counts as satisfied here. Wider than the
     /// tolerance: what is told apart is sound from contradictory, not exact from nearly so.
@@ -28,7 +31,12 @@ pub(super) struct Parts {
 
 impl Parts {
     pub fn of(world: &World) -> Self {
-        let on = world.constraints().filter(|(_, record)| record.is_on);
+        Self::among(world, |_| true)
+    }
+
+    /// Those that `keep` chooses.
+    pub fn among(world: &World, keep: impl Fn(ConstraintId) -> bool) -> Self {
+        let on = world.constraints().filter(|(id, record)| record.is_on && keep(*id));
         let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
         let points = world.points();
         let all = (0..points.column().len()).map(PointId::new);
@@ -55,10 +63,18 @@ impl Settled {
     /// A world brought to rest.
     pub fn new(mut world: World, settings: &Settings) -> Self {
         let mut solver = Solver::new();
-        let report = solver.settle(&mut world, settings, &Budget::default());
+        let has_values = world.refresh_measured().is_ok();
+        let mut report = solver.settle(&mut world, settings, &Budget::default());
+        if has_values && world.is_measured() {
+            // What has no value in the pose it came to is not met there: the verdict says so.
+            let _ = solver.agree(&mut world, settings, &Budget::default(), &mut report);
+        }
         let size = solver.size();
         let slack = settings.tolerance.max(1e-9) * size;
-        Self { parts: Parts::of(&world), world, report, slack, size, settings: *settings }
+        let verdict = verdict(&world, settings);
+        let status = verdict.ending(report.status);
+        let parts = Parts::of(&world);
+        Self { parts, world, status, verdict, slack, size, settings: *settings }
     }
 
     /// Another world brought to rest by the same settings.
@@ -78,6 +94,11 @@ impl Settled {
         places.iter().map(|&k| self.name(k)).collect()
     }
 
+    /// The settings it was brought to rest by.
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// The size of what hangs together most widely, length units.
     pub const fn size(&self) -> f64 {
         self.size
@@ -85,18 +106,31 @@ impl Settled {
 
     /// By how much a constraint is missed, in its own unit: length units, or degrees.
     pub fn miss(&self, place: usize) -> String {
-        let constraint = &self.parts.constraints[place];
-        let missed = constraint.residual(self.world.points().column()).abs();
-        match constraint.traits().quantity {
-            Quantity::Angle => format!("{} deg", format_rounded(missed.to_degrees())),
-            Quantity::Length => format_rounded(missed),
-        }
+        miss(&self.world, &self.parts.constraints[place])
     }
 
     /// How far a constraint is from being satisfied, length units.
     pub fn violation(&self, place: usize) -> f64 {
         self.parts.constraints[place].violation(self.world.points().column(), &self.parts.w)
     }
+}
+
+/// By how much a constraint is missed, in its own unit: length units, or degrees.
+pub(super) fn miss(world: &World, constraint: &Constraint) -> String {
+    let missed = constraint.residual(world.points().column()).abs();
+    match constraint.traits().quantity {
+        Quantity::Angle => format!("{} deg", format_rounded(missed.to_degrees())),
+        Quantity::Length => format_rounded(missed),
+    }
+}
+
+/// The points of a constraint, each once.
+pub(super) fn points_of(world: &World, record: &Record) -> Vec<PointId> {
+    let mut points: Vec<_> = record.constraint.points().iter().map(|&p| PointId(p)).collect();
+    points.sort_unstable();
+    points.dedup();
+    points.retain(|&p| world.points().is_alive(p));
+    points
 }
 
 impl State {

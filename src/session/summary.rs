@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use super::culprits::Culprits;
 use crate::diag::{Span, format_number, format_rounded, format_seconds};
-use crate::solve::{Method, Report, Settings, Status};
+use crate::solve::{Method, Report, Settings, Status, Verdict};
 use crate::world::PointId;
 
 /// Receipt of a command that let time pass.
@@ -41,6 +42,10 @@ pub struct Summary {
     /// The same, as it was worked out frame by frame where the mechanism was next to a singular
     /// pose; 0 if it never was.
     pub(super) error_on_the_way: f64,
+    /// Who is to blame, once a command ended in a frame that missed.
+    pub(super) culprits: Option<Culprits>,
+    /// The statement of the last frame.
+    pub(super) ended_at: Option<Span>,
     /// The statement whose frame was the first to miss.
     pub(super) missed_at: Option<Span>,
     /// The statement whose frame was the first to turn over.
@@ -81,6 +86,8 @@ impl Summary {
             ways: Vec::new(),
             position_error: None,
             error_on_the_way: 0.0,
+            culprits: None,
+            ended_at: None,
             missed_at: None,
             turned_over_at: None,
         }
@@ -99,6 +106,7 @@ impl Summary {
     /// One frame more.
     pub(super) fn add(&mut self, report: &Report, frame: u64, span: Span) {
         self.n_frames += 1;
+        self.ended_at = Some(span);
         if let Some((_, n)) = self.ways.last_mut() {
             *n += 1;
         }
@@ -122,6 +130,15 @@ impl Summary {
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));
         }
+    }
+
+    /// The last frame missed after all, by what was found of its pose.
+    pub(super) fn own_up(&mut self, verdict: &Verdict, frame: u64) {
+        self.worst_residual = self.worst_residual.max(verdict.residual);
+        self.worst_status = self.worst_status.max(verdict.status).max(Status::Stalled);
+        self.n_missed += 1;
+        self.first_missed.get_or_insert(frame);
+        self.missed_at = self.missed_at.or(self.ended_at);
     }
 
     /// The receipt, in one line.
@@ -152,6 +169,14 @@ impl Summary {
         text
     }
 
+    /// How the worst frame ended, as far as that was tested.
+    fn ended(&self) -> Status {
+        match &self.culprits {
+            Some(culprits) if self.worst_status == Status::BestFit => culprits.status,
+            _ => self.worst_status,
+        }
+    }
+
     fn ways_text(&self) -> String {
         if let [(way, _)] = &self.ways[..] {
             return way.to_string();
@@ -180,7 +205,7 @@ impl Summary {
             "largest residual {}, first at frame {}: {}",
             format_rounded(self.worst_residual),
             self.first_missed.unwrap_or_default(),
-            self.worst_status.phrase()
+            self.ended().phrase()
         );
         Some((message, label))
     }

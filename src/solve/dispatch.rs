@@ -1,7 +1,7 @@
 //! What a call of the solver does with one island.
 
 use super::frame::{predict, settle};
-use super::island::Island;
+use super::island::{Island, rounding};
 use super::method::{self, Limits, Outcome};
 use super::report::{Budget, Counters, Status};
 use super::settings::{Method, Settings};
@@ -214,8 +214,18 @@ pub(super) fn write_back(island: &Island, world: &mut World) {
     }
 }
 
-/// How far a constraint is from satisfaction, and how large what it holds is, length units.
-pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
+/// A constraint by itself.
+pub(super) struct Alone {
+    /// How far it is from satisfaction, length units.
+    pub violation: f64,
+    /// How large what it holds is, length units; never 0.
+    pub size: f64,
+    /// What rounding leaves of numbers as large as these.
+    pub rounding: f64,
+}
+
+/// Looks at a constraint by itself.
+pub(super) fn check(world: &World, constraint: &Constraint) -> Alone {
     let points = constraint.points().to_vec();
     let x: Vec<_> = points.iter().map(|&p| world.points().at(PointId(p))).collect();
     let w: Vec<f64> = points.iter().map(|&p| world.points().inverse_mass(PointId(p))).collect();
@@ -229,5 +239,10 @@ pub(super) fn check(world: &World, constraint: &Constraint) -> (f64, f64) {
     };
     let size = extent(|p| p.x).max(extent(|p| p.y));
     let size = size.max(constraint.nominal_length());
-    (local.violation(&x, &w), if size > 0.0 { size } else { 1.0 })
+    let farthest = x.iter().fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()));
+    Alone {
+        violation: local.violation(&x, &w),
+        size: if size > 0.0 { size } else { 1.0 },
+        rounding: rounding(farthest),
+    }
 }

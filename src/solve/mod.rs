@@ -10,6 +10,7 @@ mod dead_point;
 mod report;
 mod settings;
 mod solver;
+mod verdict;
 
 // A call, island by island.
 mod cost;
@@ -35,3 +36,5 @@ pub use report::{Budget, Counters, Report};
 pub use settings::{CogForm, Method, Settings};
 #[doc(hidden)]
 pub use solver::Solver;
+#[doc(hidden)]
+pub use verdict::{Judged, Verdict, least_tolerance, present, verdict};

@@ -8,8 +8,12 @@ pub enum Status {
     /// Every constraint holds to the tolerance.
     #[default]
     Converged,
-    /// The constraints contradict each other, and no small move lowers the sum of squares.
+    /// No small move lowers the sum of squares. Whether the constraints contradict each other, or
+    /// hold in another place, was not asked.
     BestFit,
+    /// The same, and a set of constraints was found that cannot all hold. Solving itself never
+    /// ends so: it takes a test of its own.
+    Contradictory,
     /// Neither; more iterations may help.
     Stalled,
     /// A constraint that holds only frozen points is not satisfied: nothing can help.
@@ -21,7 +25,8 @@ impl Status {
     pub const fn word(self) -> &'static str {
         match self {
             Self::Converged => "converged",
-            Self::BestFit => "best-fit",
+            Self::BestFit => "no-solution-found",
+            Self::Contradictory => "best-fit",
             Self::Stalled => "stalled",
             Self::Unsatisfiable => "unsatisfiable",
         }
@@ -31,7 +36,8 @@ impl Status {
     pub const fn phrase(self) -> &'static str {
         match self {
             Self::Converged => "converged",
-            Self::BestFit => "best fit: the constraints contradict each other here",
+            Self::BestFit => "no solution found from here",
+            Self::Contradictory => "best fit: the constraints contradict each other",
             Self::Stalled => "stalled: not solved, and not known to be unsolvable",
             Self::Unsatisfiable => "unsatisfiable: a constraint holds frozen points only",
         }

@@ -7,7 +7,7 @@ use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
 use crate::diag::{Diagnostic, format_digits};
 use crate::mobility::{self, Analysis, ConstraintSystem, Directions, analyse, freedom};
-use crate::solve::{Budget, Method, Report, Settings, Status};
+use crate::solve::{Budget, Method, Report, Settings, Status, verdict};
 use crate::world::{PointId, World};
 
 /// Tolerances to ask for, until one is reached in every frame. Rounding of coordinates keeps
@@ -147,19 +147,21 @@ pub(super) fn of_pose(subject: &Subject, host: &StudyHost) -> Result<FoundRefere
     for tolerance in TOLERANCES {
         let settings = Settings { method: Method::Auto, tolerance, ..motion.settings };
         let (world, report) = subject.solve_pose(&settings, host)?;
-        let is_done = report.status == Status::Converged || report.residual > HOPELESS;
-        last = Some((world, report));
+        let found = verdict(&world, &settings);
+        let status = found.ending(report.status);
+        let is_done = status == Status::Converged || found.residual > HOPELESS;
+        last = Some((world, status, found.residual));
         if is_done {
             break;
         }
     }
-    let Some((world, report)) = last else { return Ok(found) };
-    if report.status != Status::Converged {
+    let Some((world, status, residual)) = last else { return Ok(found) };
+    if status != Status::Converged {
         found.notes.push(format!(
             "there is no reference: it ended as {}, with a residual of {}; position errors are \
              left out",
-            report.status.phrase(),
-            format_digits(report.residual, 2)
+            status.phrase(),
+            format_digits(residual, 2)
         ));
         return Ok(found);
     }

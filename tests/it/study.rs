@@ -122,7 +122,7 @@ fn a_scene_that_never_converges_has_no_position_errors() {
         accuracy
     ",
     );
-    let words = "there is no reference: it ended as best fit";
+    let words = "there is no reference: it ended as no solution found";
     assert!(told.iter().any(|t| t.starts_with(words)), "{told:?}");
     assert!(printed.last().is_some_and(|line| line.contains("better by residual")));
     assert!(printed[1..printed.len() - 1].iter().all(|line| numbers(line).contains(&"-")));

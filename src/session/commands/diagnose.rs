@@ -1,18 +1,21 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
+use std::borrow::Cow;
+
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind};
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
 use crate::lang::ast::{Changing, Name, Part};
 use crate::mobility::{
     Analysis, Conflict, Directions, PoseClass, analyse, conflict_with, freedom, repair,
 };
+use crate::session::culprits::thaws;
 use crate::session::execution::Execution;
 use crate::session::resolve::said::pattern_of;
 use crate::session::resolve::unbind::{Unbind, named, text_of};
-use crate::session::settled::Settled;
+use crate::session::settled::{Settled, miss};
 use crate::session::state::State;
-use crate::solve::Status;
-use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId, Record};
+use crate::solve::{Judged, Status, Verdict, present, verdict};
+use crate::world::{ConstraintId, Drivers, Edit, Entity, PointId, Record, World};
 
 /// More redundant constraints than this are counted.
 const MOST_REDUNDANT: usize = 30;
@@ -30,12 +33,26 @@ pub struct Check {
     pub unsatisfiable: Vec<Unsatisfiable>,
     /// What the pose is.
     pub pose: PoseClass,
-    /// How solving this pose ended.
+    /// How the pose stands that there is: stalled where solving from there goes on.
     pub status: Status,
-    /// The largest residual, relative to the scene's size.
+    /// Its largest residual, relative to the scene's size.
     pub residual: f64,
+    /// The verdict after solving from there, where it is another; all of the above but
+    /// `status` and `residual` is of the pose after that.
+    pub from_here: Option<FromHere>,
     /// The smallest singular value over the largest, where it says that small errors grow.
     pub near_singular: Option<f64>,
+}
+
+/// What solving comes to from a pose that is not solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FromHere {
+    /// By how much the worst constraint is missed before, in its own unit, and its name.
+    pub as_drawn: String,
+    /// How solving ended.
+    pub status: Status,
+    /// The largest residual then, relative to the scene's size.
+    pub residual: f64,
 }
 
 /// A constraint of frozen points only that does not hold.
@@ -50,9 +67,10 @@ pub struct Unsatisfiable {
 }
 
 impl Check {
-    /// Whether every constraint can hold.
+    /// Whether every constraint holds, or does so once it is solved from here.
     pub fn is_sound(&self) -> bool {
-        self.conflicting.is_empty() && self.unsatisfiable.is_empty()
+        let status = self.from_here.as_ref().map_or(self.status, |after| after.status);
+        status == Status::Converged && self.conflicting.is_empty() && self.unsatisfiable.is_empty()
     }
 
     /// The word for the pose.
@@ -95,8 +113,22 @@ impl Check {
             (PoseClass::ChangePoint, _) => "pose: a change point, where motions cross".to_owned(),
             (PoseClass::Locked, _) => "pose: locked, mobile at the first instant only".to_owned(),
         });
-        let status = self.status.phrase();
-        lines.push(format!("status: {status}, residual {}", format_rounded(self.residual)));
+        lines.push(match &self.from_here {
+            None => format!(
+                "status: {}, residual {}",
+                self.status.phrase(),
+                format_rounded(self.residual)
+            ),
+            Some(FromHere { as_drawn, status: Status::Converged, residual }) => {
+                let residual = format_rounded(*residual);
+                format!("status: as drawn: off by {as_drawn}; solved from here: {residual}")
+            }
+            Some(FromHere { as_drawn, status, residual }) => format!(
+                "status: as drawn: off by {as_drawn}; solved from here: {}, residual {}",
+                status.phrase(),
+                format_rounded(*residual)
+            ),
+        });
         lines
     }
 }
@@ -107,6 +139,14 @@ impl State {
         let subject = self.settled();
         let found = subject.with(|scene| analyse(scene, subject.slack));
         let Analysis { degrees_of_freedom, redundant, conflicts, unsatisfiable, .. } = &found;
+        let status = match subject.status {
+            Status::BestFit if !conflicts.is_empty() => Status::Contradictory,
+            status => status,
+        };
+        let solved = (status, subject.verdict.residual);
+        let drawn = self.as_drawn(&subject);
+        let (status, residual) =
+            drawn.as_ref().map_or(solved, |drawn| (drawn.verdict.status, drawn.verdict.residual));
         let near_singular = found
             .singular_values
             .filter(|_| found.is_nearly_singular())
@@ -130,10 +170,25 @@ impl State {
                 })
                 .collect(),
             pose: found.pose,
-            status: subject.report.status,
-            residual: subject.report.residual,
+            status,
+            residual,
+            from_here: drawn.map(|drawn| FromHere {
+                as_drawn: drawn.worst(),
+                status: solved.0,
+                residual: solved.1,
+            }),
             near_singular,
         }
+    }
+
+    /// The pose that there is, where solving from there changes the verdict.
+    fn as_drawn(&self, subject: &Settled) -> Option<Drawn<'_>> {
+        let (world, _) = present(&self.world);
+        let verdict = verdict(&self.world, &self.preferences.solve);
+        let (before, after) = (verdict.residual, subject.verdict.residual);
+        let is_other =
+            subject.verdict.is_met() || (before - after).abs() > SAME * before.max(after);
+        (!verdict.is_met() && is_other).then_some(Drawn { world, verdict })
     }
 
     fn why_constraint(&self, id: ConstraintId) -> Vec<String> {
@@ -144,9 +199,21 @@ impl State {
         let subject = self.settled();
         let slack = subject.slack;
         let place = subject.parts.place(id).expect("it is on");
-        let violation = subject.violation(place);
-        let off = format!("{name} is off by {}", subject.miss(place));
         let found = subject.with(|scene| analyse(scene, slack));
+        let drawn = self.as_drawn(&subject);
+        let off_as_drawn = drawn.as_ref().and_then(|drawn| drawn.miss(id));
+        let is_met = subject.verdict.of(id).is_none_or(Judged::is_met);
+        let off = match (&off_as_drawn, is_met) {
+            (None, true) => format!("{name} is satisfied"),
+            (None, false) => format!("{name} is off by {}", subject.miss(place)),
+            (Some(before), true) => {
+                format!("as drawn: {name} is off by {before}; solved from here: satisfied")
+            }
+            (Some(before), false) => format!(
+                "as drawn: {name} is off by {before}; solved from here: off by {}",
+                subject.miss(place)
+            ),
+        };
         if found.unsatisfiable.contains(&place) {
             let points = subject.points_of(place);
             let mut ways = subject.repairs_of_frozen(place);
@@ -157,16 +224,10 @@ impl State {
                 format!("{}, or {}", ways[..ways.len() - 1].join(", "), ways[ways.len() - 1]),
             ];
         }
-        if violation <= slack {
-            let mut lines = vec![format!("{name} is satisfied")];
-            for r in found.redundant.iter().filter(|r| r.constraint == place) {
-                let others = listed(&subject.names(&r.depends_on), "and");
-                let verb = if r.depends_on.len() == 1 { "implies" } else { "imply" };
-                lines.push(format!("it is redundant: {others} {verb} it"));
-            }
-            return lines;
-        }
-        match subject.with(|scene| conflict_with(scene, place, slack)) {
+        // What `check` names, every member of a set says alike.
+        let known = found.conflicts.iter().find(|set| set.constraints.contains(&place)).cloned();
+        let search = || subject.with(|scene| conflict_with(scene, place, slack));
+        match known.or_else(|| if is_met { None } else { search() }) {
             Some(conflict) => {
                 let others = subject.names(&conflict.constraints);
                 let others: Vec<_> = others.into_iter().filter(|other| other != name).collect();
@@ -178,7 +239,16 @@ impl State {
                 lines.extend(subject.ways_out(&conflict));
                 lines
             }
-            None if subject.report.status == Status::Stalled => {
+            None if is_met => {
+                let mut lines = vec![off];
+                for r in found.redundant.iter().filter(|r| r.constraint == place) {
+                    let others = listed(&subject.names(&r.depends_on), "and");
+                    let verb = if r.depends_on.len() == 1 { "implies" } else { "imply" };
+                    lines.push(format!("it is redundant: {others} {verb} it"));
+                }
+                lines
+            }
+            None if subject.status == Status::Stalled => {
                 vec![off, "the pose is not at rest: `solve` goes on".to_owned()]
             }
             None => vec![off, "nothing contradicts it: another start may reach it".to_owned()],
@@ -196,7 +266,11 @@ impl State {
         let verb =
             |one: &str, more: &str| if held.len() == 1 { one.to_owned() } else { more.to_owned() };
         let held_by = listed_first(&held);
-        vec![match found.directions {
+        let mut lines: Vec<String> = Vec::new();
+        if let Some(drawn) = self.as_drawn(&subject) {
+            lines.push(format!("as drawn: off by {}; solved from here:", drawn.worst()));
+        }
+        lines.push(match found.directions {
             Directions::All => format!("{name} can move in every direction"),
             Directions::None if held.is_empty() => format!("{name} cannot move"),
             Directions::None => {
@@ -218,7 +292,25 @@ impl State {
                     "{name} can move along {angle} deg and back only: {held_by} {stops} it across"
                 )
             }
-        }]
+        });
+        lines
+    }
+}
+
+impl Drawn<'_> {
+    /// By how much a constraint is missed, in its own unit, if it is.
+    fn miss(&self, id: ConstraintId) -> Option<String> {
+        let judged = self.verdict.of(id).filter(|judged| !judged.is_met())?;
+        Some(miss(&self.world, &self.world.constraint(judged.id)?.constraint))
+    }
+
+    /// By how much the worst constraint is missed, and which it is.
+    fn worst(&self) -> String {
+        let worst = self.verdict.worst();
+        let told = worst.and_then(|worst| Some((self.miss(worst.id)?, worst.id)));
+        told.map_or("a live value that there is not".to_owned(), |(miss, id)| {
+            format!("{miss} ({})", self.world.name_of(Entity::Constraint(id)))
+        })
     }
 }
 
@@ -241,6 +333,12 @@ impl Settled {
         repairs.sort_by(|a, b| a.effort.total_cmp(&b.effort));
         repairs.truncate(MOST_REPAIRS);
         let mut ways: Vec<String> = repairs.iter().map(|mend| mend.text.clone()).collect();
+        let ids: Vec<_> = conflict.constraints.iter().map(|&k| self.parts.ids[k]).collect();
+        let thaws = thaws(&self.world, self.settings(), &ids, &[]);
+        if !thaws.is_empty() {
+            let points = thaws.iter().map(|&p| self.world.points().name(p));
+            ways.push(format!("thaw {}", listed(&points.collect::<Vec<_>>(), "or")));
+        }
         let names = self.names(&conflict.constraints);
         ways.push(format!("drop {}", listed(&names, "or")));
         let mut lines = vec![listed_ways(&ways)];
@@ -336,6 +434,16 @@ impl Execution<'_> {
         lines.iter().for_each(|line| self.host.print(line));
         Ok(())
     }
+}
+
+/// Two residuals that differ by no more than this part are one verdict.
+const SAME: f64 = 1e-3;
+
+/// The pose that there is.
+struct Drawn<'a> {
+    /// With its live values as they are now.
+    world: Cow<'a, World>,
+    verdict: Verdict,
 }
 
 /// More ways out of a conflict than this are not listed.

@@ -1,13 +1,15 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
 use super::dead_point::{Next, WayBack};
-use crate::diag::{Diagnostic, Kind, Span, format_count, format_number, format_rounded};
+use crate::diag::{
+    Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
+};
 use crate::lang::ast::{DragTarget, Expr, Promise};
 use crate::session::execution::{Execution, Flow};
 use crate::session::quotas::MOST_FRAMES;
 use crate::session::state::State;
 use crate::session::summary::Summary;
-use crate::solve::{Budget, Report, Status};
+use crate::solve::{Budget, Report, Settings, Status, Verdict, least_tolerance, verdict};
 use crate::study::{Hand, move_by};
 use crate::world::{Edit, PointId, World};
 
@@ -68,7 +70,7 @@ impl Execution<'_> {
             None => 1,
             Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
         };
-        let limits = self.promised(promise)?;
+        let limits = self.promised_here(promise)?;
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, &[])?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
@@ -89,7 +91,7 @@ impl Execution<'_> {
                 Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
             );
         }
-        let (n, limits) = (n as u64, self.promised(promise)?);
+        let (n, limits) = (n as u64, self.promised_here(promise)?);
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, &[])?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
@@ -166,6 +168,7 @@ impl Execution<'_> {
             && self.state.recorders.is_empty()
             && self.state.preferences.expose_every.is_none();
         let mut way_back = None;
+        let mut last = Status::Converged;
         let frames = Frames { n, hands };
         for k in 1..=n {
             if self.host.is_interrupted() {
@@ -193,21 +196,77 @@ impl Execution<'_> {
                     Next::Stop => break,
                 }
             }
+            self.hold_to_promise(&mut report, &limits);
+            last = report.status;
             summary.add(&report, self.state.world.clock().frame, span);
             if !leaves_nothing {
                 self.keep_frame(is_missed(&report));
             }
         }
         summary.seconds += self.host.seconds() - begun;
-        let broken = summary.broken(n_missed_before).filter(|_| limits.tolerance.is_some());
-        let n_done = summary.n_frames - n_before;
-        self.run = Some(summary);
-        match broken {
-            None => Ok((flow, n_done)),
-            Some((message, label)) => {
-                Err(Diagnostic::error(message).kind(Kind::Promise).at(span, label))
+        if let Some(tolerance) = limits.tolerance
+            && last == Status::Converged
+            && summary.n_frames > n_before
+        {
+            // What sleeps had no frame that could have missed.
+            let found = self.verdict_within(tolerance);
+            if !found.is_met() {
+                last = found.status.max(Status::Stalled);
+                summary.own_up(&found, self.state.world.clock().frame);
             }
         }
+        let is_asked = self.host.is_listening() || limits.tolerance.is_some();
+        if last != Status::Converged && summary.culprits.is_none() && is_asked {
+            let held: Vec<PointId> = hands.iter().map(|hand| hand.point).collect();
+            summary.culprits = Some(self.state.culprits(last, &held));
+        }
+        let broken = summary.broken(n_missed_before).filter(|_| limits.tolerance.is_some());
+        let n_done = summary.n_frames - n_before;
+        let result = match broken {
+            None => Ok((flow, n_done)),
+            Some((message, label)) => {
+                let problem = Diagnostic::error(message).kind(Kind::Promise).at(span, label);
+                Err(summary.culprits.iter().fold(problem, |problem, it| it.explain(problem)))
+            }
+        };
+        self.run = Some(summary);
+        result
+    }
+
+    /// What a frame left is to be within the tolerance that was promised, also where rounding
+    /// would have it otherwise.
+    fn hold_to_promise(&self, report: &mut Report, limits: &Limits) {
+        let Some(tolerance) = limits.tolerance else { return };
+        if report.status == Status::Converged && report.residual > tolerance {
+            let found = self.verdict_within(tolerance);
+            if !found.is_met() {
+                report.status = found.status.max(Status::Stalled);
+                report.residual = report.residual.max(found.residual);
+            }
+        }
+    }
+
+    /// How the present pose stands by a tolerance.
+    fn verdict_within(&self, tolerance: f64) -> Verdict {
+        verdict(&self.state.world, &Settings { tolerance, ..self.state.preferences.solve })
+    }
+
+    /// The limits of a command that lets the solver work. A tolerance below what rounding allows
+    /// cannot be promised.
+    fn promised_here(&mut self, promise: &Promise) -> Result<Limits, Diagnostic> {
+        let limits = self.promised(promise)?;
+        let (Some(tolerance), Some(within)) = (limits.tolerance, &promise.within) else {
+            return Ok(limits);
+        };
+        let least = least_tolerance(&self.state.world);
+        if tolerance >= least {
+            return Ok(limits);
+        }
+        // A twentieth more, so that two digits never round below it.
+        let least = format_digits(1.05 * least, 2);
+        Err(Diagnostic::error("this cannot be promised here")
+            .at(within.span, format!("{} is below what rounding allows", format_number(tolerance)))
+            .help(format!("the smallest tolerance that can be promised: `within {least}`")))
     }
 
     /// Lets frame `k` pass.
@@ -302,7 +361,7 @@ impl Execution<'_> {
     }
 
     pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
-        let limits = self.promised(promise)?;
+        let limits = self.promised_here(promise)?;
         self.begin_motion();
         let is_measured = self.state.world.is_measured();
         if is_measured {
@@ -324,18 +383,30 @@ impl Execution<'_> {
             let budget = Budget { tolerance: limits.tolerance, stop: None, ..Budget::default() };
             solver.agree(world, &preferences.solve, &budget, &mut report)?;
         }
+        let tolerance = limits.tolerance.unwrap_or(self.state.preferences.solve.tolerance);
+        let verdict = self.verdict_within(tolerance);
+        let mut status = verdict.ending(report.status);
+        let mut culprits = None;
+        if status != Status::Converged && (self.host.is_listening() || limits.tolerance.is_some()) {
+            let found = self.state.culprits(status, &[]);
+            status = found.status;
+            culprits = Some(found);
+        }
         let text = format!(
             "{}: residual {} after {} iterations",
-            report.status.phrase(),
-            format_rounded(report.residual),
+            status.phrase(),
+            format_rounded(verdict.residual),
             report.iterations
         );
-        if limits.tolerance.is_some_and(|tolerance| report.residual > tolerance) {
-            return Err(Diagnostic::error("the tolerance was not reached")
-                .kind(Kind::Promise)
-                .at(span, text));
+        if limits.tolerance.is_some() && !verdict.is_met() {
+            let problem = Diagnostic::error("the tolerance was not reached");
+            let problem = problem.kind(Kind::Promise).at(span, text);
+            return Err(culprits.iter().fold(problem, |problem, it| it.explain(problem)));
         }
         self.note(text);
+        if let Some(found) = &culprits {
+            found.notes.iter().chain(&found.helps).for_each(|text| self.note(text.as_str()));
+        }
         Ok(())
     }
 }

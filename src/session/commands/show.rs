@@ -10,9 +10,9 @@ use crate::lang::catalogue::{self, Entry};
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
-use crate::solve::Method;
+use crate::solve::{Method, present};
 use crate::terms::Function;
-use crate::world::{ConstraintId, Entity, PointId, Value};
+use crate::world::{ConstraintId, Entity, PointId, Value, World};
 
 /// A value as `print` writes it.
 pub(crate) fn format_value(value: Value) -> String {
@@ -125,8 +125,9 @@ impl Execution<'_> {
             lines.extend(self.state.world.points().ids().map(|id| self.state.point_line(id)));
         }
         if is_asked(ListWhat::Constraints) {
+            let (now, _) = present(&self.state.world);
             let constraints = self.state.world.constraints().map(|(id, _)| id);
-            lines.extend(constraints.map(|id| self.state.constraint_line(id)));
+            lines.extend(constraints.map(|id| self.state.constraint_line(&now, id)));
         }
         if is_asked(ListWhat::Traces) {
             lines.extend(self.state.world.traces().iter().map(|trace| {
@@ -163,6 +164,7 @@ impl Execution<'_> {
     pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
         if let Some(instance) = self.resolve().instance(name)? {
             let prefix = format!("{instance}.");
+            let (now, _) = present(&self.state.world);
             let mut lines = Vec::new();
             for id in self.state.world.points().ids() {
                 if self.state.world.points().name(id).starts_with(&prefix) {
@@ -171,7 +173,7 @@ impl Execution<'_> {
             }
             for (id, record) in self.state.world.constraints() {
                 if record.name.starts_with(&prefix) {
-                    lines.push(self.state.constraint_line(id));
+                    lines.push(self.state.constraint_line(&now, id));
                 }
             }
             lines.iter().for_each(|line| self.host.print(line));
@@ -179,16 +181,18 @@ impl Execution<'_> {
         }
         match self.resolve().entity(name)? {
             Entity::Point(id) => {
+                let (now, _) = present(&self.state.world);
                 let mut lines = vec![self.state.point_line(id)];
                 for (c, record) in self.state.world.constraints() {
                     if record.constraint.points().contains(&id.0) {
-                        lines.push(format!("  {}", self.state.constraint_line(c)));
+                        lines.push(format!("  {}", self.state.constraint_line(&now, c)));
                     }
                 }
                 lines.iter().for_each(|line| self.host.print(line));
             }
             Entity::Constraint(id) => {
-                let mut lines = vec![self.state.constraint_line(id)];
+                let (now, _) = present(&self.state.world);
+                let mut lines = vec![self.state.constraint_line(&now, id)];
                 lines.extend(
                     Unbind::of(&self.state.world)
                         .constraint_details(id)
@@ -247,11 +251,13 @@ impl State {
         line
     }
 
-    fn constraint_line(&self, id: ConstraintId) -> String {
+    /// A constraint, with its residual in a world that is as this one is `now`.
+    fn constraint_line(&self, now: &World, id: ConstraintId) -> String {
         let record = self.world.constraint(id).expect("a listed constraint lives");
         let mut line = Unbind::of(&self.world).constraint_text(record);
         if record.is_on {
-            let residual = record.constraint.residual(self.world.points().column());
+            let constraint = &now.constraint(id).expect("it lives there too").constraint;
+            let residual = constraint.residual(now.points().column());
             let _ = write!(line, "  # residual {}", format_rounded(residual));
         } else {
             line.push_str("  # off");

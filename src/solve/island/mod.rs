@@ -352,10 +352,8 @@ impl Island {
         let (lo, hi) = self.corners();
         let size = self.size_between((lo, hi));
         let farthest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
-        // A distance between numbers of this magnitude is not known any better.
-        let rounding = 8.0 * f64::EPSILON * farthest;
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;
-        let tolerance = tolerance.max(rounding);
+        let tolerance = tolerance.max(rounding(farthest));
         Limits { size, tolerance, n_iterations: settings.iterations, budget }
     }
 
@@ -411,4 +409,9 @@ fn is_stateful(constraint: &Constraint) -> bool {
 
 fn has_velocities(constraint: &Constraint) -> bool {
     constraint.traits().carried == Carried::ByFrame
+}
+
+/// A distance between coordinates of this magnitude is not known any better.
+pub(crate) const fn rounding(magnitude: f64) -> f64 {
+    8.0 * f64::EPSILON * magnitude
 }

@@ -59,7 +59,7 @@ impl Snapshot {
         let Fingerprint { structure, inputs, pose } = self.fingerprint;
         let mut numbers = vec![
             self.n_free as f64,
-            f64::from(self.status as u8),
+            f64::from(code(self.status)),
             self.residual,
             self.probed_at,
             flag(self.has_degree),
@@ -141,6 +141,17 @@ fn whole([upper, lower]: [f64; 2]) -> u64 {
 
 fn points(numbers: &[f64]) -> Vec<Point> {
     numbers.as_chunks::<2>().0.iter().map(|p| Point::new(p[0], p[1])).collect()
+}
+
+/// The number that stands for an ending.
+const fn code(status: Status) -> u8 {
+    match status {
+        Status::Converged => 0,
+        // No island ends as contradictory: that takes a test of its own.
+        Status::BestFit | Status::Contradictory => 1,
+        Status::Stalled => 2,
+        Status::Unsatisfiable => 3,
+    }
 }
 
 #[cfg(test)]

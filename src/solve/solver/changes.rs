@@ -2,7 +2,7 @@
 
 use super::Solver;
 use crate::constraint::Point;
-use crate::solve::dispatch::{Cause, check};
+use crate::solve::dispatch::{Alone, Cause, check};
 use crate::solve::island::Island;
 use crate::solve::island::memory::{self, Memory};
 use crate::solve::island::partition::{Home, Partition};
@@ -191,8 +191,8 @@ impl Solver {
     pub(super) fn check(&mut self, world: &World, id: ConstraintId, settings: &Settings) {
         self.unsatisfiable.remove(&id);
         if let Some(record) = world.constraint(id) {
-            let (violation, size) = check(world, &record.constraint);
-            if violation > settings.tolerance * size {
+            let Alone { violation, size, rounding } = check(world, &record.constraint);
+            if violation > (settings.tolerance * size).max(rounding) {
                 self.unsatisfiable.insert(id, violation / size);
             }
         }

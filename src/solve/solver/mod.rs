@@ -201,7 +201,7 @@ impl Solver {
 
     /// How far a constraint is from being satisfied, length units.
     pub fn violation(&self, world: &World, id: ConstraintId) -> f64 {
-        world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).0)
+        world.constraint(id).map_or(0.0, |record| check(world, &record.constraint).violation)
     }
 
     pub(super) fn missed_islands(&self) -> impl Iterator<Item = &Island> {

@@ -47,6 +47,12 @@ fn check(talking: &mut Talking, statements: &[String]) -> Result<(), TestCaseErr
             let flaws = flaws(talking.world(), 4.0 * tolerance);
             prop_assert!(flaws.is_empty(), "{flaws:?} after {:#?}", &statements[..=k]);
         }
+        // What `check` says is said of the pose on the screen, run or not.
+        if talking.ask("check").iter().any(|line| line.starts_with("status: converged")) {
+            let tolerance = tolerance(talking);
+            let flaws = flaws(talking.world(), 4.0 * tolerance);
+            prop_assert!(flaws.is_empty(), "{flaws:?} checked after {:#?}", &statements[..=k]);
+        }
     }
     Ok(())
 }

@@ -39,8 +39,8 @@ fn demands(talking: &mut Talking, method: &str) -> Demands {
     talking.run(&format!("set method {method}; solve"));
     assert_finite(talking.world());
     let told = talking.talk.told().concat();
-    let (has_converged, is_best_fit) =
-        (told.starts_with("converged"), told.starts_with("best fit"));
+    let has_converged = told.starts_with("converged");
+    let is_best_fit = told.starts_with("best fit") || told.starts_with("no solution found");
     let points = talking.world().points();
     let x = points.column();
     let w = inverse_masses(talking.world());

@@ -3,3 +3,4 @@
 mod names;
 mod picture_hash;
 mod start_and_switch;
+mod verdict;
