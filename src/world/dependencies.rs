@@ -36,8 +36,22 @@ pub(super) struct LiveConstraints {
     pub measured: Vec<ConstraintId>,
     /// Whether the solver moves such a point: values and pose have to agree then.
     pub is_mutual: bool,
-    /// Motors that are switched on and turn.
+    /// Motors that are switched on and turn, but for those of `ramps`.
     pub motors: Vec<ConstraintId>,
+    /// Motors that are switched on and whose speed is an expression that mentions time.
+    pub ramps: Vec<Ramp>,
+}
+
+/// A motor whose speed changes within a frame.
+#[derive(Debug, Clone)]
+pub(super) struct Ramp {
+    /// The motor.
+    pub motor: ConstraintId,
+    /// What its speed is.
+    pub speed: Formula,
+    /// The parameters that its speed depends on and that depend on time, each after those it
+    /// mentions.
+    pub parameters: Vec<ParameterId>,
 }
 
 impl Dependencies {
@@ -66,9 +80,14 @@ impl Dependencies {
         &self.lists.measured
     }
 
-    /// Motors that are switched on and turn.
+    /// Motors that are switched on and turn, but for those that [`ramps`](Self::ramps) lists.
     pub fn motors(&self) -> &[ConstraintId] {
         &self.lists.motors
+    }
+
+    /// Motors that are switched on and whose speed changes within a frame.
+    pub fn ramps(&self) -> &[Ramp] {
+        &self.lists.ramps
     }
 
     /// Why a live parameter has no value now.
@@ -159,7 +178,8 @@ impl Dependencies {
             (Some((was, a)), Some((is, b))) => {
                 let is_like_before = a.is_live() == b.is_live() && was.is_same(is);
                 self.is_order_dirty |= (a.is_live() || b.is_live()) && !is_like_before;
-                self.are_lists_dirty |= a != b;
+                let changes_a_ramp = !self.lists.ramps.is_empty() && !is_like_before;
+                self.are_lists_dirty |= a != b || changes_a_ramp;
             }
             (Some((_, depends)), None) => self.is_order_dirty |= depends.is_live(),
             _ => {}

@@ -1,9 +1,9 @@
 //! What depends on what, and the order in which live values are brought up to date.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::dependencies::{LiveConstraints, is_motor};
-use super::{Depends, Formula, Mention, ParameterId, Record, World};
+use super::dependencies::{LiveConstraints, Ramp, is_motor};
+use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
 use crate::constraint::{ConstraintKind as _, Field};
 
 /// Whether a motor turns: its speed is not 0, or may not be 0 at another time.
@@ -11,6 +11,15 @@ fn is_turning(record: &Record) -> bool {
     is_motor(record)
         && (record.constraint.get(Field::Speed) != Some(0.0)
             || record.driver(Field::Speed).is_some())
+}
+
+/// Adds the parameters that a formula mentions.
+fn note_parameters(formula: &Formula, mentioned: &mut BTreeSet<ParameterId>) {
+    formula.mentions(&mut |mention| {
+        if let Mention::Parameter(id) = mention {
+            mentioned.insert(id);
+        }
+    });
 }
 
 impl World {
@@ -48,10 +57,14 @@ impl World {
         if !self.dependencies.take_lists_dirty() {
             return;
         }
+        self.sort_parameters();
         let mut lists = LiveConstraints::default();
         for (id, record) in self.constraints() {
             if record.is_on && is_turning(record) {
-                lists.motors.push(id);
+                match record.driver(Field::Speed).filter(|speed| self.depends(speed).on_time) {
+                    Some(speed) => lists.ramps.push(self.ramp(id, speed)),
+                    None => lists.motors.push(id),
+                }
             }
             let formulas = record.drivers().iter().map(|(_, formula)| self.depends(formula));
             let depends = formulas.fold(Depends::default(), Depends::or);
@@ -64,6 +77,23 @@ impl World {
             }
         }
         self.dependencies.set_lists(lists);
+    }
+
+    /// A motor with a speed that mentions time, and what of its parameters time changes.
+    fn ramp(&self, motor: ConstraintId, speed: &Formula) -> Ramp {
+        let mut mentioned = BTreeSet::new();
+        note_parameters(speed, &mut mentioned);
+        let mut parameters = Vec::new();
+        // What mentions others comes after them: from the last to the first all is seen.
+        for &id in self.dependencies.order().iter().rev() {
+            let parameter = self.parameter(id).expect("a listed parameter lives");
+            if mentioned.contains(&id) && parameter.depends.on_time {
+                parameters.push(id);
+                note_parameters(&parameter.formula, &mut mentioned);
+            }
+        }
+        parameters.reverse();
+        Ramp { motor, speed: speed.clone(), parameters }
     }
 
     /// Whether a formula mentions a point that can move, at any depth.
@@ -83,7 +113,7 @@ impl World {
     /// Whether some motor is switched on and turns.
     pub fn has_running_motors(&mut self) -> bool {
         self.sort_constraints();
-        !self.dependencies.motors().is_empty()
+        !self.dependencies.motors().is_empty() || !self.dependencies.ramps().is_empty()
     }
 
     /// What can change a formula, its parameters' own formulas included.

@@ -74,6 +74,57 @@ impl Environment<f64> for Here<'_> {
     }
 }
 
+/// A world at an instant within a frame as formulas see it: time, and what time changes, as they
+/// are then; the pose and what is measured on it as they are now.
+pub(super) struct Within<'a> {
+    world: &'a World,
+    time: f64,
+    values: BTreeMap<ParameterId, Value>,
+}
+
+impl<'a> Within<'a> {
+    /// The world as it stands, live parameters being up to date, but for the time.
+    pub fn new(world: &'a World) -> Self {
+        Self { world, time: world.clock.time(), values: BTreeMap::new() }
+    }
+
+    /// Goes to an instant, with these parameters, each after those it mentions.
+    ///
+    /// # Errors
+    /// Where one has no value then.
+    pub fn go_to(&mut self, time: f64, parameters: &[ParameterId]) -> Result<(), Diagnostic> {
+        self.time = time;
+        self.values.clear();
+        for &id in parameters {
+            let parameter = self.world.parameter(id).expect("a listed parameter lives");
+            let value = parameter.formula.evaluate(self)?;
+            self.values.insert(id, value);
+        }
+        Ok(())
+    }
+}
+
+impl Environment<f64> for Within<'_> {
+    fn parameter(&self, id: ParameterId) -> Result<Value, Diagnostic> {
+        match self.values.get(&id) {
+            Some(value) => Ok(*value),
+            None => Here::new(self.world, None).parameter(id),
+        }
+    }
+
+    fn position(&self, id: PointId) -> Vec2<f64> {
+        Here::new(self.world, None).position(id)
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
+        None
+    }
+}
+
 /// A world in motion as formulas see it: everything with its derivatives in time.
 pub(super) struct Moving<'a> {
     world: &'a World,

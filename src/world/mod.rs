@@ -35,6 +35,7 @@ mod apply;
 mod batch;
 mod edit;
 mod motion;
+mod quadrature;
 mod same;
 mod unchanged;
 

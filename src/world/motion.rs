@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::dependencies::Ramp;
+use super::environments::Within;
+use super::quadrature::mean;
 use super::same::{States, are_same_places, are_same_states};
 use super::trace::Tail;
 use super::{Clock, ConstraintId, Ghost, Sample, World};
@@ -161,6 +164,33 @@ impl World {
             let id = self.dependencies.motors()[k];
             if self.constraint_state_mut(id).advance(dt) {
                 self.touched.values.push(id);
+            }
+        }
+        if !self.dependencies.ramps().is_empty() {
+            self.advance_ramps()?;
+        }
+        Ok(())
+    }
+
+    /// Turns the motors whose speed changes within the frame that the clock has just made: by the
+    /// integral of their speed over it.
+    fn advance_ramps(&mut self) -> Result<(), Diagnostic> {
+        let dt = self.clock.dt;
+        let begin = Clock { frame: self.clock.frame - 1, ..self.clock }.time();
+        let grain = f64::EPSILON * self.clock.time().abs() / dt;
+        for k in 0..self.dependencies.ramps().len() {
+            let Ramp { motor, ref speed, ref parameters } = self.dependencies.ramps()[k];
+            let mut within = Within::new(self);
+            let mean_speed = mean(grain, |share| {
+                within.go_to(share.mul_add(dt, begin), parameters)?;
+                Ok(speed.evaluate(&within)?.number())
+            })?;
+            let constraint = self.constraint_state_mut(motor);
+            if let Constraint::Motor(motor) = constraint {
+                motor.set_mean_speed(mean_speed);
+            }
+            if constraint.advance(dt) {
+                self.touched.values.push(motor);
             }
         }
         Ok(())

@@ -14,6 +14,7 @@ mod hard_cases;
 mod laws;
 mod long_texts;
 mod mobility;
+mod motors;
 mod program;
 mod readme;
 mod render;

@@ -38,6 +38,8 @@ struct Drive {
     radius: f64,
     phase: f64,
     speed: f64,
+    /// The mean of the speed over the present frame, where it changes in time.
+    mean_speed: f64,
     /// The angle that the last step of time made at this speed, and the same in turns.
     step: (f64, Turns),
 }
@@ -48,7 +50,7 @@ impl Motor {
     pub fn new(points: [PointIdx; 2], radius: f64, phase: f64, speed: f64) -> Self {
         let target = Vector::polar(radius, phase);
         let step = (0.0, Turns::default());
-        let drive = Arc::new(Drive { radius, phase, speed, step });
+        let drive = Arc::new(Drive { radius, phase, speed, mean_speed: speed, step });
         Self { points, heading: Heading { turned: Turns::default(), target }, drive }
     }
 
@@ -92,6 +94,14 @@ impl Motor {
     /// Where the driven point belongs, from the centre.
     pub const fn target(&self) -> Vector {
         self.heading.target
+    }
+
+    /// Says what the speed was on the average over the frame that it advances by next: that is how
+    /// far it turns. Setting the speed makes it the mean too.
+    pub fn set_mean_speed(&mut self, mean: f64) {
+        if mean != self.drive.mean_speed {
+            Arc::make_mut(&mut self.drive).mean_speed = mean;
+        }
     }
 
     fn aim(&mut self) {
@@ -188,7 +198,10 @@ impl ConstraintKind for Motor {
             Field::Radius => Arc::make_mut(&mut self.drive).radius = value,
             Field::Phase => Arc::make_mut(&mut self.drive).phase = value,
             // The angle so far stays: a change of speed is no jump.
-            Field::Speed => Arc::make_mut(&mut self.drive).speed = value,
+            Field::Speed => {
+                let drive = Arc::make_mut(&mut self.drive);
+                (drive.speed, drive.mean_speed) = (value, value);
+            }
             _ => return false,
         }
         self.aim();
@@ -250,9 +263,9 @@ impl Stateful for Motor {
         }
     }
 
-    /// Turns on by `speed * dt`.
+    /// Turns on by `dt` times the mean speed; `-dt` takes the frame back that `dt` was.
     fn advance(&mut self, dt: f64) -> bool {
-        let step = self.drive.speed * dt;
+        let step = self.drive.mean_speed * dt;
         if step == 0.0 {
             return false;
         }
@@ -298,6 +311,23 @@ mod tests {
         let before = motor.target();
         assert!(motor.set(Field::Speed, -1e9));
         assert_eq!(motor.target(), before);
+    }
+
+    #[test]
+    fn a_frame_of_a_changing_speed_is_taken_back_as_it_was() {
+        let mut motor = Motor::new([0, 1], 1.0, 0.3, 5.0);
+        motor.advance(0.1);
+        let before = motor.clone();
+        motor.set(Field::Speed, 7.0);
+        motor.set_mean_speed(6.2);
+        motor.advance(0.1);
+        assert!((motor.total() - before.total() - 0.62).abs() < 1e-15);
+        assert_eq!(motor.get(Field::Speed), Some(7.0));
+        motor.advance(-0.1);
+        assert_eq!(motor.heading(), before.heading());
+        motor.set(Field::Speed, 7.0);
+        motor.advance(0.1);
+        assert!((motor.total() - before.total() - 0.7).abs() < 1e-15);
     }
 
     #[test]
