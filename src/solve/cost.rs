@@ -26,17 +26,19 @@ impl Solver {
         constraints.filter(|c| is_one(c)).count() * size_of::<Constraint>()
     }
 
-    /// Expects the next pose of each island once more, to no end but to be timed; gives how
-    /// many of them had one to expect.
+    /// Expects the next pose of each island that a frame visits once more, to no end but to be
+    /// timed; gives how many of them had one to expect.
     pub fn rehearse_predictions(&self) -> u64 {
-        self.islands().map(|island| rehearse_prediction(&island.history, &island.degree)).sum()
+        self.awake_islands()
+            .map(|island| rehearse_prediction(&island.history, &island.degree))
+            .sum()
     }
 
-    /// Does the work that constraints of some kind make in one visit of each island once more,
-    /// to no end but to be timed; gives how many of them there are.
+    /// Does the work that constraints of some kind make in one visit of each island that a frame
+    /// visits once more, to no end but to be timed; gives how many of them there are.
     pub fn rehearse_constraints(&self, is_one: fn(&Constraint) -> bool) -> u64 {
         let mut n_done = 0;
-        for island in self.islands() {
+        for island in self.awake_islands() {
             for constraint in island.constraints.iter().filter(|c| is_one(c)) {
                 constraint.jacobian(&island.x, &mut |row| {
                     std::hint::black_box(row);

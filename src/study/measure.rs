@@ -40,7 +40,7 @@ pub fn study(
         notes.insert(
             0,
             "nothing moves in this scene: what is studied is one solve of the pose it \
-                         was given"
+             was given; to study a motion, give it a motor, or `drag` a point, and `step`"
                 .to_owned(),
         );
         start = motion.at_the_start();

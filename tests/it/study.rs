@@ -250,11 +250,16 @@ fn a_study_knows_where_a_hand_took_a_point_up() {
 }
 
 #[test]
-fn nothing_to_study_is_an_error() {
-    let (mut session, mut notebook) = (Session::new(), notebook());
-    let problem = run(&mut session, &mut notebook, "point A = (0, 0); accuracy")
-        .expect_err("there is nothing");
-    assert_eq!(&*problem.message, "there is nothing to study");
+fn a_scene_without_motion_is_told_what_to_do() {
+    for (script, help) in [
+        ("point A = (0, 0); accuracy", "`motor A B speed 1rev`"),
+        ("point A = (0, 0), B = (1, 0); rod: length A B; off rod; accuracy", "`on rod`"),
+    ] {
+        let (mut session, mut notebook) = (Session::new(), notebook());
+        let problem = run(&mut session, &mut notebook, script).expect_err("there is nothing");
+        assert_eq!(&*problem.message, "this scene has no motion whose accuracy could be studied");
+        assert!(format!("{problem:?}").contains(help), "{problem:?}");
+    }
 }
 
 #[test]

@@ -1,10 +1,20 @@
 //! What a frame does, counted by the solver itself: nothing that the scene does not call for.
 //! `benches/counting.py` counts instructions of the whole program for the same claims.
 
+use std::cell::Cell;
+use std::io;
+use std::path::Path;
+use std::sync::LazyLock;
+use std::time::Instant;
+
 use linkwork::constraint::Point;
-use linkwork::session::{Nowhere, Session};
-use linkwork::solve::{Budget, Counters, Settings, Solver};
+use linkwork::diag::{Diagnostic, Sources};
+use linkwork::session::{Host, Nowhere, Session};
+use linkwork::solve::{Budget, Counters, Settings, Solver, is_one_sided};
 use linkwork::world::{Edit, Entity, World};
+
+/// When the first clock was made.
+static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
 
 /// Frames for what is new to come to rest, and frames that are counted.
 const FIRST: usize = 5;
@@ -18,6 +28,32 @@ length B C = 3.5
 length C D = 3
 set dt 1/360
 ";
+
+/// A host with a clock of its own, which counts how often it was looked at.
+struct Clock {
+    /// The time at the look of this number, seconds.
+    time: fn(u64) -> f64,
+    n_looks: Cell<u64>,
+}
+
+impl Host for Clock {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        Err(io::Error::from(io::ErrorKind::NotFound))
+    }
+
+    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn seconds(&self) -> f64 {
+        self.n_looks.update(|n| n + 1);
+        (self.time)(self.n_looks.get())
+    }
+}
 
 /// The world that a script makes.
 fn world(script: &str) -> World {
@@ -176,6 +212,42 @@ fn what_no_statement_calls_for_has_no_memory() {
             assert!(row.is_on || row.n_bytes == 0, "{}, asked for: {with}", row.name);
         }
     }
+}
+
+#[test]
+fn shares_are_parts_of_the_frame_that_was_timed() {
+    type Named = (&'static str, fn(u64) -> f64);
+    // Without those that would declare a point a second time.
+    let all = EFFECTS[1..].iter().map(|(_, with)| *with).filter(|with| !with.contains("point E"));
+    let all = all.collect::<Vec<_>>().join("\n");
+    let mut session = Session::new();
+    session.run(&format!("{FOUR_BAR}{all}\nrecord \"a.svg\" every 7\nstep 30")).expect("it works");
+    let clocks: [Named; 5] = [
+        ("of this machine", |_| BEGUN.elapsed().as_secs_f64()),
+        ("that stands", |_| 1.0),
+        ("that ticks", |n| n as f64 * 1e-6),
+        ("that is slower early than late", |n| (n * n) as f64 * 1e-9),
+        ("on which what is done later takes ever longer", |n| 1e-9 * 1.2_f64.powf(n as f64)),
+    ];
+    for (name, time) in clocks {
+        let effects = session.effects_on(&Clock { time, n_looks: Cell::new(0) });
+        assert!(effects.n_frames > 0, "clock {name}");
+        let sum: f64 = effects.rows.iter().map(|row| row.seconds).sum();
+        assert!(effects.rows.iter().all(|row| row.seconds >= 0.0), "clock {name}");
+        assert!(sum <= effects.seconds * (1.0 + 1e-12), "clock {name}: {sum} {}", effects.seconds);
+    }
+}
+
+#[test]
+fn an_effect_is_timed_on_the_islands_that_are_visited() {
+    let still = "for i in 1..200 { point P[i] = (i, 10) frozen, Q[i] = (i, 11)
+                 length P[i] Q[i] = 1.5; length P[i] Q[i] <= 9 }";
+    let mut world = world(&format!("{FOUR_BAR}{still}\nlength A C <= 9"));
+    let mut solver = Solver::new();
+    (0..FIRST).for_each(|_| _ = pass(&mut world, &mut solver));
+    assert_eq!(solver.n_islands(), (201, 1));
+    assert_eq!(solver.rehearse_predictions(), 1);
+    assert_eq!(solver.rehearse_constraints(is_one_sided), 1);
 }
 
 #[test]

@@ -228,9 +228,10 @@ impl ConstraintKind for Motor {
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        // The target follows from the rest, and the step of time is made anew where it differs.
+        // The target follows from the rest, and the mean speed and the step of time are made anew
+        // where they differ.
         let Self { points: _, heading: Heading { turned, target: _ }, drive } = self;
-        let Drive { radius, phase, speed, step: _ } = &**drive;
+        let Drive { radius, phase, speed, mean_speed: _, step: _ } = &**drive;
         add_all([*radius, *speed, *phase], word);
         add_all(turned.to_numbers(), word);
     }

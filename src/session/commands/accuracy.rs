@@ -57,8 +57,7 @@ impl Execution<'_> {
 
     fn study(&mut self, n_frames: Option<u64>, span: Span) -> Result<Study, Diagnostic> {
         if self.state.world.constraints().all(|(_, record)| !record.is_on) {
-            return Err(Diagnostic::error("there is nothing to study")
-                .at(span, "the scene has no constraint that is switched on"));
+            return Err(self.nothing_to_solve(span));
         }
         let motion = self.repeatable_motion(n_frames);
         let host = &self.host;
@@ -69,6 +68,22 @@ impl Execution<'_> {
             seconds: SECONDS,
         };
         study(&motion, &ladder(), &host)
+    }
+
+    /// What is wrong, and what to type, where no constraint is switched on.
+    fn nothing_to_solve(&self, span: Span) -> Diagnostic {
+        let problem = Diagnostic::error("this scene has no motion whose accuracy could be studied");
+        match self.state.world.constraints().next() {
+            Some((_, record)) => problem
+                .at(span, "all of its constraints are switched off")
+                .help(format!("switch some on again, such as `on {}`", record.name)),
+            None => {
+                problem.at(span, "it has no constraint that the solver would have to hold").help(
+                    "make a mechanism and let it move: `motor A B speed 1rev`, `length B C = 3`, \
+                 `step 360`, then `accuracy`",
+                )
+            }
+        }
     }
 
     /// The motion to study.

@@ -1,7 +1,6 @@
 //! The effects that a scene may call for: what switches each on, what it keeps, what it does.
 
 use crate::constraint::{Carried, ConstraintKind as _};
-use crate::render::Scene;
 use crate::session::state::State;
 use crate::session::undo::recorder::Recorder;
 use crate::solve::{Solver, is_one_sided, is_wheel};
@@ -15,9 +14,20 @@ pub struct Effect {
     pub because: fn(&State) -> Vec<String>,
     /// The memory kept for it, bytes.
     pub n_bytes: fn(&State) -> usize,
-    /// Its work in one frame, done to no end but to be timed; none where it cannot be told apart
-    /// from that of others.
-    pub work: Option<fn(&mut Rehearsal)>,
+    /// Where in a frame its work is done.
+    pub work: Work,
+}
+
+/// Where in a frame the work for an effect is done, and how it is timed.
+pub enum Work {
+    /// Among that of others, from which it cannot be told apart.
+    Untold,
+    /// At its beginning, where the clock ticks: timed there.
+    Clock,
+    /// Within the solving. This does as much of it once more, to no end but to be timed.
+    Solving(fn(&Solver) -> u64),
+    /// At its end, by this: timed there.
+    Leaving(fn(&mut Rehearsal)),
 }
 
 /// A copy of a scene, to do work on that is timed.
@@ -26,6 +36,10 @@ pub struct Rehearsal {
     pub world: World,
     /// What solves it.
     pub solver: Solver,
+    /// The recordings under way.
+    pub recorders: Vec<Recorder>,
+    /// Every how many frames the mechanism leaves a ghost.
+    pub expose_every: Option<u64>,
 }
 
 /// Every effect there is, in the order in which they are told.
@@ -37,20 +51,19 @@ pub static EFFECTS: [Effect; 9] = [
             let timed = records(state).filter(|record| is_timed(state, record));
             timed.count() * size_of::<f64>() * 3
         },
-        // A time at which something has no value costs no less.
-        work: Some(|copy| drop(copy.world.advance())),
+        work: Work::Clock,
     },
     Effect {
         name: "measured values",
         because: |state| names(state, |record| depends(state, record).on_points),
         n_bytes: |_| 0,
-        work: None,
+        work: Work::Untold,
     },
     Effect {
         name: "wheel angles",
         because: |state| names(state, |record| is_wheel(&record.constraint)),
         n_bytes: |state| state.solver.constraint_bytes(is_wheel),
-        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_wheel)),
+        work: Work::Solving(|solver| solver.rehearse_constraints(is_wheel)),
     },
     Effect {
         name: "previous positions",
@@ -59,14 +72,14 @@ pub static EFFECTS: [Effect; 9] = [
             frames.into_iter().map(str::to_owned).collect()
         },
         n_bytes: |state| state.solver.history_bytes(),
-        work: Some(|copy| _ = copy.solver.rehearse_predictions()),
+        work: Work::Solving(Solver::rehearse_predictions),
     },
     Effect {
         name: "inequalities",
         because: |state| names(state, |record| is_one_sided(&record.constraint)),
         // One keeps no more than an equality does.
         n_bytes: |_| 0,
-        work: Some(|copy| _ = copy.solver.rehearse_constraints(is_one_sided)),
+        work: Work::Solving(|solver| solver.rehearse_constraints(is_one_sided)),
     },
     Effect {
         name: "derivatives",
@@ -75,7 +88,7 @@ pub static EFFECTS: [Effect; 9] = [
             users.map(|(_, parameter)| parameter.name.to_string()).collect()
         },
         n_bytes: |_| 0,
-        work: None,
+        work: Work::Untold,
     },
     Effect {
         name: "traces",
@@ -88,7 +101,7 @@ pub static EFFECTS: [Effect; 9] = [
             let traces = state.world.traces().iter();
             traces.map(|trace| trace.samples.len()).sum::<usize>() * size_of::<Sample>()
         },
-        work: Some(|copy| copy.world.sample_traces(false)),
+        work: Work::Leaving(|copy| copy.world.sample_traces(false)),
     },
     Effect {
         name: "ghosts",
@@ -98,7 +111,13 @@ pub static EFFECTS: [Effect; 9] = [
             None => vec!["expose".to_owned()],
         },
         n_bytes: |state| state.world.ghosts().iter().map(|ghost| size_of_val(&*ghost.at)).sum(),
-        work: Some(|copy| drop(std::hint::black_box(copy.world.expose()))),
+        work: Work::Leaving(|copy| {
+            let frame = copy.world.clock().frame;
+            if copy.expose_every.is_some_and(|every| frame.is_multiple_of(every)) {
+                let ghost = copy.world.expose();
+                copy.world.apply(ghost);
+            }
+        }),
     },
     Effect {
         name: "recorded frames",
@@ -107,7 +126,11 @@ pub static EFFECTS: [Effect; 9] = [
             recorders.map(|r| format!("record \"{}\"", r.path.display())).collect()
         },
         n_bytes: |state| state.recorders.iter().map(Recorder::n_bytes).sum(),
-        work: Some(|copy| drop(std::hint::black_box(Scene::new(&copy.world)))),
+        work: Work::Leaving(|copy| {
+            for recorder in &mut copy.recorders {
+                recorder.take(&copy.world);
+            }
+        }),
     },
 ];
 

@@ -1,10 +1,11 @@
 //! `effects`: what this scene has switched on, because of which statements, and what each costs.
 
-use super::effect_table::{EFFECTS, Rehearsal};
+use super::effect_table::{EFFECTS, Rehearsal, Work};
 use crate::diag::format_digits;
 use crate::session::execution::Execution;
 use crate::session::state::State;
-use crate::solve::{Budget, Solver};
+use crate::session::undo::recorder::Recorder;
+use crate::solve::{Budget, Settings, Solver};
 
 /// The effects of a scene, the islands it falls into, and what a frame costs.
 #[derive(Debug, Clone)]
@@ -15,7 +16,7 @@ pub struct Effects {
     pub islands: (usize, usize),
     /// How many frames were timed, on a copy.
     pub n_frames: u64,
-    /// The wall time they took, seconds.
+    /// The wall time they took, looking at the clock left out, seconds.
     pub seconds: f64,
 }
 
@@ -30,7 +31,7 @@ pub struct EffectRow {
     pub because: Vec<String>,
     /// The memory kept for it, bytes.
     pub n_bytes: usize,
-    /// The time spent in it during the frames that were timed, seconds.
+    /// The part of the time of those frames that it took, seconds.
     pub seconds: f64,
 }
 
@@ -61,35 +62,120 @@ impl State {
         effects
     }
 
-    /// Lets a copy of the scene run on and times its parts.
+    /// Lets a copy of the scene run on and times the parts of its frames.
     fn time_effects(&self, effects: &mut Effects, now: &dyn Fn() -> f64) {
-        let mut copy = Rehearsal { world: self.world.clone(), solver: Solver::new() };
-        let Rehearsal { world, solver } = &mut copy;
-        solver.set_memory(self.solver.memory());
+        let mut copy = self.rehearsal();
         let settings = &self.preferences.solve;
+        let are_on: Vec<bool> = effects.rows.iter().map(|row| row.is_on).collect();
         // The first frames bring the copy to its pace.
+        let mut untimed = Laps::new(&|| 0.0);
         for _ in 0..2 {
-            let Ok(report) = solver.step(world, settings, &Budget::default(), |_| {}) else {
-                return;
-            };
-            effects.islands = (solver.n_islands().0, report.counters.islands_visited as usize);
+            let Some(visited) = copy.frame(settings, &are_on, &mut untimed) else { return };
+            effects.islands = (copy.solver.n_islands().0, visited);
         }
-        let begun = now();
-        while effects.n_frames < TIMED_FRAMES && now() - begun < TIMED_SECONDS {
-            if solver.step(world, settings, &Budget::default(), |_| {}).is_err() {
+        let mut laps = Laps::new(now);
+        let begun = laps.at;
+        while effects.n_frames < TIMED_FRAMES && laps.at - begun < TIMED_SECONDS {
+            if copy.frame(settings, &are_on, &mut laps).is_none() {
                 break;
             }
-            world.sample_traces(false);
             effects.n_frames += 1;
         }
-        effects.seconds = now() - begun;
-        let n_frames = effects.n_frames;
-        let rows = effects.rows.iter_mut().zip(&EFFECTS).filter(|(row, _)| row.is_on);
-        for (row, work) in rows.filter_map(|(row, effect)| Some((row, effect.work?))) {
-            let begun = now();
-            (0..n_frames).for_each(|_| work(&mut copy));
-            row.seconds = now() - begun;
+        effects.seconds = laps.solving + laps.effects.iter().sum::<f64>();
+        let mut in_solving = [0.0; EFFECTS.len()];
+        for (k, effect) in EFFECTS.iter().enumerate().filter(|(k, _)| are_on[*k]) {
+            if let Work::Solving(again) = effect.work {
+                let begun = now();
+                for _ in 0..effects.n_frames {
+                    std::hint::black_box(again(&copy.solver));
+                }
+                in_solving[k] = (now() - begun).max(0.0);
+            }
         }
+        // What is done again alone may take longer than it did among the rest.
+        let sum: f64 = in_solving.iter().sum();
+        let scale = if sum > laps.solving { laps.solving / sum } else { 1.0 };
+        for (k, row) in effects.rows.iter_mut().enumerate() {
+            row.seconds = laps.effects[k] + scale * in_solving[k];
+        }
+    }
+
+    /// A copy of the scene to do work on.
+    fn rehearsal(&self) -> Rehearsal {
+        let mut solver = Solver::new();
+        solver.set_memory(self.solver.memory());
+        Rehearsal {
+            world: self.world.clone(),
+            solver,
+            recorders: self.recorders.iter().map(Recorder::emptied).collect(),
+            expose_every: self.preferences.expose_every,
+        }
+    }
+}
+
+/// The time that parts of frames took, by a clock that takes time to look at.
+struct Laps<'a> {
+    now: &'a dyn Fn() -> f64,
+    /// What looking at the clock takes, seconds.
+    look: f64,
+    /// When the last lap ended.
+    at: f64,
+    /// What solving took.
+    solving: f64,
+    /// What each effect took that is timed in the frames.
+    effects: [f64; EFFECTS.len()],
+}
+
+/// Looks at the clock that are timed at once, and how often.
+const LOOKS: u32 = 16;
+const ROUNDS_OF_LOOKS: u32 = 8;
+
+impl<'a> Laps<'a> {
+    /// Begins now.
+    fn new(now: &'a dyn Fn() -> f64) -> Self {
+        let mut look = f64::INFINITY;
+        for _ in 0..ROUNDS_OF_LOOKS {
+            let begun = now();
+            let ended = (0..LOOKS).fold(begun, |_, _| now());
+            look = look.min((ended - begun) / f64::from(LOOKS));
+        }
+        Self { now, look, at: now(), solving: 0.0, effects: [0.0; EFFECTS.len()] }
+    }
+
+    /// What passed since the last lap, without the look at the clock.
+    fn lap(&mut self) -> f64 {
+        let before = std::mem::replace(&mut self.at, (self.now)());
+        (self.at - before - self.look).max(0.0)
+    }
+}
+
+impl Rehearsal {
+    /// Lets one frame pass with the effects that are on; gives how many islands were visited, none
+    /// where something has no value then.
+    fn frame(&mut self, settings: &Settings, are_on: &[bool], laps: &mut Laps) -> Option<usize> {
+        let Self { world, solver, .. } = &mut *self;
+        solver.sync(world, settings);
+        world.advance().ok()?;
+        for (k, effect) in EFFECTS.iter().enumerate() {
+            if are_on[k] && matches!(effect.work, Work::Clock) {
+                laps.effects[k] += laps.lap();
+            }
+        }
+        let budget = Budget::default();
+        let mut report = solver.frame(world, settings, &budget);
+        if world.is_mutual() {
+            solver.agree(world, settings, &budget, &mut report).ok()?;
+        }
+        laps.solving += laps.lap();
+        for (k, effect) in EFFECTS.iter().enumerate() {
+            if are_on[k]
+                && let Work::Leaving(work) = effect.work
+            {
+                work(self);
+                laps.effects[k] += laps.lap();
+            }
+        }
+        Some(report.counters.islands_visited as usize)
     }
 }
 

@@ -53,6 +53,11 @@ impl Recorder {
         Self { path, span, every, format, shots: Vec::new() }
     }
 
+    /// Another that takes the same and has taken nothing yet.
+    pub fn emptied(&self) -> Self {
+        Self::new(self.path.clone(), self.span, self.every, self.format)
+    }
+
     /// Its reel as it is.
     pub const fn mark(&self) -> Reel {
         Reel { keep: self.shots.len(), then: Vec::new() }

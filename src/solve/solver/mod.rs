@@ -212,6 +212,11 @@ impl Solver {
         self.partition.iter().map(|(_, island)| island)
     }
 
+    /// The islands that the next frame will visit, as far as the last one tells.
+    pub(super) fn awake_islands(&self) -> impl Iterator<Item = &Island> {
+        self.awake.iter().filter_map(|&k| self.partition.get(k))
+    }
+
     /// The islands there are, and how many of them the next frame will visit.
     pub fn n_islands(&self) -> (usize, usize) {
         (self.partition.iter().count(), self.awake.len())
