@@ -79,13 +79,38 @@ impl Given<'_> {
         Ok([a, b, c, d])
     }
 
-    /// The first point, then the ends of the segment behind it.
+    /// The ends of the first two segments, which are not one and the same.
     ///
     /// # Errors
-    /// The same point twice in the segment.
+    /// The same point twice in one of them, or the same two points in both.
+    pub fn different_pairs(&self) -> Result<[PointIdx; 4], Refusal> {
+        let [a, b, c, d] = self.pairs()?;
+        if [a, b] == [c, d] || [a, b] == [d, c] {
+            return Err(Refusal {
+                message: "a segment compared with itself asks for nothing that could be held",
+                at: Culprit::Group(1),
+                label: "the same two points again",
+                help: Some("name two different segments"),
+            });
+        }
+        Ok([a, b, c, d])
+    }
+
+    /// The first point, then the ends of the segment behind it, of which it is none.
+    ///
+    /// # Errors
+    /// The same point twice.
     pub fn point_and_pair(&self) -> Result<[PointIdx; 3], Refusal> {
-        let [a, b] = self.pair(1)?;
-        Ok([self.point(0), a, b])
+        let ([a, b], p) = (self.pair(1)?, self.point(0));
+        if p == a || p == b {
+            return Err(Refusal {
+                message: "an end of a line lies on it anyway, and nowhere else",
+                at: Culprit::Point(0, 0),
+                label: "this is an end of that line",
+                help: Some("name a third point, or another line"),
+            });
+        }
+        Ok([p, a, b])
     }
 
     /// The points of a group of two, which are not the same because of `why`.

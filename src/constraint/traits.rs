@@ -89,6 +89,8 @@ pub enum Flag {
 pub enum Flaw {
     /// The lower bound lies above the upper one.
     EmptyRange,
+    /// No angle within one turn ever leaves the range.
+    WiderThanATurn,
     /// No length is so small.
     NegativeLength,
     /// No radius is so small.
@@ -101,7 +103,7 @@ impl Flaw {
     /// The value that is wrong; of a range, the upper one.
     pub const fn field(self) -> Field {
         match self {
-            Self::EmptyRange | Self::NegativeLength => Field::Hi,
+            Self::EmptyRange | Self::WiderThanATurn | Self::NegativeLength => Field::Hi,
             Self::NegativeRadius => Field::Radius,
             Self::ZeroRatio => Field::Ratio,
         }
@@ -111,6 +113,7 @@ impl Flaw {
     pub const fn noun(self) -> &'static str {
         match self {
             Self::EmptyRange => "an empty range",
+            Self::WiderThanATurn => "a range of angles wider than one turn",
             Self::NegativeLength => "a negative length",
             Self::NegativeRadius => "a negative radius",
             Self::ZeroRatio => "a ratio of 0",

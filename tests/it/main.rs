@@ -21,6 +21,7 @@ mod render;
 mod reproducible;
 mod scripts;
 mod session;
+mod slips;
 mod solve;
 mod study;
 mod support;

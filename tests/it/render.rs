@@ -372,7 +372,7 @@ fn degenerate_mechanisms_have_pictures() {
         "point A = (0, 0), B = (1, 0), C = (2, 0); rigid A B C",
         "point A = (0, 0), B = (0, 1), C = (0.01, 0), D = (0.01, 1); cog A B, C D ratio 300",
         "point A = (0, 0), B = (0, 1), C = (0.01, 0), D = (0.01, 1); cog A B, C D ratio -0.999",
-        "point A = (0, 0), B = (1, 0); distance A to A B = 1",
+        "point A = (0, 0), B = (1, 0), C = (0, 0); distance C to A B = 1",
         "point A = (0, 0), B = (1, 0), C = (1, 0); orientation A B, B C = 1",
     ] {
         check(&picture(script));

@@ -62,7 +62,7 @@ impl Declared for Equal {
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
         let bounds = given.bounds.unwrap_or(Bounds::exactly(0.0));
-        Ok(Self { points: given.pairs()?, bounds })
+        Ok(Self { points: given.different_pairs()?, bounds })
     }
 }
 

@@ -31,7 +31,7 @@ impl Declared for Equivalence {
     const WORDS: &'static [&'static str] = &["equivalence"];
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
-        Ok(Self { points: given.pairs()? })
+        Ok(Self { points: given.different_pairs()? })
     }
 }
 

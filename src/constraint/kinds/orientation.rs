@@ -101,7 +101,7 @@ impl Declared for Orientation {
     const WORDS: &'static [&'static str] = &["orientation", "parallel", "perpendicular"];
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
-        let points = given.pairs()?;
+        let points = given.different_pairs()?;
         let turned = |angle: f64| (Bounds::exactly(angle), Period::Half);
         let (bounds, period) = match given.word {
             "parallel" => turned(0.0),
@@ -217,7 +217,7 @@ impl ConstraintKind for Orientation {
             is_wheel: false,
             carried: Carried::ByPose,
             flags: &[],
-            flaw: Flaw::of_range(self.bounds),
+            flaw: Flaw::of_range(self.bounds).or_else(|| wider_than_a_turn(self.bounds)),
         }
     }
 
@@ -265,6 +265,12 @@ impl Stateful for Orientation {
 fn within_a_turn(Bounds { lo, hi }: Bounds) -> Bounds {
     let end = |bound: f64, half: f64| if bound.is_finite() { bound } else { half };
     Bounds { lo: end(lo, -PI), hi: end(hi, PI) }
+}
+
+/// What is wrong with a range that no angle within one turn can leave.
+fn wider_than_a_turn(Bounds { lo, hi }: Bounds) -> Option<Flaw> {
+    // Both ends of a whole turn may be rounded.
+    (hi - lo > 2.0 * PI * (1.0 + 4.0 * f64::EPSILON)).then_some(Flaw::WiderThanATurn)
 }
 
 /// Turns a segment by `phi` about the pivot that leaves its centre of gravity at rest.

@@ -27,6 +27,7 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let stated = &declaration.constraint;
         let (constraint, drivers) = self.resolve().build(stated, span)?;
+        self.note_slips(&constraint, &stated.parts, &drivers);
         let name = match &declaration.label {
             Some(label) => self.resolve().declare(label)?,
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
@@ -207,6 +208,11 @@ pub(super) fn refusal_at(refusal: &Refusal, at: Span) -> Diagnostic {
     }
 }
 
+/// Why an angle cannot have a range like this.
+const WIDE: &str = "this range is wider than one turn";
+const HOLDS_NOTHING: &str =
+    "an `orientation` is an angle within one turn, from -180deg to 180deg: this would hold nothing";
+
 /// Refuses values that no pose could have; `parts` gave them.
 pub(super) fn refuse_flaw(
     constraint: &Constraint,
@@ -230,6 +236,10 @@ pub(super) fn refuse_flaw(
             from.span.to(to.span),
             "its lower end is above its upper end".to_owned(),
         ),
+        (Flaw::WiderThanATurn, Some(Relation::In(Range { from, to }))) => {
+            (WIDE, from.span.to(to.span), HOLDS_NOTHING.to_owned())
+        }
+        (Flaw::WiderThanATurn, _) => (WIDE, span, HOLDS_NOTHING.to_owned()),
         (Flaw::EmptyRange, _) => {
             ("no angle is like this", span, "angles lie between -180deg and 180deg".to_owned())
         }

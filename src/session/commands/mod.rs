@@ -19,4 +19,5 @@ pub mod save;
 pub mod setting_table;
 pub mod settings;
 pub mod show;
+mod slips;
 pub mod trace_record;

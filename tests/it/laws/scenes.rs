@@ -228,7 +228,7 @@ fn a_session_saved_after_a_point_was_deleted_leaves_a_saddle_to_the_same_side() 
 fn a_deletion_that_was_undone_is_no_edit() {
     let mut talking = Talking::after(
         "point p0 = (0, 0) frozen, p1 = (0, 0) frozen, p6 = (0, -0.1)
-         c1: hinge p1 on p1 p6 at 0.1
+         c1: hinge p1 on p0 p6 at 0.1
          step
          delete p6 cascade
          undo",
