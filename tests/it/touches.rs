@@ -25,7 +25,8 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What other tools call it, and what is likely meant instead.
     (Kind::Coincidence, &["lang/lower/prefix.rs"]),
     (Kind::Glider, &["lang/lower/prefix.rs", "solve/frame/dyad.rs"]),
-    (Kind::Distance, &["lang/lower/errors/mistake.rs"]),
+    // What is likely a slip in a distance, an angle or a phase is noted.
+    (Kind::Distance, &["lang/lower/errors/mistake.rs", "session/commands/slips.rs"]),
     // Bars are found by the meeting of two circles, and swept in shares.
     (Kind::Equal, &["solve/frame/dyad.rs"]),
     (
@@ -42,7 +43,12 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     ),
     (
         Kind::Orientation,
-        &["lang/lower/prefix.rs", "session/commands/diagnose.rs", "session/resolve/unbind.rs"],
+        &[
+            "lang/lower/prefix.rs",
+            "session/commands/diagnose.rs",
+            "session/commands/slips.rs",
+            "session/resolve/unbind.rs",
+        ],
     ),
     // A motor is what drives: its turn is an input, its end is what `limits` asks for.
     (
@@ -58,6 +64,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "solve/frame/interpolate.rs",
             "solve/island/inputs.rs",
             "solve/island/mod.rs",
+            "session/commands/slips.rs",
         ],
     ),
     // `set cog` says in which of two forms wheels are made.
