@@ -65,6 +65,8 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "solve/island/inputs.rs",
             "solve/island/mod.rs",
             "session/commands/slips.rs",
+            // A speed that is an expression is integrated over the frame.
+            "world/motion.rs",
         ],
     ),
     // `set cog` says in which of two forms wheels are made.

@@ -165,6 +165,10 @@ impl Program {
 
 /// Whether the lines of `why` find that something contradicts the constraint it was asked about.
 pub fn is_contradicted(lines: &[String]) -> bool {
+    // A best fit may meet one of a set that cannot hold: `c is satisfied: it cannot hold with d`.
+    if lines.iter().any(|line| line.contains("cannot hold")) {
+        return true;
+    }
     let no_conflict = ["is satisfied", "nothing contradicts", "not at rest"];
     !lines.iter().any(|line| no_conflict.iter().any(|words| line.contains(words)))
 }
