@@ -38,10 +38,7 @@ impl Parts {
     pub fn among(world: &World, keep: impl Fn(ConstraintId) -> bool) -> Self {
         let on = world.constraints().filter(|(id, record)| record.is_on && keep(*id));
         let (ids, constraints) = on.map(|(id, record)| (id, record.constraint.clone())).unzip();
-        let points = world.points();
-        let all = (0..points.column().len()).map(PointId::new);
-        let w = all.map(|id| if points.is_alive(id) { points.inverse_mass(id) } else { 0.0 });
-        Self { ids, constraints, w: w.collect() }
+        Self { ids, constraints, w: world.points().inverse_masses() }
     }
 
     /// The place of a constraint, if it is switched on.

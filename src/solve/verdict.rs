@@ -98,7 +98,7 @@ pub fn verdict(world: &World, settings: &Settings) -> Verdict {
     let (world, has_values) = present(world);
     let parts = Parts::of(&world);
     let x = world.points().column();
-    let w = inverse_masses(&world);
+    let w = world.points().inverse_masses();
     let judge = |&(id, part): &(ConstraintId, usize)| {
         let extent = &parts.extents[part];
         let (size, farthest) = (extent.size(), extent.farthest());
@@ -141,13 +141,6 @@ pub fn present(world: &World) -> (Cow<'_, World>, bool) {
     let mut now = world.clone();
     let has_values = now.refresh().is_ok();
     (Cow::Owned(now), has_values)
-}
-
-/// The inverse masses of all points of a world, dead ones 0.
-fn inverse_masses(world: &World) -> Vec<f64> {
-    let points = world.points();
-    let all = (0..points.column().len()).map(PointId::new);
-    all.map(|id| if points.is_alive(id) { points.inverse_mass(id) } else { 0.0 }).collect()
 }
 
 /// What hangs together through points that are not frozen.

@@ -220,10 +220,8 @@ fn with_scene<T>(
     f: impl FnOnce(&mobility::ConstraintSystem) -> T,
 ) -> T {
     let points = world.points();
-    let mut w = vec![0.0; points.column().len()];
-    for p in points.ids() {
-        w[p.0 as usize] = if held.contains(&p) { 0.0 } else { points.inverse_mass(p) };
-    }
+    let mut w = points.inverse_masses();
+    held.iter().for_each(|p| w[p.idx()] = 0.0);
     let constraints: Vec<&Constraint> =
         world.constraints().filter(|(_, r)| r.is_on).map(|(_, r)| &r.constraint).collect();
     f(&ConstraintSystem { constraints: &constraints, x: points.column(), w: &w })

@@ -90,6 +90,12 @@ impl Points {
         std::mem::replace(&mut self.weight[id.idx()], weight)
     }
 
+    /// The inverse masses of all points by handle; 0 for what is frozen and what is no more.
+    pub fn inverse_masses(&self) -> Vec<f64> {
+        let all = (0..self.column().len()).map(PointId::new);
+        all.map(|id| if self.is_alive(id) { self.inverse_mass(id) } else { 0.0 }).collect()
+    }
+
     /// The inverse mass `w` of the formulas: 0 for a frozen point.
     pub fn inverse_mass(&self, id: PointId) -> f64 {
         if self.is_frozen[id.idx()] { 0.0 } else { 1.0 / self.weight(id) }
