@@ -61,7 +61,7 @@ pub fn conflicts(scene: &ConstraintSystem, island: &UnitRows, tolerance: f64) ->
 }
 
 /// The smallest set of constraints found that `constraint` contradicts at the best fit, if any:
-/// the one that [`conflicts`] has, if it is in one of these.
+/// the one that `conflicts` has, if it is in one of these.
 pub fn conflict_with(
     scene: &ConstraintSystem,
     constraint: usize,
