@@ -7,15 +7,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
+use crate::support::fresh::violation;
 use crate::support::talk::Talking;
-use linkwork::constraint::ConstraintKind as _;
 use linkwork::diag::Span;
 use linkwork::lang::ast::{
     Body, Building, Command, Expr, Function, Looking, Making, Node, Promise, Running, Statement,
 };
 use linkwork::session::Session;
 use linkwork::solve::{Method, Status};
-use linkwork::world::{PointId, World};
 
 /// The most frames of a single run or round of a loop when every method has its turn: enough
 /// for a method to lose its way, few enough for an unoptimised build.
@@ -174,17 +173,6 @@ impl Made {
         // All may be in one place that is wrong.
         self.residual = violation / reach.max(violation).max(f64::MIN_POSITIVE);
     }
-}
-
-/// The largest distance to satisfaction.
-fn violation(world: &World) -> f64 {
-    let x = world.points().column();
-    let w: Vec<f64> = (0..x.len())
-        .map(PointId::new)
-        .map(|p| if world.points().is_alive(p) { world.points().inverse_mass(p) } else { 0.0 })
-        .collect();
-    let on = world.constraints().filter(|(_, record)| record.is_on);
-    on.map(|(_, record)| record.constraint.violation(x, &w)).fold(0.0, f64::max)
 }
 
 /// Does something with each script, on all processors; gives the results in their order.

@@ -1,7 +1,7 @@
 //! Laws of sessions on random scenes of all constraint types under random edits.
 
 use super::random_scene::{after, edit, renamed, scene, shadow, use_of_shadow};
-use crate::support::fresh::{can_be_stated, inverse_masses};
+use crate::support::fresh::can_be_stated;
 use crate::support::talk::Talking;
 use linkwork::constraint::ConstraintKind as _;
 use linkwork::constraint::Row;
@@ -43,7 +43,7 @@ fn demands(talking: &mut Talking, method: &str) -> Demands {
     let is_best_fit = told.starts_with("best fit") || told.starts_with("no solution found");
     let points = talking.world().points();
     let x = points.column();
-    let w = inverse_masses(talking.world());
+    let w = talking.world().points().inverse_masses();
     let size = points.ids().map(|p| x[p.idx()].to_vector().norm()).fold(1.0, f64::max);
     let mut rows = Vec::new();
     let mut has_collapsed = false;
