@@ -4,6 +4,7 @@ mod claims;
 mod constraint;
 mod lang;
 mod linalg;
+mod random_constraint;
 mod random_scene;
 mod random_session;
 mod scenes;
