@@ -234,8 +234,10 @@ fn names_kind(source: &Source, kind: Kind) -> bool {
     if source.path == GRAMMAR {
         return words.any(|word| has_word(&code, &format!("kw_{word}")));
     }
-    let is_table = source.path.starts_with("constraint/kinds/")
-        || source.path == "lang/catalogue/constraints.rs";
+    if source.path == "lang/catalogue/constraints.rs" {
+        return words.any(|word| has_word(&code, word));
+    }
+    let is_table = source.path.starts_with("constraint/kinds/");
     let imports = code.split("use crate::constraint::").skip(1);
     let mut imports = imports.filter_map(|rest| rest.split(';').next());
     has_word(&code, &format!("Constraint::{name}"))

@@ -57,6 +57,8 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
             all,
             vec![(direction([3.0, 4.0]) - 0.25 * PI) * -3.0 * FRAC_1_SQRT_2],
         ),
+        (Kind::Horizontal, vec![0, 1], vec![4.0]),
+        (Kind::Vertical, vec![1, 2], vec![-2.0]),
     ]
 }
 

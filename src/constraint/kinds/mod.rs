@@ -1,5 +1,6 @@
 //! Every kind of constraint, in one table.
 
+mod aligned;
 mod cog;
 mod cog_velocity;
 mod coincidence;
@@ -15,6 +16,7 @@ mod orientation;
 mod rack;
 mod rigid;
 
+pub use aligned::{Aligned, AxisDirection};
 pub use cog::Cog;
 pub use cog_velocity::CogVelocity;
 pub use coincidence::Coincidence;
@@ -217,6 +219,7 @@ define! {
     Distance (Distance),
     Rigid (Rigid),
     Rack (Rack),
+    Aligned (Aligned),
 }
 
 #[cfg(test)]

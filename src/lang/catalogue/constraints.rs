@@ -247,4 +247,20 @@ constraints! {
              it. The radius is the height of O over the line as it stands: where the rim touches.",
         example: "rack O A on P Q",
     }
+    Horizontal horizontal {
+        slots: [Points(2)],
+        takes: NOTHING,
+        usage: "horizontal A B",
+        summary: "A and B have one y: the line through them is horizontal",
+        help: "Either may be on the left, and they may be in one place.",
+        example: "horizontal A B",
+    }
+    Vertical vertical {
+        slots: [Points(2)],
+        takes: NOTHING,
+        usage: "vertical A B",
+        summary: "A and B have one x: the line through them is vertical",
+        help: "Either may be on top, and they may be in one place.",
+        example: "vertical A B",
+    }
 }

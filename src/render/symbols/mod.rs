@@ -3,6 +3,7 @@
 
 mod angle;
 mod arrows;
+mod axis_mark;
 mod bar;
 mod construction;
 mod cord;
@@ -25,6 +26,7 @@ mod web;
 
 pub use angle::Angle;
 pub use arrows::Arrows;
+pub use axis_mark::AxisMark;
 pub use construction::Construction;
 pub use cord::Cord;
 pub use crank::{Crank, Sense};

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::draw::Draw;
 use super::{
-    Angle, Arrows, Construction, Cord, Crank, Cross, Dimension, Joint, Link, Plate, Rail, Ring,
-    Rod, Telescope, Ticks, Train, Web,
+    Angle, Arrows, AxisMark, Construction, Cord, Crank, Cross, Dimension, Joint, Link, Plate, Rail,
+    Ring, Rod, Telescope, Ticks, Train, Web,
 };
 use crate::constraint::{Point, PointIdx};
 use crate::render::canvas::Canvas;
@@ -46,7 +46,7 @@ macro_rules! forms {
 }
 forms! {
     Rod Cord Telescope Link Plate Web Crank Rail Train Joint
-    Cross Ring Ticks Arrows Angle Dimension Construction
+    Cross Ring Ticks Arrows Angle Dimension Construction AxisMark
 }
 
 /// One thing to be drawn.

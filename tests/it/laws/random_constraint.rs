@@ -1,9 +1,9 @@
 //! Random constraints of every kind, among points that do not satisfy them.
 
 use linkwork::constraint::{
-    Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind, Distance, Equal,
-    Equivalence, Field, Given, Glider, Hinge, Kind, Length, Motor, Orientation, Period, Point,
-    PointIdx, Rack, Rigid, Row, Vector,
+    Aligned, AxisDirection, Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
+    Distance, Equal, Equivalence, Field, Given, Glider, Hinge, Kind, Length, Motor, Orientation,
+    Period, Point, PointIdx, Rack, Rigid, Row, Vector,
 };
 use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
@@ -98,6 +98,12 @@ impl Scene {
                 Rigid::new(&p[..n_points.min(p.len())], &before).into()
             }
             Kind::Rack => Rack::new(four, &before).into(),
+            // Turned in any other way it would be no statement of the language.
+            Kind::Aligned => {
+                assert_eq!(by.angle, 0.0, "an axis stays one");
+                let all = [AxisDirection::Horizontal, AxisDirection::Vertical];
+                Aligned { points: [p[0], p[1]], direction: all[usize::from(n0 > 0.0)] }.into()
+            }
             kind => self.declared(kind, by),
         }
     }

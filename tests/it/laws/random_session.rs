@@ -63,6 +63,7 @@ fn statement() -> impl Strategy<Value = String> {
         1 => (point(), point()).prop_map(|(p, q)| format!("glider {p} on F {q}")),
         1 => (point(), point()).prop_map(|(p, q)| format!("rigid {p} {q} A")),
         1 => (point(), point()).prop_map(|(p, q)| format!("parallel {p} {q}, A D")),
+        1 => (point(), point()).prop_map(|(p, q)| format!("vertical {p} {q}")),
         1 => (point(), point()).prop_map(|(p, q)| format!("length {p} {q} = distance(A, B) + 1")),
         1 => (point(), point()).prop_map(|(p, q)| format!("length {p} {q} = 3 + F.y / 4")),
         2 => constraint().prop_map(|c| format!("off {c}")),

@@ -48,6 +48,8 @@ pub enum Kind {
         height: f64,
         angle: f64,
     },
+    Horizontal,
+    Vertical,
 }
 
 /// A constraint of a scene; its points are places in the list of the scene's points.
@@ -67,7 +69,7 @@ pub struct Equation<T> {
 }
 
 /// The words of the kinds, each a different one.
-pub const WORDS: [&str; 15] = [
+pub const WORDS: [&str; 17] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -83,6 +85,8 @@ pub const WORDS: [&str; 15] = [
     "perpendicular",
     "rigid",
     "rack",
+    "horizontal",
+    "vertical",
 ];
 
 impl Range {
@@ -237,6 +241,8 @@ impl Kind {
             Self::Perpendicular => 12,
             Self::Rigid(_) => 13,
             Self::Rack { .. } => 14,
+            Self::Horizontal => 15,
+            Self::Vertical => 16,
         }]
     }
 
@@ -258,6 +264,8 @@ impl Kind {
             }
             Self::Length(range) => vec![range.outside(norm(minus(x[1], x[0])))],
             Self::Orientation(range) => vec![turn(x, *range, TAU)],
+            Self::Horizontal => vec![active(x[1][1] - x[0][1])],
+            Self::Vertical => vec![active(x[1][0] - x[0][0])],
             Self::Parallel => vec![turn(x, Range::exactly(0.0), PI)],
             Self::Perpendicular => vec![turn(x, Range::exactly(0.5 * PI), PI)],
             Self::Motor { radius, phase, speed } => {
@@ -317,7 +325,9 @@ impl Kind {
         let far = f64::INFINITY;
         match self {
             Self::Coordinate([x, y]) => format!("{word} {} at ({x}, {y})", p[0]),
-            Self::Coincidence => format!("{word} {} {}", p[0], p[1]),
+            Self::Coincidence | Self::Horizontal | Self::Vertical => {
+                format!("{word} {} {}", p[0], p[1])
+            }
             Self::Equivalence | Self::Parallel | Self::Perpendicular => {
                 format!("{word} {} {}, {} {}", p[0], p[1], p[2], p[3])
             }

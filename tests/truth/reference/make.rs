@@ -38,6 +38,9 @@ const PLACING: [&str; 8] = [
     "parallel",
     "perpendicular",
 ];
+/// More of these. They are in no random scene, since the rates known of those are of the scenes
+/// that their seeds gave before there were such kinds.
+const PLACED_ON_REQUEST: [&str; 2] = ["horizontal", "vertical"];
 
 /// A scene whose points are made at a solution and start away from it.
 pub fn scene(recipe: &Recipe, random: &mut Random) -> Scene {
@@ -110,6 +113,8 @@ fn place(scene: &mut Scene, word: &str, random: &mut Random) {
             let across = [-v[1], v[0]];
             (along(xc, across, length), &[Some(a), Some(b), Some(c), None], Kind::Perpendicular)
         }
+        "horizontal" => (along(xa, [1.0, 0.0], length), &[Some(a), None], Kind::Horizontal),
+        "vertical" => (along(xa, [0.0, 1.0], length), &[Some(a), None], Kind::Vertical),
         "bounded glider" => {
             let at = along(xa, v, random.within(0.0, 1.0));
             (at, &[None, Some(a), Some(b)], Kind::Glider { is_bounded: true })
@@ -189,7 +194,7 @@ pub fn stated(
 ) -> (Vec<usize>, Kind) {
     let n = match word {
         "coordinate" => 1,
-        "coincidence" | "length" | "motor" => 2,
+        "coincidence" | "length" | "motor" | "horizontal" | "vertical" => 2,
         "glider" | "bounded glider" | "hinge" | "distance" => 3,
         _ => 4,
     };
@@ -218,6 +223,8 @@ pub fn stated(
         "distance" => Kind::Distance(range),
         "parallel" => Kind::Parallel,
         "perpendicular" => Kind::Perpendicular,
+        "horizontal" => Kind::Horizontal,
+        "vertical" => Kind::Vertical,
         "rigid" => Kind::Rigid(p.iter().map(|&p| x[p]).collect()),
         _ => Kind::rack([0, 1, 2, 3].map(at)),
     };
@@ -227,7 +234,8 @@ pub fn stated(
 /// Adds a constraint of any kind that holds where the points are made, with a point of its own if
 /// it needs one.
 pub fn add(scene: &mut Scene, word: &str, random: &mut Random) {
-    if PLACING.contains(&word) && !MEASURING.contains(&word) {
+    let is_placing = PLACING.contains(&word) || PLACED_ON_REQUEST.contains(&word);
+    if is_placing && !MEASURING.contains(&word) {
         place(scene, word, random);
     } else {
         measure(scene, word, 0.3, random);

@@ -13,7 +13,7 @@ use crate::reference::random::Random;
 use crate::reference::scene::Scene;
 
 /// Kinds as a user tells them apart.
-const WORDS: [&str; 16] = [
+const WORDS: [&str; 18] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -30,6 +30,8 @@ const WORDS: [&str; 16] = [
     "perpendicular",
     "rigid",
     "rack",
+    "horizontal",
+    "vertical",
 ];
 /// A violation above this, relative to the size, is not within any tolerance that is set here.
 const WRONG: f64 = 1e-9;
