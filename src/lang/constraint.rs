@@ -26,7 +26,7 @@ pub struct Constraint {
 pub enum Part {
     /// `A`, `A B`, `A B C`
     Points(Vec<Name>),
-    /// `on A B`, `to A B`
+    /// `on A B`, `to A B`, `about A B`
     Line(Role, Pair),
     /// `= e`, `<= e`, `in a..b`; in a `change` of a point or a parameter `= e`.
     Relation(Relation),
@@ -43,6 +43,8 @@ pub enum Role {
     On,
     /// `to A B`: what a distance is measured to.
     To,
+    /// `about A B`: the axis of a symmetry.
+    About,
     /// `radius e`
     Radius,
     /// `speed e`: an angle per time unit.
@@ -65,6 +67,7 @@ impl Role {
         match self {
             Self::On => "on",
             Self::To => "to",
+            Self::About => "about",
             Self::Radius => "radius",
             Self::Speed => "speed",
             Self::Phase => "phase",

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::figure::Key;
 use super::symbols::{
     Angle, Arrows, AxisMark, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link,
-    Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Telescope, Ticks, Web,
+    Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Symmetry, Telescope, Ticks, Web,
 };
 use crate::constraint::{
     Bounds, Constraint, ConstraintKind, Field, Length, Orientation, Point, PointIdx,
@@ -205,6 +205,10 @@ impl<'a> Classifier<'a> {
                 [a, b] => self.add(id, record, Rod { points: [a, b] }),
                 ref points => self.add(id, record, Plate::new(points, self.at)),
             },
+            Constraint::Symmetric(c) => {
+                let [a, b, p, q] = c.points;
+                self.add(id, record, Symmetry { points: [a, b], axis: [p, q] });
+            }
             Constraint::Aligned(c) => {
                 self.connection(id, record, c.points);
                 self.add(id, record, AxisMark { points: c.points, direction: c.direction });

@@ -98,6 +98,8 @@ pub enum Class {
     Arrow,
     /// A thin line that carries a mark.
     Construction,
+    /// An axis of symmetry.
+    Axis,
     /// A name.
     Name,
     /// Text in the legend below the drawing.
@@ -183,6 +185,7 @@ impl Class {
             Self::Construction => {
                 dashed(line("construction", "#a9b3bd", 1.0), &[8.0, 3.0, 2.0, 3.0])
             }
+            Self::Axis => dashed(line("axis", PENCIL, 1.2), &[14.0, 3.0, 2.0, 3.0]),
             Self::Name => area("name", INK, PAPER, 3.5),
             Self::Caption => area("caption", PENCIL, "none", 0.0),
             Self::Scale => line("scale", PENCIL, 1.2),
@@ -219,6 +222,7 @@ impl Class {
                 | Self::Orbit
                 | Self::Web
                 | Self::Construction
+                | Self::Axis
                 | Self::Pitch
                 | Self::WheelWeb
         )

@@ -54,11 +54,13 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
         (Kind::Rigid(made_at), vec![0, 1, 2], vec![-5.0, 1.0, 1.0]),
         (
             Kind::rack([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]]),
-            all,
+            all.clone(),
             vec![(direction([3.0, 4.0]) - 0.25 * PI) * -3.0 * FRAC_1_SQRT_2],
         ),
         (Kind::Horizontal, vec![0, 1], vec![4.0]),
         (Kind::Vertical, vec![1, 2], vec![-2.0]),
+        // About the line x + y = 3, (0, 0) belongs at (3, 3), and (3, 4) is 1 above.
+        (Kind::Symmetric, all, vec![-FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
     ]
 }
 

@@ -15,6 +15,7 @@ mod motor;
 mod orientation;
 mod rack;
 mod rigid;
+mod symmetric;
 
 pub use aligned::{Aligned, AxisDirection};
 pub use cog::Cog;
@@ -31,6 +32,7 @@ pub use motor::{Heading, Motor};
 pub use orientation::{Orientation, Period};
 pub use rack::Rack;
 pub use rigid::Rigid;
+pub use symmetric::Symmetric;
 
 use super::{
     ConstraintKind, Declared, Field, Given, Point, PointIdx, Real, Refusal, Row, Stateful, Traits,
@@ -220,6 +222,7 @@ define! {
     Rigid (Rigid),
     Rack (Rack),
     Aligned (Aligned),
+    Symmetric (Symmetric),
 }
 
 #[cfg(test)]

@@ -8,5 +8,6 @@ pub mod line;
 pub mod linear;
 pub mod row;
 pub mod turns;
+pub mod two_rows;
 pub mod vec2;
 pub mod winding;

@@ -263,4 +263,12 @@ constraints! {
         help: "Either may be on top, and they may be in one place.",
         example: "vertical A B",
     }
+    Symmetric symmetric {
+        slots: [Points(2), Line(Role::About)],
+        takes: "a symmetry takes `about P Q`",
+        usage: "symmetric A B about P Q",
+        summary: "B is the mirror image of A in the line PQ",
+        help: "All four may move: the axis gives way as the points do.",
+        example: "symmetric A B about P Q",
+    }
 }

@@ -72,6 +72,7 @@ pub(super) fn role(rule: Rule) -> Option<Role> {
     Some(match rule {
         Rule::on_line => Role::On,
         Rule::to_line => Role::To,
+        Rule::about_line => Role::About,
         Rule::radius => Role::Radius,
         Rule::speed => Role::Speed,
         Rule::phase => Role::Phase,

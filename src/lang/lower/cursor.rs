@@ -324,6 +324,7 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::open_bracket
             | Rule::close_bracket
             | Rule::kw_to
+            | Rule::kw_about
             | Rule::kw_over
             | Rule::kw_on
             | Rule::kw_at

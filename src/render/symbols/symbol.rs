@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::draw::Draw;
 use super::{
     Angle, Arrows, AxisMark, Construction, Cord, Crank, Cross, Dimension, Joint, Link, Plate, Rail,
-    Ring, Rod, Telescope, Ticks, Train, Web,
+    Ring, Rod, Symmetry, Telescope, Ticks, Train, Web,
 };
 use crate::constraint::{Point, PointIdx};
 use crate::render::canvas::Canvas;
@@ -47,6 +47,7 @@ macro_rules! forms {
 forms! {
     Rod Cord Telescope Link Plate Web Crank Rail Train Joint
     Cross Ring Ticks Arrows Angle Dimension Construction AxisMark
+    Symmetry
 }
 
 /// One thing to be drawn.

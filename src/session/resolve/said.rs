@@ -67,7 +67,7 @@ pub(crate) fn field_of(role: Role) -> Field {
         Role::Speed => Field::Speed,
         Role::Phase => Field::Phase,
         Role::At | Role::Ratio => Field::Ratio,
-        Role::On | Role::To | Role::Inside | Role::Unbounded => {
+        Role::On | Role::To | Role::About | Role::Inside | Role::Unbounded => {
             unreachable!("`{}` has no value", role.word())
         }
     }

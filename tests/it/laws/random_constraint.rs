@@ -3,7 +3,7 @@
 use linkwork::constraint::{
     Aligned, AxisDirection, Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
     Distance, Equal, Equivalence, Field, Given, Glider, Hinge, Kind, Length, Motor, Orientation,
-    Period, Point, PointIdx, Rack, Rigid, Row, Vector,
+    Period, Point, PointIdx, Rack, Rigid, Row, Symmetric, Vector,
 };
 use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
@@ -98,6 +98,7 @@ impl Scene {
                 Rigid::new(&p[..n_points.min(p.len())], &before).into()
             }
             Kind::Rack => Rack::new(four, &before).into(),
+            Kind::Symmetric => Symmetric { points: four }.into(),
             // Turned in any other way it would be no statement of the language.
             Kind::Aligned => {
                 assert_eq!(by.angle, 0.0, "an axis stays one");
@@ -148,7 +149,8 @@ impl Scene {
 
     /// Whether one correction is exact wherever it starts.
     pub fn is_exact(&self) -> bool {
-        !matches!(self.kind, Kind::Cog | Kind::Rack | Kind::Distance) && !self.has_repeats()
+        !matches!(self.kind, Kind::Cog | Kind::Rack | Kind::Distance | Kind::Symmetric)
+            && !self.has_repeats()
     }
 
     pub fn has_repeats(&self) -> bool {

@@ -62,6 +62,8 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|([a, b, c], r)| format!("distance {a} to {b} {c} {r}")),
         1 => ([point(), point(), point(), point()], prop_oneof![Just("parallel"), Just("perpendicular")])
             .prop_map(|([a, b, c, d], word)| format!("{word} {a} {b}, {c} {d}")),
+        1 => [point(), point(), point(), point()]
+            .prop_map(|[a, b, c, d]| format!("symmetric {a} {b} about {c} {d}")),
         1 => (point(), point(), prop_oneof![Just("horizontal"), Just("vertical")])
             .prop_map(|(a, b, word)| format!("{word} {a} {b}")),
         1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),

@@ -50,6 +50,7 @@ pub enum Kind {
     },
     Horizontal,
     Vertical,
+    Symmetric,
 }
 
 /// A constraint of a scene; its points are places in the list of the scene's points.
@@ -69,7 +70,7 @@ pub struct Equation<T> {
 }
 
 /// The words of the kinds, each a different one.
-pub const WORDS: [&str; 17] = [
+pub const WORDS: [&str; 18] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -87,6 +88,7 @@ pub const WORDS: [&str; 17] = [
     "rack",
     "horizontal",
     "vertical",
+    "symmetric",
 ];
 
 impl Range {
@@ -243,6 +245,7 @@ impl Kind {
             Self::Rack { .. } => 14,
             Self::Horizontal => 15,
             Self::Vertical => 16,
+            Self::Symmetric => 17,
         }]
     }
 
@@ -266,6 +269,17 @@ impl Kind {
             Self::Orientation(range) => vec![turn(x, *range, TAU)],
             Self::Horizontal => vec![active(x[1][1] - x[0][1])],
             Self::Vertical => vec![active(x[1][0] - x[0][0])],
+            Self::Symmetric => {
+                if is_one_place(x[2], x[3]) {
+                    return vec![idle(), idle()];
+                }
+                // The way from A to B has no part along the axis, and their middle none across.
+                let v = minus(x[3], x[2]);
+                let middle = [0, 1].map(|k| (x[0][k] + x[1][k]) * T::constant(0.5));
+                let across = cross(v, minus(middle, x[2])) / norm(v);
+                let along = dot(v, minus(x[1], x[0])) / norm(v);
+                vec![active(along), active(across * T::constant(2.0))]
+            }
             Self::Parallel => vec![turn(x, Range::exactly(0.0), PI)],
             Self::Perpendicular => vec![turn(x, Range::exactly(0.5 * PI), PI)],
             Self::Motor { radius, phase, speed } => {
@@ -357,6 +371,7 @@ impl Kind {
                 p.iter().for_each(|p| write!(text, " {p}").expect("a string takes all"));
                 text
             }
+            Self::Symmetric => format!("{word} {} {} about {} {}", p[0], p[1], p[2], p[3]),
             Self::Rack { .. } => format!("{word} {} {} on {} {}", p[0], p[1], p[2], p[3]),
         }
     }

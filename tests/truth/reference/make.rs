@@ -40,7 +40,7 @@ const PLACING: [&str; 8] = [
 ];
 /// More of these. They are in no random scene, since the rates known of those are of the scenes
 /// that their seeds gave before there were such kinds.
-const PLACED_ON_REQUEST: [&str; 2] = ["horizontal", "vertical"];
+const PLACED_ON_REQUEST: [&str; 3] = ["horizontal", "vertical", "symmetric"];
 
 /// A scene whose points are made at a solution and start away from it.
 pub fn scene(recipe: &Recipe, random: &mut Random) -> Scene {
@@ -115,6 +115,13 @@ fn place(scene: &mut Scene, word: &str, random: &mut Random) {
         }
         "horizontal" => (along(xa, [1.0, 0.0], length), &[Some(a), None], Kind::Horizontal),
         "vertical" => (along(xa, [0.0, 1.0], length), &[Some(a), None], Kind::Vertical),
+        "symmetric" => {
+            let arm = way(xa, xc);
+            let mirrored = plane::length(arm);
+            let angle = 2.0 * direction(v) - direction(arm);
+            let at = along(xa, polar(mirrored, angle), 1.0);
+            (at, &[Some(c), None, Some(a), Some(b)], Kind::Symmetric)
+        }
         "bounded glider" => {
             let at = along(xa, v, random.within(0.0, 1.0));
             (at, &[None, Some(a), Some(b)], Kind::Glider { is_bounded: true })
@@ -225,6 +232,7 @@ pub fn stated(
         "perpendicular" => Kind::Perpendicular,
         "horizontal" => Kind::Horizontal,
         "vertical" => Kind::Vertical,
+        "symmetric" => Kind::Symmetric,
         "rigid" => Kind::Rigid(p.iter().map(|&p| x[p]).collect()),
         _ => Kind::rack([0, 1, 2, 3].map(at)),
     };

@@ -13,7 +13,7 @@ use crate::reference::random::Random;
 use crate::reference::scene::Scene;
 
 /// Kinds as a user tells them apart.
-const WORDS: [&str; 18] = [
+const WORDS: [&str; 19] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -32,6 +32,7 @@ const WORDS: [&str; 18] = [
     "rack",
     "horizontal",
     "vertical",
+    "symmetric",
 ];
 /// A violation above this, relative to the size, is not within any tolerance that is set here.
 const WRONG: f64 = 1e-9;
