@@ -17,7 +17,7 @@ pub enum Field {
     Speed,
     /// The angle of a motor at its start, radians.
     Phase,
-    /// The ratio of a hinge or of a cog wheel pair.
+    /// The ratio of a hinge, of a cog wheel pair or of two lengths.
     Ratio,
 }
 

@@ -97,6 +97,8 @@ pub enum Flaw {
     NegativeRadius,
     /// Wheels, one of which would have the radius 0.
     ZeroRatio,
+    /// Lengths, of which one would be 0 or less.
+    RatioNotAboveZero,
 }
 
 impl Flaw {
@@ -105,7 +107,7 @@ impl Flaw {
         match self {
             Self::EmptyRange | Self::WiderThanATurn | Self::NegativeLength => Field::Hi,
             Self::NegativeRadius => Field::Radius,
-            Self::ZeroRatio => Field::Ratio,
+            Self::ZeroRatio | Self::RatioNotAboveZero => Field::Ratio,
         }
     }
 
@@ -117,6 +119,7 @@ impl Flaw {
             Self::NegativeLength => "a negative length",
             Self::NegativeRadius => "a negative radius",
             Self::ZeroRatio => "a ratio of 0",
+            Self::RatioNotAboveZero => "a ratio of lengths that is not above 0",
         }
     }
 

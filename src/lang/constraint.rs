@@ -79,19 +79,6 @@ impl Role {
     }
 }
 
-impl Part {
-    /// Parts stand in this order, whatever the order in which they were typed.
-    pub(super) fn rank(&self) -> impl Ord + use<> {
-        match self {
-            Self::Points(_) => (0, None),
-            Self::Line(role, _) => (1, Some(*role)),
-            Self::Relation(_) => (2, None),
-            Self::Value(role, _) => (3, Some(*role)),
-            Self::Flag(role) => (4, Some(*role)),
-        }
-    }
-}
-
 /// Two points, in order: from the first to the second.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {

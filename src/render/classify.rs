@@ -6,11 +6,13 @@ use std::sync::Arc;
 use super::figure::Key;
 use super::symbols::{
     Angle, Arrows, AxisMark, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link,
-    Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Symmetry, Telescope, Ticks, Web,
+    Multiple, Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Symmetry, Telescope,
+    Ticks, Web,
 };
 use crate::constraint::{
-    Bounds, Constraint, ConstraintKind, Field, Length, Orientation, Point, PointIdx,
+    Bounds, Constraint, ConstraintKind, Equal, Field, Length, Orientation, Point, PointIdx,
 };
+use crate::diag::format_rounded;
 use crate::linalg::DisjointSets;
 use crate::world::{ConstraintId, Record, World};
 
@@ -46,6 +48,8 @@ struct Classifier<'a> {
     driven: BTreeMap<PointIdx, u8>,
     equal: Marks,
     parallel: Marks,
+    /// How many pairs of lengths in a ratio have a letter.
+    n_multiples: u8,
     gears_on: Gears,
     gears_off: Gears,
     /// Whose each mesh is, those that are on and those that are off.
@@ -91,6 +95,11 @@ fn is_parallel(orientation: &Orientation) -> bool {
     orientation.bounds.is_equality() && libm::sin(lo).abs() < 1e-9
 }
 
+/// Whether lengths are compared as they are, and not one with a multiple of the other.
+fn is_one_length(record: &Record) -> bool {
+    record.constraint.get(Field::Ratio) == Some(1.0) && record.driver(Field::Ratio).is_none()
+}
+
 /// The points of a constraint that holds this many.
 fn points<const N: usize>(constraint: &Constraint) -> [PointIdx; N] {
     constraint.points().try_into().expect("a kind with this many points")
@@ -107,6 +116,7 @@ impl<'a> Classifier<'a> {
             driven: BTreeMap::new(),
             equal: Marks::default(),
             parallel: Marks::default(),
+            n_multiples: 0,
             gears_on: Gears::default(),
             gears_off: Gears::default(),
             meshes: [Vec::new(), Vec::new()],
@@ -144,7 +154,7 @@ impl<'a> Classifier<'a> {
     /// Notes which segments a constraint makes alike.
     fn segments(&mut self, record: &Record) {
         match &record.constraint {
-            Constraint::Equal(equal) => self.equal.join(equal.points),
+            Constraint::Equal(equal) if is_one_length(record) => self.equal.join(equal.points),
             Constraint::Equivalence(equivalence) => self.parallel.join(equivalence.points),
             Constraint::Orientation(orientation) if is_parallel(orientation) => {
                 self.parallel.join(orientation.points);
@@ -165,6 +175,9 @@ impl<'a> Classifier<'a> {
             }
             Constraint::Equal(c) => {
                 self.carry(id, record, c.points);
+                if !is_one_length(record) {
+                    return self.multiple(id, record, c);
+                }
                 let [a, b, ..] = c.points;
                 let n_ticks = self.equal.n_strokes([a, b]);
                 self.add(id, record, Ticks { points: c.points, n_ticks });
@@ -235,6 +248,15 @@ impl<'a> Classifier<'a> {
         if self.connected.insert(sorted(ends)) {
             self.add(id, record, Construction { points: ends });
         }
+    }
+
+    /// Two lengths in a ratio, by the next letter.
+    fn multiple(&mut self, id: ConstraintId, record: &Record, equal: &Equal) {
+        let letter = char::from(b'a' + self.n_multiples);
+        self.n_multiples = (self.n_multiples + 1) % 26;
+        let texts = [format!("{}{letter}", format_rounded(equal.ratio)), letter.to_string()];
+        let texts = texts.map(Arc::from);
+        self.add(id, record, Multiple { points: equal.points, texts });
     }
 
     fn arrows(&mut self, id: ConstraintId, record: &Record, points: [PointIdx; 4]) {

@@ -25,6 +25,7 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
         (Kind::Coincidence, vec![1, 2], vec![2.0, 2.0]),
         (Kind::Equivalence, all.clone(), vec![2.0, 5.0]),
         (Kind::Equal(exactly(1.0)), all.clone(), vec![4.0 - SQRT_2]),
+        (Kind::Multiple(2.0), all.clone(), vec![5.0 - 2.0 * SQRT_2]),
         (Kind::Length(exactly(2.0)), vec![0, 1], vec![3.0]),
         (Kind::Length(Range { lo: 1.0, hi: 4.5 }), vec![0, 1], vec![0.5]),
         (Kind::Length(Range { lo: 6.0, hi: 9.0 }), vec![0, 1], vec![-1.0]),

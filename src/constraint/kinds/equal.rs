@@ -1,17 +1,21 @@
-//! The equal distance constraint, section 3.4: two segments of equal length.
+//! The equal distance constraint, section 3.4: two segments of equal length, or of lengths in a
+//! ratio.
 
+use crate::constraint::parts::content::add_all;
 use crate::constraint::{
     Activity, Bounds, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx,
     Quantity, Real, Refusal, Row, Stateless, Traits, Vec2, Vector,
 };
 
-/// The distance of the first two points less that of the last two lies in `bounds`.
+/// The distance of the first two points less `ratio` times that of the last two lies in `bounds`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equal {
     /// The ends of the one segment, the ends of the other.
     pub points: [PointIdx; 4],
     /// The allowed differences, length units; exactly 0 for equal lengths.
     pub bounds: Bounds,
+    /// How many times as long as the second segment the first is; 1 in the paper.
+    pub ratio: f64,
 }
 
 /// Both segments: e12, l12, e34, l34.
@@ -33,7 +37,13 @@ impl Equal {
         Segments { e12, l12: v12.norm(), e34, l34: v34.norm() }
     }
 
-    /// The value and its derivative by an end alone; none where that takes the general way.
+    /// The paper's `f`, clamped.
+    fn excess(&self, s: &Segments) -> f64 {
+        self.bounds.excess(s.l12 - self.ratio * s.l34)
+    }
+
+    /// The value and its derivative by an end alone, both divided by the length of the
+    /// derivative; none where that takes the general way.
     #[inline]
     pub fn felt_by(&self, p: PointIdx, x: &[Point]) -> Option<(f64, Vector)> {
         let [a, b, c, d] = self.points;
@@ -42,18 +52,20 @@ impl Equal {
             return None;
         }
         let s = self.segments(x);
-        let f = self.bounds.excess(s.l12 - s.l34);
+        let f = self.excess(&s);
         let sign = if p == a || p == d { -1.0 } else { 1.0 };
-        Some((f, if p == a || p == b { s.e12 } else { s.e34 } * sign))
+        // As if the gradient were of length 1.
+        Some(if p == a || p == b { (f, s.e12 * sign) } else { (f / self.ratio, s.e34 * sign) })
     }
 
     fn row(&self, s: &Segments) -> Row {
         let [a, b, c, d] = self.points;
-        let f = self.bounds.excess(s.l12 - s.l34);
+        let f = self.excess(s);
         if f == 0.0 && !self.bounds.is_equality() {
             return Row::inactive(&self.points);
         }
-        Row::new(f).with(a, -s.e12).with(b, s.e12).with(c, s.e34).with(d, -s.e34)
+        let g34 = s.e34 * self.ratio;
+        Row::new(f).with(a, -s.e12).with(b, s.e12).with(c, g34).with(d, -g34)
     }
 }
 
@@ -62,7 +74,8 @@ impl Declared for Equal {
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
         let bounds = given.bounds.unwrap_or(Bounds::exactly(0.0));
-        Ok(Self { points: given.different_pairs()?, bounds })
+        let ratio = given.value(Field::Ratio).unwrap_or(1.0);
+        Ok(Self { points: given.different_pairs()?, bounds, ratio })
     }
 }
 
@@ -83,7 +96,7 @@ impl ConstraintKind for Equal {
 
     fn residual(&self, x: &[Point]) -> f64 {
         let [x1, x2, x3, x4] = self.points.map(|p| x[p as usize]);
-        self.bounds.excess(x1.distance(x2) - x3.distance(x4))
+        self.bounds.excess(x1.distance(x2) - self.ratio * x3.distance(x4))
     }
 
     fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
@@ -92,17 +105,17 @@ impl ConstraintKind for Equal {
         if a == b || c == d || a == c || a == d || b == c || b == d {
             return self.row(&s).correct(w, move_by);
         }
-        let f = self.bounds.excess(s.l12 - s.l34);
+        let (f, k) = (self.excess(&s), self.ratio);
         let [w1, w2, w3, w4] = self.points.map(|p| w[p as usize]);
-        let sum = w1 + w2 + w3 + w4;
+        let sum = w1 + w2 + k * k * (w3 + w4);
         if f == 0.0 || sum == 0.0 {
             return;
         }
         // The paper's shares, but a segment cannot become shorter than 0: the other one
         // takes what is left.
         let shrink12 = (f * (w1 + w2) / sum).min(s.l12);
-        let grow34 = (f - shrink12).max(-s.l34);
-        let shrink12 = if w1 + w2 > 0.0 { (f - grow34).min(s.l12) } else { 0.0 };
+        let grow34 = ((f - shrink12) / k).max(-s.l34);
+        let shrink12 = if w1 + w2 > 0.0 { (f - k * grow34).min(s.l12) } else { 0.0 };
         if w1 + w2 > 0.0 {
             move_by(a, s.e12 * (shrink12 * w1 / (w1 + w2)));
             move_by(b, s.e12 * (-shrink12 * w2 / (w1 + w2)));
@@ -125,15 +138,20 @@ impl ConstraintKind for Equal {
     ) {
         let [x1, x2, x3, x4] = self.points.map(x);
         let (v12, v34) = (x2 - x1, x4 - x3);
-        let difference = v12.norm_or_along(v34.value()) - v34.norm_or_along(v12.value());
+        let ratio = field(Field::Ratio, self.ratio);
+        let difference = v12.norm_or_along(v34.value()) - ratio * v34.norm_or_along(v12.value());
         equation(self.bounds.excess_of(difference, field));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
-        self.bounds.get(field)
+        if field == Field::Ratio { Some(self.ratio) } else { self.bounds.get(field) }
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
+        if field == Field::Ratio {
+            self.ratio = value;
+            return true;
+        }
         self.bounds.set(field, value)
     }
 
@@ -152,12 +170,14 @@ impl ConstraintKind for Equal {
             is_wheel: false,
             carried: Carried::Nothing,
             flags: &[],
-            flaw: Flaw::of_range(self.bounds),
+            flaw: Flaw::of_range(self.bounds)
+                .or((self.ratio <= 0.0).then_some(Flaw::RatioNotAboveZero)),
         }
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        let Self { points: _, bounds } = self;
+        let Self { points: _, bounds, ratio } = self;
         bounds.content(word);
+        add_all([*ratio], word);
     }
 }

@@ -33,6 +33,8 @@ pub enum Slot {
     },
     /// A number.
     Value(Role),
+    /// A number that may be left out: then it is this one, or what the kind makes of it.
+    Optional(Role, Option<f64>),
     /// A vector.
     Place(Role),
     /// A word alone.
@@ -40,12 +42,20 @@ pub enum Slot {
 }
 
 impl Pattern {
+    /// Where a part stands in the statement; points come first.
+    pub(in crate::lang) fn place(&self, part: &Part) -> usize {
+        self.slot(part).and_then(|slot| self.slots.iter().position(|s| *s == slot)).unwrap_or(0)
+    }
+
     /// The slot that a part goes into, if there is one.
     pub fn slot(&self, part: &Part) -> Option<Slot> {
         let fits = |slot: &&Slot| match (slot, part) {
             (Slot::Relation { .. }, Part::Relation(_)) => true,
             (Slot::Line(role), Part::Line(given, _))
-            | (Slot::Value(role) | Slot::Place(role), Part::Value(given, _))
+            | (
+                Slot::Value(role) | Slot::Optional(role, _) | Slot::Place(role),
+                Part::Value(given, _),
+            )
             | (Slot::Flag(role), Part::Flag(given)) => role == given,
             // Where on a bar a point is can be called a ratio too.
             _ => matches!((slot, part), (Slot::Value(Role::At), Part::Value(Role::Ratio, _))),
@@ -111,7 +121,7 @@ macro_rules! constraints {
     };
 }
 
-use Slot::{AllPoints, Flag, Line, Place, Points, Relation, Value};
+use Slot::{AllPoints, Flag, Line, Optional, Place, Points, Relation, Value};
 
 /// What is said of one that is points and nothing else.
 const NOTHING: &str = "this constraint has no part that can be changed";
@@ -144,13 +154,19 @@ constraints! {
         example: "equivalence A B, C D",
     }
     Equal equal {
-        slots: [Points(2), Points(2), Relation { default: Some(0.0) }],
-        takes: "this takes `= value`, `<= value`, `>= value` or `in a..b`",
-        usage: "equal A B, C D [RELATION]",
-        summary: "the distances AB and CD are equal (3.4)",
-        help: "With `in a..b`, `<= e` or `>= e` the difference of the two is what is bounded.",
+        slots: [
+            Points(2),
+            Points(2),
+            Optional(Role::Ratio, Some(1.0)),
+            Relation { default: Some(0.0) },
+        ],
+        takes: "this takes `ratio r`, `= value`, `<= value`, `>= value` or `in a..b`",
+        usage: "equal A B, C D [ratio R] [RELATION]",
+        summary: "the distances AB and CD are equal, or AB is R times CD (3.4)",
+        help: "With `in a..b`, `<= e` or `>= e` what is bounded is the difference AB - R CD.",
         example: "equal A B, C D\n\
-             equal A B, C D in -1..1",
+             equal A B, C D ratio 2\n\
+             equal A B, C D ratio 2 in -1..1",
     }
     Length length {
         slots: [Points(2), Relation { default: None }],
@@ -172,7 +188,12 @@ constraints! {
         example: "orientation A B, C D = 90deg",
     }
     Motor motor {
-        slots: [Points(2), Value(Role::Radius), Value(Role::Speed), Value(Role::Phase)],
+        slots: [
+            Points(2),
+            Optional(Role::Radius, None),
+            Optional(Role::Speed, None),
+            Optional(Role::Phase, None),
+        ],
         takes: "a motor takes `radius`, `speed` and `phase`",
         usage: "motor O P [radius R] [speed W] [phase PHI]",
         summary: "P goes round O (3.7)",

@@ -19,7 +19,7 @@ pub(in crate::lang) fn lower(rule: Rule, c: &mut Cursor) -> Option<Result<Constr
     let parts =
         parts(c, |first, second| refusal::twice(second.word, first.word_span, second.word_span));
     Some(parts.map(|mut parts| {
-        parts.sort_by_key(Part::rank);
+        parts.sort_by_key(|part| word.pattern().place(part));
         Constraint { word, parts }
     }))
 }

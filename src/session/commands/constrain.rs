@@ -105,7 +105,7 @@ impl Resolver<'_> {
                 let at = self.target(value, drivers)?;
                 values.extend([(Field::X, at.x), (Field::Y, at.y)]);
             }
-            Some(Slot::Value(role)) => {
+            Some(Slot::Value(role) | Slot::Optional(role, _)) => {
                 let field = field_of(role);
                 values.push((field, self.drive(value, field, drivers)?));
             }
@@ -248,6 +248,9 @@ pub(super) fn refuse_flaw(
         }
         (Flaw::NegativeRadius, _) => {
             ("a radius cannot be negative", span, format!("this is {now}"))
+        }
+        (Flaw::RatioNotAboveZero, _) => {
+            ("a ratio of lengths has to be above 0", span, format!("this is {now}"))
         }
         (Flaw::ZeroRatio, _) => ("a ratio of radii cannot be 0", span, format!("this is {now}")),
     };

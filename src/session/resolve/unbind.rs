@@ -107,6 +107,14 @@ impl<'a> Unbind<'a> {
                 Slot::Relation { default } => {
                     Part::Relation(self.relation_if_needed(record, default)?)
                 }
+                Slot::Optional(role, default) => {
+                    let value = record.constraint.get(field_of(role))?;
+                    let is_live = record.driver(field_of(role)).is_some();
+                    if default == Some(value) && !is_live {
+                        return None;
+                    }
+                    Part::Value(role, self.value_of(record, field_of(role)))
+                }
                 Slot::Value(role) => Part::Value(role, self.value_of(record, field_of(role))),
                 Slot::Place(role) => {
                     let [x, y] = [Field::X, Field::Y].map(|field| record.constraint.get(field));

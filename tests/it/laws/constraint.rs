@@ -312,7 +312,10 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
         // two share a point, a segment that shrinks to 0 is a kink on the way.
         Kind::Equal => {
             let shortest = shortest_segment(c, &scene.x);
-            n_frozen < 2 && (!scene.has_repeats() || c.residual(&scene.x).abs() < 0.5 * shortest)
+            let is_near = c.residual(&scene.x).abs() < 0.5 * shortest;
+            // A length against a multiple of itself is one length only, or none.
+            let is_plain = c.get(Field::Ratio) == Some(1.0);
+            n_frozen < 2 && (!scene.has_repeats() || is_plain && is_near)
         }
         // No line through a frozen point is farther from another than that point.
         Kind::Distance => is_free(0),

@@ -69,7 +69,8 @@ impl Scene {
             Kind::Equivalence => Equivalence { points: four }.into(),
             Kind::Equal => {
                 let bounds = bounds(4.0 * n0 * by.scale, 4.0 * n1 * by.scale);
-                Equal { points: four, bounds }.into()
+                let ratio = if n2 > 0.0 { 1.0 } else { 0.3 - 2.0 * n2 };
+                Equal { points: four, bounds, ratio }.into()
             }
             Kind::Length => {
                 Length { points: [p[0], p[1]], bounds: bounds(length(n0), length(n1)) }.into()

@@ -47,6 +47,8 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|[a, b, c, d]| format!("equivalence {a} {b}, {c} {d}")),
         1 => ([point(), point(), point(), point()], relation(number().boxed()))
             .prop_map(|([a, b, c, d], r)| format!("equal {a} {b}, {c} {d} {r}")),
+        1 => ([point(), point(), point(), point()], number(), relation(number().boxed()))
+            .prop_map(|([a, b, c, d], k, r)| format!("equal {a} {b}, {c} {d} ratio abs({k}) {r}")),
         2 => ([point(), point(), point(), point()], relation(angle().boxed()))
             .prop_map(|([a, b, c, d], r)| format!("orientation {a} {b}, {c} {d} {r}")),
         2 => (point(), point(), number(), number())

@@ -56,7 +56,7 @@ fn random_scene(dice: &mut Dice, n: usize, noise: f64) -> (Scene, Vec<Constraint
             }
             3 => {
                 let l = distance(k[0], k[1]) - distance(k[2], k[3]);
-                Equal { points, bounds: Bounds::exactly(l) }.into()
+                Equal { points, bounds: Bounds::exactly(l), ratio: 1.0 }.into()
             }
             4 => {
                 let v = |a: usize, b: usize| (fit[b].0 - fit[a].0, fit[b].1 - fit[a].1);

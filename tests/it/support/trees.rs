@@ -81,7 +81,7 @@ fn constraint_decl() -> BoxedStrategy<ConstraintDecl> {
 /// Any of them, each part that may be left out there or not.
 fn constraint() -> BoxedStrategy<Constraint> {
     let parts = |word: ConstraintWord| {
-        let slots = word.pattern().slots.iter().map(|&slot| slot_part(word, slot));
+        let slots = word.pattern().slots.iter().map(|&slot| slot_part(slot));
         slots.collect::<Vec<_>>().prop_map(move |parts| Constraint {
             word,
             parts: parts.into_iter().flatten().collect(),
@@ -91,13 +91,13 @@ fn constraint() -> BoxedStrategy<Constraint> {
 }
 
 /// What may stand in a slot of a statement.
-fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
+fn slot_part(slot: Slot) -> BoxedStrategy<Option<Part>> {
     match slot {
         Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
         Slot::Relation { .. } => of(relation()).prop_map(|of| of.map(Part::Relation)).boxed(),
-        Slot::Value(role) if word == ConstraintWord::Motor => {
+        Slot::Optional(role, _) => {
             of(expr()).prop_map(move |value| Some(Part::Value(role, value?))).boxed()
         }
         Slot::Value(role) | Slot::Place(role) => {

@@ -20,6 +20,8 @@ pub enum Kind {
     Coincidence,
     Equivalence,
     Equal(Range),
+    /// The first length is so many times the second.
+    Multiple(f64),
     Length(Range),
     Orientation(Range),
     Motor {
@@ -231,7 +233,7 @@ impl Kind {
             Self::Coordinate(_) => 0,
             Self::Coincidence => 1,
             Self::Equivalence => 2,
-            Self::Equal(_) => 3,
+            Self::Equal(_) | Self::Multiple(_) => 3,
             Self::Length(_) => 4,
             Self::Orientation(_) => 5,
             Self::Motor { .. } => 6,
@@ -264,6 +266,10 @@ impl Kind {
             Self::Equivalence => vector(minus(minus(x[1], x[0]), minus(x[3], x[2]))),
             Self::Equal(range) => {
                 vec![range.outside(norm(minus(x[1], x[0])) - norm(minus(x[3], x[2])))]
+            }
+            Self::Multiple(ratio) => {
+                let [first, second] = [norm(minus(x[1], x[0])), norm(minus(x[3], x[2]))];
+                vec![active(first - second * T::constant(*ratio))]
             }
             Self::Length(range) => vec![range.outside(norm(minus(x[1], x[0])))],
             Self::Orientation(range) => vec![turn(x, *range, TAU)],
@@ -360,7 +366,7 @@ impl Kind {
                 format!("{word} {} on {} {}{ends}", p[0], p[1], p[2])
             }
             Self::Hinge(ratio) => format!("{word} {} on {} {} at {ratio}", p[0], p[1], p[2]),
-            Self::Cog { ratio, .. } => {
+            Self::Multiple(ratio) | Self::Cog { ratio, .. } => {
                 format!("{word} {} {}, {} {} ratio {ratio}", p[0], p[1], p[2], p[3])
             }
             Self::Distance(range) => {

@@ -40,7 +40,7 @@ const PLACING: [&str; 8] = [
 ];
 /// More of these. They are in no random scene, since the rates known of those are of the scenes
 /// that their seeds gave before there were such kinds.
-const PLACED_ON_REQUEST: [&str; 3] = ["horizontal", "vertical", "symmetric"];
+const PLACED_ON_REQUEST: [&str; 4] = ["multiple", "horizontal", "vertical", "symmetric"];
 
 /// A scene whose points are made at a solution and start away from it.
 pub fn scene(recipe: &Recipe, random: &mut Random) -> Scene {
@@ -106,6 +106,11 @@ fn place(scene: &mut Scene, word: &str, random: &mut Random) {
         "equal" => {
             let at = along(xc, polar(plane::length(v), random.angle()), 1.0);
             (at, &[Some(a), Some(b), Some(c), None], Kind::Equal(Range::exactly(0.0)))
+        }
+        "multiple" => {
+            // As far as `length` times AB, from C.
+            let at = along(xc, polar(plane::length(v), random.angle()), length);
+            (at, &[Some(c), None, Some(a), Some(b)], Kind::Multiple(length.abs()))
         }
         "hinge" => (along(xa, v, length), &[None, Some(a), Some(b)], Kind::Hinge(length)),
         "parallel" => (along(xc, v, length), &[Some(a), Some(b), Some(c), None], Kind::Parallel),
@@ -218,6 +223,7 @@ pub fn stated(
         "coincidence" => Kind::Coincidence,
         "equivalence" => Kind::Equivalence,
         "equal" => Kind::Equal(range),
+        "multiple" => Kind::Multiple(value.max(0.5)),
         "length" => Kind::Length(range),
         // A range of angles ends within half a turn.
         "orientation" if range.is_exact() => Kind::Orientation(range),

@@ -13,7 +13,7 @@ use crate::reference::random::Random;
 use crate::reference::scene::Scene;
 
 /// Kinds as a user tells them apart.
-const WORDS: [&str; 19] = [
+const WORDS: [&str; 20] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -31,6 +31,7 @@ const WORDS: [&str; 19] = [
     "rigid",
     "rack",
     "horizontal",
+    "multiple",
     "vertical",
     "symmetric",
 ];
