@@ -19,10 +19,29 @@ pub enum Field {
     Phase,
     /// The ratio of a hinge, of a cog wheel pair or of two lengths.
     Ratio,
+    /// The teeth of the first of two wheels, where they are geared by these.
+    FirstTeeth,
+    /// The teeth of the second.
+    SecondTeeth,
 }
 
 impl Field {
     /// All of them.
-    pub const ALL: [Self; 8] =
-        [Self::Lo, Self::Hi, Self::X, Self::Y, Self::Radius, Self::Speed, Self::Phase, Self::Ratio];
+    pub const ALL: [Self; 10] = [
+        Self::Lo,
+        Self::Hi,
+        Self::X,
+        Self::Y,
+        Self::Radius,
+        Self::Speed,
+        Self::Phase,
+        Self::Ratio,
+        Self::FirstTeeth,
+        Self::SecondTeeth,
+    ];
+
+    /// Whether it says how two wheels are geared.
+    pub const fn is_of_gearing(self) -> bool {
+        matches!(self, Self::Ratio | Self::FirstTeeth | Self::SecondTeeth)
+    }
 }

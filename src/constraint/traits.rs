@@ -80,6 +80,8 @@ pub enum Carried {
 pub enum Flag {
     /// One wheel runs inside of the other.
     Inside,
+    /// A belt crosses between its wheels.
+    Crossed,
     /// The ends of a segment stop nothing.
     Unbounded,
 }
@@ -97,6 +99,12 @@ pub enum Flaw {
     NegativeRadius,
     /// Wheels, one of which would have the radius 0.
     ZeroRatio,
+    /// Wheels of which one would have a negative radius; a belt says otherwise how they turn.
+    NegativeBeltRatio,
+    /// A number of teeth of the first wheel that no wheel has.
+    FirstTeeth,
+    /// The same of the second wheel.
+    SecondTeeth,
     /// Lengths, of which one would be 0 or less.
     RatioNotAboveZero,
 }
@@ -107,7 +115,9 @@ impl Flaw {
         match self {
             Self::EmptyRange | Self::WiderThanATurn | Self::NegativeLength => Field::Hi,
             Self::NegativeRadius => Field::Radius,
-            Self::ZeroRatio | Self::RatioNotAboveZero => Field::Ratio,
+            Self::ZeroRatio | Self::RatioNotAboveZero | Self::NegativeBeltRatio => Field::Ratio,
+            Self::FirstTeeth => Field::FirstTeeth,
+            Self::SecondTeeth => Field::SecondTeeth,
         }
     }
 
@@ -119,6 +129,8 @@ impl Flaw {
             Self::NegativeLength => "a negative length",
             Self::NegativeRadius => "a negative radius",
             Self::ZeroRatio => "a ratio of 0",
+            Self::NegativeBeltRatio => "a negative ratio",
+            Self::FirstTeeth | Self::SecondTeeth => "an impossible number of teeth",
             Self::RatioNotAboveZero => "a ratio of lengths that is not above 0",
         }
     }

@@ -32,7 +32,9 @@ pub enum Part {
     Relation(Relation),
     /// `radius e`, `at e`
     Value(Role, Expr),
-    /// `inside`, `unbounded`
+    /// `teeth e, e`
+    Values(Role, Box<[Expr; 2]>),
+    /// `inside`, `crossed`, `unbounded`
     Flag(Role),
 }
 
@@ -55,8 +57,12 @@ pub enum Role {
     At,
     /// `ratio e`: the second of two to the first.
     Ratio,
+    /// `teeth e, e`: of the first of two wheels, and of the second.
+    Teeth,
     /// `inside`
     Inside,
+    /// `crossed`
+    Crossed,
     /// `unbounded`
     Unbounded,
 }
@@ -73,7 +79,9 @@ impl Role {
             Self::Phase => "phase",
             Self::At => "at",
             Self::Ratio => "ratio",
+            Self::Teeth => "teeth",
             Self::Inside => "inside",
+            Self::Crossed => "crossed",
             Self::Unbounded => "unbounded",
         }
     }

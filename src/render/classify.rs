@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::figure::Key;
 use super::symbols::{
-    Angle, Arrows, AxisMark, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link,
+    Angle, Arrows, AxisMark, Belt, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link,
     Multiple, Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Symmetry, Telescope,
     Ticks, Web,
 };
 use crate::constraint::{
-    Bounds, Constraint, ConstraintKind, Equal, Field, Length, Orientation, Point, PointIdx,
+    Bounds, Constraint, ConstraintKind, Contact, Equal, Field, Length, Orientation, Point, PointIdx,
 };
 use crate::diag::format_rounded;
 use crate::linalg::DisjointSets;
@@ -205,6 +205,11 @@ impl<'a> Classifier<'a> {
             Constraint::Hinge(c) => {
                 let [pin, a, b] = c.points;
                 self.add(id, record, Link { pin, ends: [a, b], ratio: c.ratio });
+            }
+            Constraint::Cog(c) if c.contact() != Contact::Mesh => {
+                let is_crossed = c.contact() == Contact::CrossedBelt;
+                let ratio = record.constraint.get(Field::Ratio).unwrap_or(1.0);
+                self.add(id, record, Belt { points: c.points, ratio, is_crossed });
             }
             Constraint::Cog(_) | Constraint::CogVelocity(_) | Constraint::Rack(_) => {
                 self.mesh(id, record);

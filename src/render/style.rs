@@ -80,6 +80,8 @@ pub enum Class {
     RingPlain,
     /// The inside of a wheel's rim.
     WheelWeb,
+    /// A belt.
+    Belt,
     /// A pitch circle.
     Pitch,
     /// From a wheel's centre to its marker.
@@ -172,6 +174,7 @@ impl Class {
             Self::TurnHead => area("turn-head", INK, "none", 0.0),
             Self::Wheel => area("wheel", BRASS, BRASS_EDGE, 1.3),
             Self::Pitch => dashed(line("pitch", "#cdbb8a", 0.9), &[9.0, 3.0, 1.5, 3.0]),
+            Self::Belt => line("belt-run", INK, 2.6),
             Self::RingWheel => area("ring-wheel", BRASS, BRASS_EDGE, 1.3),
             Self::RingPlain => line("ring-plain", BRASS_EDGE, 1.6),
             Self::WheelWeb => area("wheel-web", "#fbf6e8", "#cdb981", 1.0),

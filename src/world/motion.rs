@@ -128,7 +128,7 @@ impl World {
 
     fn restore_state(&mut self, id: ConstraintId, state: &[f64]) {
         let Some(record) = self.constraints.get_mut(id.idx()) else { return };
-        let is_live = record.drivers().iter().any(|(field, _)| *field == Field::Ratio);
+        let is_live = record.drivers().iter().any(|(field, _)| field.is_of_gearing());
         restore_whole(&mut record.constraint, state, is_live);
     }
 
@@ -242,14 +242,21 @@ fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
     }
     let (state, rest) = whole.split_at(n_state);
     let (mesh, ratio) = rest.split_at(n_mesh);
+    let mut then = constraint.clone();
     let now = constraint.get(Field::Ratio);
-    if let &[then] = ratio {
-        constraint.set(Field::Ratio, then);
+    if let &[ratio] = ratio {
+        then.set(Field::Ratio, ratio);
     }
-    constraint.set_captured(mesh);
-    constraint.set_state(state);
-    if let Some(now) = now.filter(|_| !is_live) {
-        constraint.set(Field::Ratio, now);
+    then.set_captured(mesh);
+    then.set_state(state);
+    match now {
+        // A ratio that is said by numbers of teeth goes on being said so.
+        Some(now) if !is_live || constraint.get(Field::FirstTeeth).is_some() => {
+            then.set(Field::Ratio, now);
+            constraint.set_captured(&then.captured());
+            constraint.set_state(&then.state().unwrap_or_default());
+        }
+        _ => *constraint = then,
     }
 }
 

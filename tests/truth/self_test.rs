@@ -47,6 +47,11 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
             all.clone(),
             vec![direction([3.0, 4.0])],
         ),
+        (
+            Kind::belt([1.0, -2.0], [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [2.0, 1.0]]),
+            all.clone(),
+            vec![direction([3.0, 4.0])],
+        ),
         (Kind::Distance(exactly(0.1)), vec![2, 0, 1], vec![0.3]),
         (Kind::Parallel, all.clone(), vec![turn + PI]),
         (Kind::Perpendicular, all.clone(), vec![turn + FRAC_PI_2]),

@@ -3,23 +3,27 @@
 //! The paper states it between velocities, which have to be integrated and drift. The same
 //! condition integrates in closed form: with the centre line at alpha and the wheels at
 //! theta1 and theta2, `theta1 - alpha` and `r (alpha - theta2)` grow alike.
+//!
+//! A belt is beyond the paper, and the same equation: see [`Contact`].
 
 use super::orientation::turning;
 use crate::constraint::parts::content::add_all;
+use crate::constraint::parts::gearing::Gearing;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::turns::simplest_fraction;
 use crate::constraint::parts::winding::Winding;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Declared, Field, Flag, Flaw, Given, Point, PointIdx,
-    Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flag, Flaw, Given, Point,
+    PointIdx, Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 use std::f64::consts::TAU;
 
-/// Two wheels in mesh: `theta1 - (1 + r) alpha + r theta2 = K`, in radians.
+/// Two wheels in mesh, or with a belt around them: `theta1 - (1 + r) alpha + r theta2 = K`, in
+/// radians.
 ///
 /// theta1 and theta2 are the angles of the markers seen from their centres, alpha that of
 /// the second centre seen from the first, r the second radius over the first, negative for
-/// a wheel inside the other. K is what it was at creation. Angles are counted on beyond
+/// wheels that turn the same way: one inside the other, or in an open belt. K is what it was at creation. Angles are counted on beyond
 /// half a turn from the last accepted pose, so a frame may turn each by less than that.
 ///
 /// While a marker lies on its centre the constraint asks for nothing; while the centres lie
@@ -28,7 +32,8 @@ use std::f64::consts::TAU;
 pub struct Cog {
     /// Centre and marker of the one wheel, centre and marker of the other.
     pub points: [PointIdx; 4],
-    ratio: f64,
+    gearing: Gearing,
+    contact: Contact,
     /// The ratio as numbers of teeth, the second wheel's over the first's, where they exist.
     teeth: Option<(f64, f64)>,
     /// theta1, alpha, theta2 as last accepted.
@@ -38,24 +43,66 @@ pub struct Cog {
     k: f64,
 }
 
+/// How one wheel turns the other.
+///
+/// A belt does so at any distance. Where its runs leave the wheels turns with the line of centres,
+/// so on the first wheel `r1 (dtheta1 - dalpha)` of it passes into the one run and out of the other,
+/// and on the second `r2 (dtheta2 - dalpha)` out of the one and into the other. An open belt that
+/// keeps the lengths of its runs, or changes both alike, has these equal; a crossed one has them
+/// opposite. That is the mesh of a wheel inside the other, and that of one beside the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// Tooth in tooth.
+    Mesh,
+    /// A belt whose runs do not meet.
+    OpenBelt,
+    /// A belt whose runs cross between the wheels.
+    CrossedBelt,
+}
+
 /// The vectors whose angles the constraint compares: x1 to x2, x1 to x3, x3 to x4.
 struct Spokes<V>([V; 3]);
 
 impl Cog {
     /// Wheels in mesh as they stand.
     pub fn new(points: [PointIdx; 4], ratio: f64, x: &[Point]) -> Self {
+        Self::geared(points, Gearing::of(ratio), Contact::Mesh, x)
+    }
+
+    /// Wheels with a belt around them, as they stand; the ratio is above 0.
+    pub fn belt(points: [PointIdx; 4], ratio: f64, is_crossed: bool, x: &[Point]) -> Self {
+        let contact = if is_crossed { Contact::CrossedBelt } else { Contact::OpenBelt };
+        Self::geared(points, Gearing::of(ratio), contact, x)
+    }
+
+    fn geared(points: [PointIdx; 4], gearing: Gearing, contact: Contact, x: &[Point]) -> Self {
         let mut cog = Self {
             points,
-            ratio,
-            teeth: teeth(ratio),
+            gearing,
+            contact,
+            teeth: None,
             lifted: [Winding::default(); 3],
             wound: 0.0,
             k: 0.0,
         };
+        cog.teeth = teeth(cog.ratio());
         let [x1, x2, x3, x4] = cog.places(x);
         cog.lifted = [x2 - x1, x3 - x1, x4 - x3].map(|v| Winding::new(v.angle()));
         cog.k = cog.mesh(cog.lifted.map(|winding| winding.angle));
         cog
+    }
+
+    /// How the wheels are held together.
+    pub const fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// The ratio r of the equation.
+    fn ratio(&self) -> f64 {
+        match self.contact {
+            Contact::Mesh | Contact::CrossedBelt => self.gearing.ratio(),
+            Contact::OpenBelt => -self.gearing.ratio(),
+        }
     }
 
     fn places(&self, x: &[Point]) -> [Point; 4] {
@@ -64,7 +111,7 @@ impl Cog {
 
     /// The left side of the equation without whole turns.
     fn mesh(&self, [theta1, alpha, theta2]: [f64; 3]) -> f64 {
-        (theta1 - alpha) + self.ratio * (theta2 - alpha)
+        (theta1 - alpha) + self.ratio() * (theta2 - alpha)
     }
 
     /// None while a marker has no angle.
@@ -85,7 +132,7 @@ impl Cog {
 
     /// Whether the line of centres has a part in the equation.
     fn alpha_counts(&self, x1: Point, x3: Point) -> bool {
-        self.ratio != -1.0 && has_direction(x1, x3)
+        self.ratio() != -1.0 && has_direction(x1, x3)
     }
 
     /// The angles of the spokes, counted on from the accepted ones.
@@ -103,8 +150,8 @@ impl Cog {
     fn row(&self, spokes: &Spokes<Vector>) -> Row {
         let [a, b, c, d] = self.points;
         let [v12, v13, v34] = spokes.0;
-        let (p1, p2) = (turning(v12), turning(v34) * self.ratio);
-        let p_alpha = if v13 == Vector::ZERO { v13 } else { turning(v13) * (1.0 + self.ratio) };
+        let (p1, p2) = (turning(v12), turning(v34) * self.ratio());
+        let p_alpha = if v13 == Vector::ZERO { v13 } else { turning(v13) * (1.0 + self.ratio()) };
         Row::new(self.value(spokes))
             .with(a, p_alpha - p1)
             .with(b, p1)
@@ -113,22 +160,30 @@ impl Cog {
     }
 }
 
-/// The ratio that a statement gives, negative where one wheel runs inside the other.
-pub(super) fn ratio(given: &Given) -> f64 {
-    let ratio = given.value(Field::Ratio).unwrap_or_default();
-    if given.has(Flag::Inside) { -ratio.abs() } else { ratio }
-}
-
 /// Numbers of teeth in the ratio r, the second wheel's and the first's.
 fn teeth(ratio: f64) -> Option<(f64, f64)> {
     simplest_fraction(ratio, f64::EPSILON * ratio.abs())
 }
 
 impl Declared for Cog {
-    const WORDS: &'static [&'static str] = &["cog"];
+    const WORDS: &'static [&'static str] = &["cog", "belt"];
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
-        Ok(Self::new(given.pairs()?, ratio(given), given.x))
+        let points = given.pairs()?;
+        let contact = match (given.word, given.has(Flag::Crossed)) {
+            ("belt", false) => Contact::OpenBelt,
+            ("belt", true) => Contact::CrossedBelt,
+            _ => Contact::Mesh,
+        };
+        if contact != Contact::Mesh && points[0] == points[2] {
+            return Err(Refusal {
+                message: "a belt goes around two centres",
+                at: Culprit::Point(1, 0),
+                label: "the same centre again",
+                help: Some("to fix wheels on one shaft together, write `rigid`"),
+            });
+        }
+        Ok(Self::geared(points, Gearing::given(given), contact, given.x))
     }
 }
 
@@ -183,26 +238,27 @@ impl ConstraintKind for Cog {
         } else {
             T::constant(self.lifted[1].angle)
         };
-        let mesh = (theta1 - alpha) + T::constant(self.ratio) * (theta2 - alpha);
+        let mesh = (theta1 - alpha) + T::constant(self.ratio()) * (theta2 - alpha);
         equation(mesh + T::constant(self.wound - self.k));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
-        (field == Field::Ratio).then_some(self.ratio)
+        self.gearing.get(field)
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        if field == Field::Ratio && value != self.ratio {
+        let before = self.ratio();
+        let angles = self.lifted.map(|winding| winding.angle);
+        let f = self.mesh(angles) + (self.wound - self.k);
+        let is_known = self.gearing.set(field, value);
+        if self.ratio() != before {
             // A gear change: the wheels mesh on from where they stand, turns so far forgotten.
-            let angles = self.lifted.map(|winding| winding.angle);
-            let f = self.mesh(angles) + (self.wound - self.k);
-            self.ratio = value;
-            self.teeth = teeth(value);
+            self.teeth = teeth(self.ratio());
             self.lifted = angles.map(Winding::new);
             self.wound = 0.0;
             self.k = self.mesh(angles) - f;
         }
-        field == Field::Ratio
+        is_known
     }
 
     fn nominal_length(&self) -> f64 {
@@ -211,7 +267,7 @@ impl ConstraintKind for Cog {
 
     fn traits(&self) -> Traits {
         Traits {
-            word: "cog",
+            word: if self.contact == Contact::Mesh { "cog" } else { "belt" },
             quantity: Quantity::Angle,
             bounds: None,
             activity: Activity::Always,
@@ -219,15 +275,24 @@ impl ConstraintKind for Cog {
             is_linear: false,
             is_wheel: true,
             carried: Carried::ByPose,
-            flags: &[],
-            flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
+            flags: match self.contact {
+                Contact::Mesh => self.gearing.flags(),
+                Contact::OpenBelt => &[],
+                Contact::CrossedBelt => &[Flag::Crossed],
+            },
+            flaw: match self.contact {
+                Contact::OpenBelt | Contact::CrossedBelt if self.gearing.ratio() < 0.0 => {
+                    Some(Flaw::NegativeBeltRatio)
+                }
+                _ => self.gearing.flaw(),
+            },
         }
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        // The teeth follow from the ratio.
-        let Self { points: _, ratio, teeth: _, lifted, wound, k } = self;
-        add_all([*ratio], word);
+        // All that matters of the gearing, the contact and the teeth is the ratio of the equation.
+        let Self { points: _, gearing: _, contact: _, teeth: _, lifted, wound, k } = self;
+        add_all([self.ratio()], word);
         lifted.iter().for_each(|winding| winding.content(word));
         add_all([*wound, *k], word);
     }
@@ -257,7 +322,7 @@ impl Stateful for Cog {
     }
 
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::new(self.points, self.ratio, x);
+        *self = Self::geared(self.points, self.gearing, self.contact, x);
     }
 
     fn advance(&mut self, _dt: f64) -> bool {
@@ -278,7 +343,7 @@ impl Stateful for Cog {
         self.wound = TAU
             * match self.teeth {
                 Some((p, q)) => (first * q + second * p) / q,
-                None => second.mul_add(self.ratio, first),
+                None => second.mul_add(self.ratio(), first),
             };
     }
 }
@@ -286,6 +351,7 @@ impl Stateful for Cog {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// Wheels on frozen centres after the first has made `i` of `n` parts of a turn.
     fn pair(i: i64, n: i64, (first, second): (i64, i64)) -> [Point; 4] {
@@ -353,6 +419,46 @@ mod tests {
         let mut rows = Vec::new();
         cog.jacobian(&x(0.7), &mut |row| rows.push(row));
         assert!(rows[0].is_active && rows[0].norm_squared(&[1.0; 4]) > 0.0);
+    }
+
+    /// The angle of the second wheel of a belt from how its material lies along both runs, which
+    /// are taken up alike where the distance `d` changes.
+    fn by_belt([r1, r2]: [f64; 2], is_crossed: bool, d: f64, phi: f64, theta1: f64) -> f64 {
+        let (reach, turn) = if is_crossed { (r1 + r2, PI) } else { (r1 - r2, 0.0) };
+        let leave = libm::acos(reach / d);
+        let run = d * libm::sin(leave);
+        // Marks are counted along the belt, counter-clockwise round the first wheel. A crossed
+        // belt goes clockwise round the second.
+        let sense = if is_crossed { -1.0 } else { 1.0 };
+        let angle = |side: f64| {
+            let at = phi + side * leave;
+            let mark = r1 * (at - theta1) - side * run;
+            at + side * turn - sense * mark / r2
+        };
+        0.5 * (angle(1.0) + angle(-1.0))
+    }
+
+    #[test]
+    fn a_belt_turns_its_wheels_as_its_runs_say() {
+        for is_crossed in [false, true] {
+            for radii in [[1.0, 2.0], [2.0, 0.5], [1.0, 1.0]] {
+                let x = |i: i32| {
+                    let t = f64::from(i) * 0.05;
+                    let (d, phi) = (6.0 + libm::sin(0.3 * t), 0.7 * t + 0.4 * libm::sin(t));
+                    let o2 = Vector::polar(d, phi).to_point();
+                    let theta2 = by_belt(radii, is_crossed, d, phi, 1.3 * t);
+                    let rims = [Vector::polar(1.0, 1.3 * t), Vector::polar(1.0, theta2)];
+                    [Point::ORIGIN, Point::ORIGIN + rims[0], o2, o2 + rims[1]]
+                };
+                let ratio = radii[1] / radii[0];
+                let mut belt = Cog::belt([0, 1, 2, 3], ratio, is_crossed, &x(0));
+                for i in 0..1000 {
+                    let f = belt.residual(&x(i));
+                    assert!(f.abs() < 1e-12, "{radii:?} crossed {is_crossed}, frame {i}: {f}");
+                    belt.accept(&x(i));
+                }
+            }
+        }
     }
 
     #[test]

@@ -2,13 +2,13 @@
 //!
 //! Kept to show its drift; [`crate::constraint::Cog`] is the same condition without.
 
-use super::cog;
 use crate::constraint::parts::content::add_all;
+use crate::constraint::parts::gearing::Gearing;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Declared, Field, Flaw, Given, Point, PointIdx, Quantity,
-    Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Declared, Field, Given, Point, PointIdx, Quantity, Real,
+    Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 
 /// In one frame the two wheels move alike where they touch.
@@ -21,8 +21,7 @@ use crate::constraint::{
 pub struct CogVelocity {
     /// Centre and marker of the one wheel, centre and marker of the other.
     pub points: [PointIdx; 4],
-    /// The second radius over the first, negative for internal contact.
-    pub ratio: f64,
+    gearing: Gearing,
     /// Where the points were when the frame began.
     previous: [Point; 4],
 }
@@ -30,13 +29,17 @@ pub struct CogVelocity {
 impl CogVelocity {
     /// Wheels in mesh, at rest as they stand.
     pub fn new(points: [PointIdx; 4], ratio: f64, x: &[Point]) -> Self {
-        Self { points, ratio, previous: points.map(|p| x[p as usize]) }
+        Self::geared(points, Gearing::of(ratio), x)
+    }
+
+    fn geared(points: [PointIdx; 4], gearing: Gearing, x: &[Point]) -> Self {
+        Self { points, gearing, previous: points.map(|p| x[p as usize]) }
     }
 
     /// The complex coefficients `1 - A1, A1, A2 - 1, -A2` of the displacements.
     fn coefficients(&self) -> Option<[Vector; 4]> {
         let [x1, x2, x3, x4] = self.previous;
-        let r = self.ratio;
+        let r = self.gearing.ratio();
         if r == -1.0 || !has_direction(x1, x2) || !has_direction(x3, x4) {
             return None;
         }
@@ -66,7 +69,7 @@ impl Declared for CogVelocity {
     const WORDS: &'static [&'static str] = &[];
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
-        Ok(Self::new(given.pairs()?, cog::ratio(given), given.x))
+        Ok(Self::geared(given.pairs()?, Gearing::given(given), given.x))
     }
 }
 
@@ -122,14 +125,11 @@ impl ConstraintKind for CogVelocity {
     }
 
     fn get(&self, field: Field) -> Option<f64> {
-        (field == Field::Ratio).then_some(self.ratio)
+        self.gearing.get(field)
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        if field == Field::Ratio {
-            self.ratio = value;
-        }
-        field == Field::Ratio
+        self.gearing.set(field, value)
     }
 
     fn nominal_length(&self) -> f64 {
@@ -147,14 +147,14 @@ impl ConstraintKind for CogVelocity {
             is_linear: false,
             is_wheel: true,
             carried: Carried::ByFrame,
-            flags: &[],
-            flaw: (self.ratio == 0.0).then_some(Flaw::ZeroRatio),
+            flags: self.gearing.flags(),
+            flaw: self.gearing.flaw(),
         }
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        let Self { points: _, ratio, previous } = self;
-        add_all([*ratio], word);
+        let Self { points: _, gearing, previous } = self;
+        gearing.content(word);
         previous.iter().for_each(|&Point { x, y }| add_all([x, y], word));
     }
 }

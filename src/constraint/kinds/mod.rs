@@ -18,7 +18,7 @@ mod rigid;
 mod symmetric;
 
 pub use aligned::{Aligned, AxisDirection};
-pub use cog::Cog;
+pub use cog::{Cog, Contact};
 pub use cog_velocity::CogVelocity;
 pub use coincidence::Coincidence;
 pub use coordinate::Coordinate;

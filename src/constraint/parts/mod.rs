@@ -2,6 +2,7 @@
 
 pub mod bounds;
 pub mod content;
+pub mod gearing;
 pub mod geometry;
 pub mod jet;
 pub mod line;

@@ -35,6 +35,8 @@ pub enum Slot {
     Value(Role),
     /// A number that may be left out: then it is this one, or what the kind makes of it.
     Optional(Role, Option<f64>),
+    /// The ratio of two wheels, or the teeth of both.
+    Gearing,
     /// A vector.
     Place(Role),
     /// A word alone.
@@ -57,6 +59,8 @@ impl Pattern {
                 Part::Value(given, _),
             )
             | (Slot::Flag(role), Part::Flag(given)) => role == given,
+            (Slot::Gearing, Part::Value(given, _)) => *given == Role::Ratio,
+            (Slot::Gearing, Part::Values(given, _)) => *given == Role::Teeth,
             // Where on a bar a point is can be called a ratio too.
             _ => matches!((slot, part), (Slot::Value(Role::At), Part::Value(Role::Ratio, _))),
         };
@@ -121,7 +125,7 @@ macro_rules! constraints {
     };
 }
 
-use Slot::{AllPoints, Flag, Line, Optional, Place, Points, Relation, Value};
+use Slot::{AllPoints, Flag, Gearing, Line, Optional, Place, Points, Relation, Value};
 
 /// What is said of one that is points and nothing else.
 const NOTHING: &str = "this constraint has no part that can be changed";
@@ -219,13 +223,14 @@ constraints! {
         example: "hinge P on A B at 1/3",
     }
     Cog cog {
-        slots: [Points(2), Points(2), Value(Role::Ratio), Flag(Role::Inside)],
-        takes: "cogs take `ratio r` and `inside`",
-        usage: "cog O1 A, O2 B ratio R [inside]",
+        slots: [Points(2), Points(2), Gearing, Flag(Role::Inside)],
+        takes: "cogs take `ratio r`, `teeth n1, n2` and `inside`",
+        usage: "cog O1 A, O2 B ratio R | teeth N1, N2 [inside]",
         summary: "two wheels roll on each other, R the ratio of their radii (3.10)",
         help: "A is on the rim of the wheel round O1, B of that round O2; R = r2 / r1.\n\
-             A negative ratio, or `inside`, is for internal contact.",
-        example: "cog O1 A, O2 B ratio 4",
+             A negative ratio, or `inside`, is for internal contact. By teeth, R = N2 / N1.",
+        example: "cog O1 A, O2 B ratio 4\n\
+             cog O1 A, O2 B teeth 20, 60 inside",
     }
     Distance distance {
         slots: [Points(1), Line(Role::To), Relation { default: None }],
@@ -291,5 +296,17 @@ constraints! {
         summary: "B is the mirror image of A in the line PQ",
         help: "All four may move: the axis gives way as the points do.",
         example: "symmetric A B about P Q",
+    }
+    Belt belt {
+        slots: [Points(2), Points(2), Gearing, Flag(Role::Crossed)],
+        takes: "a belt takes `ratio r`, `teeth n1, n2` and `crossed`",
+        usage: "belt O1 A, O2 B ratio R | teeth N1, N2 [crossed]",
+        summary: "a belt turns two wheels together, R the ratio of their radii",
+        help: "A turns with the wheel round O1, B with that round O2; R = r2 / r1, at any distance.\n\
+             Both turn the same way, or with `crossed` opposite ways. What counts is how far each turns\n\
+             against the line O1 O2: where one centre is carried round the other, the wheels turn too.\n\
+             The distance is not held: a belt has a tensioner.",
+        example: "belt O1 A, O2 B ratio 2\n\
+             belt O1 A, O2 B teeth 20, 40 crossed",
     }
 }

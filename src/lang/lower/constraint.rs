@@ -62,7 +62,13 @@ fn part(rule: Rule, c: &mut Cursor) -> Result<Part, Diagnostic> {
     let mut inner = c.within(read);
     Ok(match inner.peek() {
         Some(Rule::pair) => Part::Line(role, inner.pair()?),
-        Some(_) => Part::Value(role, inner.expr()?),
+        Some(_) => {
+            let first = inner.expr()?;
+            match inner.peek() {
+                Some(_) => Part::Values(role, Box::new([first, inner.expr()?])),
+                None => Part::Value(role, first),
+            }
+        }
         None => Part::Flag(role),
     })
 }
@@ -78,7 +84,9 @@ pub(super) fn role(rule: Rule) -> Option<Role> {
         Rule::phase => Role::Phase,
         Rule::at => Role::At,
         Rule::ratio => Role::Ratio,
+        Rule::teeth => Role::Teeth,
         Rule::kw_inside => Role::Inside,
+        Rule::kw_crossed => Role::Crossed,
         Rule::kw_unbounded => Role::Unbounded,
         _ => return None,
     })

@@ -329,6 +329,7 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_on
             | Rule::kw_at
             | Rule::kw_ratio
+            | Rule::kw_teeth
             | Rule::kw_radius
             | Rule::kw_speed
             | Rule::kw_phase

@@ -27,6 +27,10 @@ impl Display for Part {
             Self::Line(role, points) => write!(f, "{} {points}", role.word()),
             Self::Relation(relation) => write!(f, "{relation}"),
             Self::Value(role, value) => write!(f, "{} {value}", role.word()),
+            Self::Values(role, values) => {
+                let [first, second] = &**values;
+                write!(f, "{} {first}, {second}", role.word())
+            }
             Self::Flag(role) => f.write_str(role.word()),
         }
     }

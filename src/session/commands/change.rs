@@ -41,12 +41,12 @@ impl Execution<'_> {
         // What stands behind a line says something of that line.
         let (lines, others): (Vec<_>, Vec<_>) =
             parts.iter().partition(|part| matches!(part, Part::Line(..)));
+        let mut is_made_anew = false;
         for part in lines.into_iter().chain(others) {
-            self.resolve().change_part(&mut record, name, part)?;
+            is_made_anew |= self.resolve().change_part(&mut record, name, part)?;
         }
-        let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
         let is_captured = !record.constraint.captured().is_empty();
-        if is_on_another_line && is_captured && self.state.world.clock().frame > 0 {
+        if is_made_anew && is_captured && self.state.world.clock().frame > 0 {
             let start = self.state.world.points().start_column();
             if let Ok(at_start) = declare_again(&record.constraint, start, |_| {}) {
                 self.edit(self.state.world.begin_with(id, &at_start));
@@ -63,12 +63,13 @@ impl Resolver<'_> {
         Diagnostic::error(format!("`{what}` has no such part")).at(name.span, takes)
     }
 
+    /// Changes what a part says; whether the constraint was made anew for that, as it stands.
     fn change_part(
         &mut self,
         record: &mut Record,
         name: &Name,
         part: &Part,
-    ) -> Result<(), Diagnostic> {
+    ) -> Result<bool, Diagnostic> {
         let pattern = pattern_of(&record.constraint);
         let slot = pattern.slot(part);
         if slot.is_none() {
@@ -76,6 +77,7 @@ impl Resolver<'_> {
         }
         let mut drivers = Drivers::new();
         let mut values = Vec::new();
+        let mut is_made_anew = true;
         match part {
             Part::Points(_) => {}
             Part::Relation(relation) => {
@@ -85,6 +87,7 @@ impl Resolver<'_> {
             Part::Value(_, value) => {
                 self.say_value(slot, value, &mut values, &mut drivers)?;
             }
+            Part::Values(_, teeth) => values.extend(self.teeth(teeth, &mut drivers)?),
             Part::Line(_, line) => {
                 let ends = self.ends(line)?;
                 let x = self.state.world.points().column();
@@ -97,8 +100,9 @@ impl Resolver<'_> {
             }
             Part::Flag(role) => match record.constraint.get(Field::Ratio) {
                 // They mesh on from where they stand.
-                Some(ratio) if *role == Role::Inside => {
+                Some(ratio) if *role == Role::Inside && !is_by_teeth(&record.constraint) => {
                     record.constraint.set(Field::Ratio, -ratio.abs());
+                    is_made_anew = false;
                 }
                 _ => {
                     let x = self.state.world.points().column();
@@ -109,14 +113,34 @@ impl Resolver<'_> {
                 }
             },
         }
-        let changed: Vec<Field> = values.iter().map(|(field, _)| *field).collect();
-        for (field, value) in values {
-            record.constraint.set(field, value);
+        let mut changed: Vec<Field> = values.iter().map(|(field, _)| *field).collect();
+        if changed.iter().any(|field| record.constraint.get(*field).is_none()) {
+            // What it does not have yet, its statement says in another way: as it stands now.
+            let x = self.state.world.points().column();
+            let made = declare_again(&record.constraint, x, |said| {
+                said.values.retain(|(field, _)| !changed.contains(field));
+                said.values.extend(values);
+            });
+            record.constraint = made.map_err(|refusal| refusal_at(&refusal, name.span))?;
+        } else {
+            is_made_anew &= values.is_empty();
+            for (field, value) in values {
+                record.constraint.set(field, value);
+            }
+        }
+        if changed.iter().any(|field| field.is_of_gearing()) {
+            // A ratio takes the place of numbers of teeth, and these that of a ratio.
+            changed = Field::ALL.into_iter().filter(|field| field.is_of_gearing()).collect();
         }
         refuse_flaw(&record.constraint, std::slice::from_ref(part), name.span)?;
         record.replace_drivers(&changed, drivers);
-        Ok(())
+        Ok(is_made_anew)
     }
+}
+
+/// Whether it is geared by numbers of teeth.
+fn is_by_teeth(constraint: &Constraint) -> bool {
+    constraint.get(Field::FirstTeeth).is_some()
 }
 
 /// Makes a constraint anew, after a change of what was said of it.

@@ -9,7 +9,7 @@ use crate::lang::ast::{
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
-use crate::session::resolve::said::{Said, field_of, flag_of};
+use crate::session::resolve::said::{Said, TEETH, field_of, flag_of};
 use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
 use crate::terms::Shape;
@@ -51,7 +51,8 @@ impl Resolver<'_> {
         let word = pattern.entry.keyword;
         let kind = Kind::stated_by(word).expect("each word states a kind");
         let kind = match (kind, self.state.preferences.solve.cog) {
-            (Kind::Cog, CogForm::Velocity) => Kind::CogVelocity,
+            // A belt has no such form.
+            (Kind::Cog, CogForm::Velocity) if word == "cog" => Kind::CogVelocity,
             _ => kind,
         };
         let constraint = said
@@ -77,7 +78,7 @@ impl Resolver<'_> {
                 Part::Line(_, pair) => said.groups.push(self.ends(pair)?.to_vec()),
                 Part::Relation(relation) => said.bounds = Some(self.bounds(relation, drivers)?),
                 Part::Flag(role) => said.flags.push(flag_of(*role)),
-                Part::Value(..) => {}
+                Part::Value(..) | Part::Values(..) => {}
             }
         }
         let values = parts.iter().filter_map(|part| match part {
@@ -89,7 +90,25 @@ impl Resolver<'_> {
         for (_, part, value) in values {
             self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
         }
+        for part in parts {
+            if let Part::Values(_, teeth) = part {
+                said.values.extend(self.teeth(teeth, drivers)?);
+            }
+        }
         Ok(said)
+    }
+
+    /// The numbers of teeth of two wheels.
+    pub(super) fn teeth(
+        &mut self,
+        teeth: &[Expr; 2],
+        drivers: &mut Drivers,
+    ) -> Result<[(Field, f64); 2], Diagnostic> {
+        let [first, second] = TEETH;
+        Ok([
+            (first, self.drive(&teeth[0], first, drivers)?),
+            (second, self.drive(&teeth[1], second, drivers)?),
+        ])
     }
 
     /// Evaluates the value of a part that goes into a slot.
@@ -108,6 +127,9 @@ impl Resolver<'_> {
             Some(Slot::Value(role) | Slot::Optional(role, _)) => {
                 let field = field_of(role);
                 values.push((field, self.drive(value, field, drivers)?));
+            }
+            Some(Slot::Gearing) => {
+                values.push((Field::Ratio, self.drive(value, Field::Ratio, drivers)?));
             }
             _ => {}
         }
@@ -226,6 +248,9 @@ pub(super) fn refuse_flaw(
     });
     let value = parts.iter().find_map(|part| match part {
         Part::Value(role, value) if field_of(*role) == flaw.field() => Some(value),
+        Part::Values(_, values) => {
+            TEETH.iter().position(|field| *field == flaw.field()).map(|k| &values[k])
+        }
         _ => None,
     });
     let span = value.or(relation.map(upper)).map_or(statement, |value| value.span);
@@ -252,9 +277,23 @@ pub(super) fn refuse_flaw(
         (Flaw::RatioNotAboveZero, _) => {
             ("a ratio of lengths has to be above 0", span, format!("this is {now}"))
         }
+        (Flaw::FirstTeeth | Flaw::SecondTeeth, _) => (
+            "a wheel has a whole number of teeth, from 1 to 100 000",
+            span,
+            format!("this is {now}"),
+        ),
+        (Flaw::NegativeBeltRatio, _) => {
+            ("a ratio of radii cannot be negative", span, format!("this is {now}"))
+        }
         (Flaw::ZeroRatio, _) => ("a ratio of radii cannot be 0", span, format!("this is {now}")),
     };
-    Err(Diagnostic::error(message).at(at, label))
+    let problem = Diagnostic::error(message).at(at, label);
+    Err(match flaw {
+        Flaw::NegativeBeltRatio => {
+            problem.help("for wheels that turn opposite ways write `crossed` behind the ratio")
+        }
+        _ => problem,
+    })
 }
 
 /// The expression of a relation that says how large a value may be, if one does.

@@ -67,16 +67,26 @@ pub(crate) fn field_of(role: Role) -> Field {
         Role::Speed => Field::Speed,
         Role::Phase => Field::Phase,
         Role::At | Role::Ratio => Field::Ratio,
-        Role::On | Role::To | Role::About | Role::Inside | Role::Unbounded => {
+        Role::On
+        | Role::To
+        | Role::About
+        | Role::Teeth
+        | Role::Inside
+        | Role::Crossed
+        | Role::Unbounded => {
             unreachable!("`{}` has no value", role.word())
         }
     }
 }
 
+/// The values that `teeth` gives.
+pub(crate) const TEETH: [Field; 2] = [Field::FirstTeeth, Field::SecondTeeth];
+
 /// What a word alone says.
 pub(crate) fn flag_of(role: Role) -> Flag {
     match role {
         Role::Inside => Flag::Inside,
+        Role::Crossed => Flag::Crossed,
         Role::Unbounded => Flag::Unbounded,
         _ => unreachable!("`{}` does not stand alone", role.word()),
     }

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::said::{Said, field_of, flag_of, word_of};
+use super::said::{Said, TEETH, field_of, flag_of, word_of};
 use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, PointIdx, Quantity};
 use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
     Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Making, Name, Node as Syntax,
-    Pair, Part, Range, Relation, Text,
+    Pair, Part, Range, Relation, Role, Text,
 };
 use crate::lang::catalogue::Slot;
 use crate::world::{ConstraintId, Entity, Formula, Node, ParameterId, PointId, Record, World};
@@ -106,6 +106,14 @@ impl<'a> Unbind<'a> {
                 }
                 Slot::Relation { default } => {
                     Part::Relation(self.relation_if_needed(record, default)?)
+                }
+                Slot::Gearing => {
+                    let teeth = TEETH.map(|field| Some((field, record.constraint.get(field)?)));
+                    if let [Some(first), Some(second)] = teeth {
+                        let teeth = [first, second].map(|(f, n)| self.field(record, f, n));
+                        return Some(Part::Values(Role::Teeth, Box::new(teeth)));
+                    }
+                    Part::Value(Role::Ratio, self.value_of(record, Field::Ratio))
                 }
                 Slot::Optional(role, default) => {
                     let value = record.constraint.get(field_of(role))?;

@@ -2,8 +2,8 @@
 
 use linkwork::constraint::{
     Aligned, AxisDirection, Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
-    Distance, Equal, Equivalence, Field, Given, Glider, Hinge, Kind, Length, Motor, Orientation,
-    Period, Point, PointIdx, Rack, Rigid, Row, Symmetric, Vector,
+    Distance, Equal, Equivalence, Field, Flag, Given, Glider, Hinge, Kind, Length, Motor,
+    Orientation, Period, Point, PointIdx, Rack, Rigid, Row, Symmetric, Vector,
 };
 use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
@@ -88,7 +88,11 @@ impl Scene {
             }
             Kind::Glider => Glider { points: three, bounded: self.variant > 0 }.into(),
             Kind::Hinge => Hinge { points: three, ratio: 1.5 * n0 + 0.5 }.into(),
-            Kind::Cog => Cog::new(four, self.ratio(), &before).into(),
+            Kind::Cog => match self.variant {
+                3 => self.by_teeth(&before),
+                4 => Cog::belt(four, self.ratio().abs(), n1 > 0.0, &before).into(),
+                _ => Cog::new(four, self.ratio(), &before).into(),
+            },
             Kind::CogVelocity => CogVelocity::new(four, self.ratio(), &before).into(),
             Kind::Distance => {
                 let bounds = bounds(2.0 * n0 * by.scale, 2.0 * n1 * by.scale);
@@ -108,6 +112,21 @@ impl Scene {
             }
             kind => self.declared(kind, by),
         }
+    }
+
+    /// Wheels geared by teeth, about in the ratio.
+    fn by_teeth(&self, before: &[Point]) -> Constraint {
+        const FIRST: f64 = 20.0;
+        let second = (FIRST * self.ratio().abs()).round().max(1.0);
+        let values = [(Field::FirstTeeth, FIRST), (Field::SecondTeeth, second)];
+        let groups = [self.points[..2].to_vec(), self.points[2..4].to_vec()];
+        let flags: &[Flag] = if self.numbers[1] > 0.0 { &[Flag::Inside] } else { &[] };
+        let (word, bounds) = ("cog", None);
+        let given = Given { word, groups: &groups, bounds, values: &values, flags, x: before };
+        // A wheel of one point only cannot be stated.
+        let points = [0, 1, 2, 3].map(|k| self.points[k]);
+        let other = |_| Cog::new(points, self.ratio(), before).into();
+        Kind::Cog.declare(&given).unwrap_or_else(other)
     }
 
     /// A constraint of a kind with nothing special about it: as its statement would make it.

@@ -60,6 +60,10 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|([a, b, c], mu)| format!("hinge {a} on {b} {c} at {mu}")),
         1 => ([point(), point(), point(), point()], number())
             .prop_map(|([a, b, c, d], r)| format!("cog {a} {b}, {c} {d} ratio {r}")),
+        1 => ([point(), point(), point(), point()], 1..60u32, prop_oneof![Just(""), Just("inside")])
+            .prop_map(|([a, b, c, d], n, way)| format!("cog {a} {b}, {c} {d} teeth 20, {n} {way}")),
+        1 => ([point(), point(), point(), point()], number(), prop_oneof![Just(""), Just("crossed")])
+            .prop_map(|([a, b, c, d], r, way)| format!("belt {a} {b}, {c} {d} ratio abs({r}) {way}")),
         1 => ([point(), point(), point()], relation(number().boxed()))
             .prop_map(|([a, b, c], r)| format!("distance {a} to {b} {c} {r}")),
         1 => ([point(), point(), point(), point()], prop_oneof![Just("parallel"), Just("perpendicular")])

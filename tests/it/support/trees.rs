@@ -103,6 +103,12 @@ fn slot_part(slot: Slot) -> BoxedStrategy<Option<Part>> {
         Slot::Value(role) | Slot::Place(role) => {
             expr().prop_map(move |value| Some(Part::Value(role, value))).boxed()
         }
+        Slot::Gearing => prop_oneof![
+            expr().prop_map(|ratio| Part::Value(Role::Ratio, ratio)),
+            [expr(), expr()].prop_map(|teeth| Part::Values(Role::Teeth, Box::new(teeth))),
+        ]
+        .prop_map(Some)
+        .boxed(),
         Slot::Flag(role) => {
             any::<bool>().prop_map(move |is_said| is_said.then_some(Part::Flag(role))).boxed()
         }
@@ -135,7 +141,7 @@ fn change_parts() -> BoxedStrategy<Vec<Part>> {
         (relation(), vec(expr(), 5), pair(), pair()).prop_map(|(relation, values, on, to)| {
             let roles = [Role::Radius, Role::Speed, Role::Phase, Role::At, Role::Ratio];
             let values = roles.into_iter().zip(values).map(|(role, e)| Part::Value(role, e));
-            let flags = [Role::Inside, Role::Unbounded].map(Part::Flag);
+            let flags = [Role::Inside, Role::Crossed, Role::Unbounded].map(Part::Flag);
             let lines = [Part::Line(Role::On, on), Part::Line(Role::To, to)];
             let relation = [Part::Relation(relation)];
             relation.into_iter().chain(values).chain(flags).chain(lines).collect::<Vec<_>>()

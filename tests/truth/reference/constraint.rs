@@ -53,6 +53,11 @@ pub enum Kind {
     Horizontal,
     Vertical,
     Symmetric,
+    /// The radii, the second's negative in a crossed belt, and the angles as for a cog.
+    Belt {
+        radii: [f64; 2],
+        made_at: [f64; 3],
+    },
 }
 
 /// A constraint of a scene; its points are places in the list of the scene's points.
@@ -72,7 +77,7 @@ pub struct Equation<T> {
 }
 
 /// The words of the kinds, each a different one.
-pub const WORDS: [&str; 18] = [
+pub const WORDS: [&str; 19] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -91,6 +96,7 @@ pub const WORDS: [&str; 18] = [
     "horizontal",
     "vertical",
     "symmetric",
+    "belt",
 ];
 
 impl Range {
@@ -215,6 +221,12 @@ impl Kind {
         Self::Cog { ratio, made_at: [angle(minus(a, o)), angle(minus(q, o)), angle(minus(b, q))] }
     }
 
+    /// Wheels with a belt around them as they stand, as for a cog.
+    pub fn belt(radii: [f64; 2], x: [Place; 4]) -> Self {
+        let [o, a, q, b] = x;
+        Self::Belt { radii, made_at: [angle(minus(a, o)), angle(minus(q, o)), angle(minus(b, q))] }
+    }
+
     /// A wheel on a line as it stands: centre, marker, and two points of the line.
     pub fn rack(x: [Place; 4]) -> Self {
         let [o, a, p, q] = x;
@@ -248,12 +260,13 @@ impl Kind {
             Self::Horizontal => 15,
             Self::Vertical => 16,
             Self::Symmetric => 17,
+            Self::Belt { .. } => 18,
         }]
     }
 
     /// Whether it keeps something of the pose at which it was stated.
     pub const fn is_captured(&self) -> bool {
-        matches!(self, Self::Cog { .. } | Self::Rigid(_) | Self::Rack { .. })
+        matches!(self, Self::Cog { .. } | Self::Belt { .. } | Self::Rigid(_) | Self::Rack { .. })
     }
 
     /// Its equations where its points are at `x` (at most four count), at a time.
@@ -307,6 +320,20 @@ impl Kind {
                 }
                 let ratio = T::constant(*ratio);
                 vec![active((by[0] - by[1]) + ratio * (by[2] - by[1]))]
+            }
+            Self::Belt { radii, made_at } => {
+                if is_one_place(x[0], x[1]) || is_one_place(x[2], x[3]) {
+                    return vec![idle()];
+                }
+                // How far each wheel has turned against the line of centres, along its rim, over
+                // the first radius.
+                let spokes = [minus(x[1], x[0]), minus(x[2], x[0]), minus(x[3], x[2])];
+                let mut by = [0, 1, 2].map(|k| turned(angle(spokes[k]), made_at[k]));
+                if is_one_place(x[0], x[2]) {
+                    by[1] = T::constant(0.0);
+                }
+                let [first, second] = [by[0] - by[1], by[2] - by[1]];
+                vec![active(first - second * T::constant(radii[1] / radii[0]))]
             }
             Self::Distance(range) => {
                 if is_one_place(x[1], x[2]) {
@@ -378,6 +405,11 @@ impl Kind {
                 text
             }
             Self::Symmetric => format!("{word} {} {} about {} {}", p[0], p[1], p[2], p[3]),
+            Self::Belt { radii: [first, second], .. } => {
+                let (ratio, way) =
+                    ((second / first).abs(), if *second < 0.0 { " crossed" } else { "" });
+                format!("{word} {} {}, {} {} ratio {ratio}{way}", p[0], p[1], p[2], p[3])
+            }
             Self::Rack { .. } => format!("{word} {} {} on {} {}", p[0], p[1], p[2], p[3]),
         }
     }

@@ -177,6 +177,7 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_phase => "phase",
         Rule::kw_at => "at",
         Rule::kw_ratio => "ratio",
+        Rule::kw_teeth => "teeth",
         Rule::kw_about => "about",
         _ => return constraint::role(rule).map(Role::word),
     })
