@@ -97,6 +97,8 @@ pub enum Flaw {
     NegativeLength,
     /// No radius is so small.
     NegativeRadius,
+    /// No wheel rolls on that.
+    ZeroRadius,
     /// Wheels, one of which would have the radius 0.
     ZeroRatio,
     /// Wheels of which one would have a negative radius; a belt says otherwise how they turn.
@@ -114,7 +116,7 @@ impl Flaw {
     pub const fn field(self) -> Field {
         match self {
             Self::EmptyRange | Self::WiderThanATurn | Self::NegativeLength => Field::Hi,
-            Self::NegativeRadius => Field::Radius,
+            Self::NegativeRadius | Self::ZeroRadius => Field::Radius,
             Self::ZeroRatio | Self::RatioNotAboveZero | Self::NegativeBeltRatio => Field::Ratio,
             Self::FirstTeeth => Field::FirstTeeth,
             Self::SecondTeeth => Field::SecondTeeth,
@@ -128,6 +130,7 @@ impl Flaw {
             Self::WiderThanATurn => "a range of angles wider than one turn",
             Self::NegativeLength => "a negative length",
             Self::NegativeRadius => "a negative radius",
+            Self::ZeroRadius => "a radius of 0",
             Self::ZeroRatio => "a ratio of 0",
             Self::NegativeBeltRatio => "a negative ratio",
             Self::FirstTeeth | Self::SecondTeeth => "an impossible number of teeth",

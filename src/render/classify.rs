@@ -291,10 +291,8 @@ impl<'a> Classifier<'a> {
     fn mesh(&mut self, id: ConstraintId, record: &Record) {
         let gears = if record.is_on { &mut self.gears_on } else { &mut self.gears_off };
         let four = points(&record.constraint);
-        if let Constraint::Rack(_) = record.constraint {
-            let [o, a] = [four[0], four[1]].map(|p| self.at[p as usize]);
-            let radius = record.constraint.get(Field::Radius).unwrap_or_else(|| o.distance(a));
-            gears.add_rack(four, radius.abs());
+        if let Constraint::Rack(rack) = &record.constraint {
+            gears.add_rack(four, rack.radius().abs(), rack.has_said_radius());
         } else {
             gears.add_pair(four, record.constraint.get(Field::Ratio).unwrap_or(1.0), self.at);
         }

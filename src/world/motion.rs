@@ -128,7 +128,10 @@ impl World {
 
     fn restore_state(&mut self, id: ConstraintId, state: &[f64]) {
         let Some(record) = self.constraints.get_mut(id.idx()) else { return };
-        let is_live = record.drivers().iter().any(|(field, _)| field.is_of_gearing());
+        let is_live = record
+            .drivers()
+            .iter()
+            .any(|(field, _)| field.is_of_gearing() || *field == Field::Radius);
         restore_whole(&mut record.constraint, state, is_live);
     }
 
@@ -232,18 +235,21 @@ pub(super) fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
     Some(whole)
 }
 
-/// Brings back what [`whole_state`] gave, or a state alone. Another ratio than then stays, as if
+/// Brings back what [`whole_state`] gave, or a state alone. Another ratio or radius than then stays, as if
 /// it had been changed then; a live one is about to be evaluated.
 fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
     let n_state = constraint.state().map_or(0, |state| state.len());
     let n_mesh = constraint.captured().len();
-    if whole.len() < n_state + n_mesh {
-        return constraint.set_state(whole);
+    if whole.len() < n_state + n_mesh || n_mesh == 0 {
+        return constraint.set_state(&whole[..n_state.min(whole.len())]);
     }
     let (state, rest) = whole.split_at(n_state);
     let (mesh, ratio) = rest.split_at(n_mesh);
     let mut then = constraint.clone();
-    let now = constraint.get(Field::Ratio);
+    // Of a wheel on a rack the radius, which is among what is captured.
+    let is_geared = constraint.get(Field::Ratio).is_some();
+    let field = if is_geared { Field::Ratio } else { Field::Radius };
+    let now = constraint.get(field);
     if let &[ratio] = ratio {
         then.set(Field::Ratio, ratio);
     }
@@ -252,7 +258,7 @@ fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
     match now {
         // A ratio that is said by numbers of teeth goes on being said so.
         Some(now) if !is_live || constraint.get(Field::FirstTeeth).is_some() => {
-            then.set(Field::Ratio, now);
+            then.set(field, now);
             constraint.set_captured(&then.captured());
             constraint.set_state(&then.state().unwrap_or_default());
         }

@@ -63,6 +63,12 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
             all.clone(),
             vec![(direction([3.0, 4.0]) - 0.25 * PI) * -3.0 * FRAC_1_SQRT_2],
         ),
+        (
+            // 3 below the line then.
+            Kind::pinion(3.0, [[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]]),
+            all.clone(),
+            vec![(direction([3.0, 4.0]) - 0.25 * PI) * -3.0],
+        ),
         (Kind::Horizontal, vec![0, 1], vec![4.0]),
         (Kind::Vertical, vec![1, 2], vec![-2.0]),
         // About the line x + y = 3, (0, 0) belongs at (3, 3), and (3, 4) is 1 above.

@@ -5,15 +5,15 @@ use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::winding::Winding;
 use crate::constraint::{
-    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Given, Point, PointIdx, Quantity,
-    Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
+    Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
+    Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
 use std::f64::consts::TAU;
 
 /// A wheel rolls along a line without slip: `s + R theta = K`, in length units.
 ///
 /// s is how far along the line from P to Q the centre stands, theta the angle of the rim
-/// point seen from the centre, against the line, R the radius, positive where the wheel
+/// point seen from the centre, against the line, R the pitch radius, positive where the wheel
 /// stands on the left of the line. K is what it was at creation. The height of the centre
 /// over the line is not held; a `distance` does that.
 ///
@@ -22,10 +22,33 @@ use std::f64::consts::TAU;
 pub struct Rack {
     /// Centre O and rim point A of the wheel, P and Q of the line.
     pub points: [PointIdx; 4],
+    /// The R of the equation.
     radius: f64,
+    pitch: Pitch,
     k: f64,
     /// theta as last accepted.
     lifted: Winding,
+}
+
+/// Where the radius is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pitch {
+    /// It was the height of the centre over the line.
+    Height,
+    /// It is said, of a wheel that stood on the left of the line, or on it.
+    Left,
+    /// It is said, of a wheel that stood on the right.
+    Right,
+}
+
+impl Pitch {
+    /// The R of the equation over the radius that is said.
+    const fn side(self) -> f64 {
+        match self {
+            Self::Height | Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
 }
 
 /// The vectors that matter: P to Q, O to A, P to O.
@@ -38,14 +61,42 @@ struct Arms {
 impl Rack {
     /// A wheel as it stands, touching the line.
     pub fn new(points: [PointIdx; 4], x: &[Point]) -> Self {
-        let mut rack = Self { points, radius: 0.0, k: 0.0, lifted: Winding::default() };
+        Self::rolling(points, None, x)
+    }
+
+    /// A wheel of a pitch radius as it stands, at whatever height.
+    pub fn with_radius(points: [PointIdx; 4], radius: f64, x: &[Point]) -> Self {
+        Self::rolling(points, Some(radius), x)
+    }
+
+    fn rolling(points: [PointIdx; 4], radius: Option<f64>, x: &[Point]) -> Self {
+        let lifted = Winding::default();
+        let pitch = if radius.is_some() { Pitch::Left } else { Pitch::Height };
+        let mut rack = Self { points, radius: radius.unwrap_or(0.0), pitch, k: 0.0, lifted };
         if let Some(arms) = rack.arms(x) {
             let e = arms.line / arms.line.norm();
-            rack.radius = e.cross(arms.centre);
+            let height = e.cross(arms.centre);
+            match radius {
+                None => rack.radius = height,
+                Some(radius) if height < 0.0 => {
+                    (rack.radius, rack.pitch) = (-radius, Pitch::Right);
+                }
+                Some(_) => {}
+            }
             rack.lifted = Winding::new(arms.line.angle_to(arms.spoke));
             rack.k = e.dot(arms.centre) + rack.radius * rack.lifted.angle;
         }
         rack
+    }
+
+    /// The pitch radius, positive on the left of the line.
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether its statement says the radius.
+    pub fn has_said_radius(&self) -> bool {
+        self.pitch != Pitch::Height
     }
 
     fn arms(&self, x: &[Point]) -> Option<Arms> {
@@ -85,15 +136,21 @@ impl Declared for Rack {
     fn declare(given: &Given) -> Result<Self, Refusal> {
         let points = given.pairs()?;
         let [o, a, ..] = points.map(|p| given.at(p));
+        let radius = given.value(Field::Radius);
         if o == a {
+            let is_said = radius.is_some();
             return Err(Refusal {
                 message: "the rim point lies on the centre",
                 at: Culprit::Statement,
-                label: "a wheel of radius 0 does not roll",
+                label: if is_said {
+                    "it does not show how the wheel turns"
+                } else {
+                    "a wheel of radius 0 does not roll"
+                },
                 help: None,
             });
         }
-        Ok(Self::new(points, given.x))
+        Ok(Self::rolling(points, radius, given.x))
     }
 }
 
@@ -145,18 +202,23 @@ impl ConstraintKind for Rack {
     }
 
     fn get(&self, field: Field) -> Option<f64> {
-        (field == Field::Radius).then_some(self.radius)
+        let is_said = field == Field::Radius && self.has_said_radius();
+        is_said.then_some(self.pitch.side() * self.radius)
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        if field == Field::Radius {
+        if field != Field::Radius || !self.has_said_radius() {
+            return false;
+        }
+        let radius = self.pitch.side() * value;
+        if radius != self.radius {
             // Rolls on from where it stands.
             let angle = self.lifted.angle;
-            self.k += (value - self.radius) * angle - self.wound();
+            self.k += (radius - self.radius) * angle - self.wound();
             self.lifted = Winding::new(angle);
-            self.radius = value;
+            self.radius = radius;
         }
-        field == Field::Radius
+        true
     }
 
     fn nominal_length(&self) -> f64 {
@@ -174,12 +236,17 @@ impl ConstraintKind for Rack {
             is_wheel: true,
             carried: Carried::ByPose,
             flags: &[],
-            flaw: None,
+            flaw: match self.get(Field::Radius) {
+                Some(0.0) => Some(Flaw::ZeroRadius),
+                Some(radius) if radius < 0.0 => Some(Flaw::NegativeRadius),
+                _ => None,
+            },
         }
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        let Self { points: _, radius, k, lifted } = self;
+        // On which side it stands is the sign of the radius.
+        let Self { points: _, radius, pitch: _, k, lifted } = self;
         add_all([*radius], word);
         lifted.content(word);
         add_all([*k], word);
@@ -205,11 +272,14 @@ impl Stateful for Rack {
         if let &[radius, k] = captured {
             self.radius = radius;
             self.k = k;
+            if self.has_said_radius() {
+                self.pitch = if radius < 0.0 { Pitch::Right } else { Pitch::Left };
+            }
         }
     }
 
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::new(self.points, x);
+        *self = Self::rolling(self.points, self.get(Field::Radius), x);
     }
 
     fn advance(&mut self, _dt: f64) -> bool {
@@ -247,10 +317,28 @@ mod tests {
     }
 
     #[test]
+    fn the_height_of_a_wheel_with_a_radius_is_free() {
+        // On either side of the line, which one being that of the start.
+        for points in [[0, 1, 2, 3], [0, 1, 3, 2]] {
+            let lifted = |i: i32| {
+                let mut x = rolled(0.7 * f64::from(i));
+                let up = Vector::new(0.0, 3.0 * libm::sin(0.3 * f64::from(i)));
+                (x[0], x[1]) = (x[0] + up, x[1] + up);
+                x
+            };
+            let mut rack = Rack::with_radius(points, 2.0, &lifted(0));
+            for i in 0..200 {
+                assert!(rack.residual(&lifted(i)).abs() < 1e-12, "{i}");
+                rack.accept(&lifted(i));
+            }
+        }
+    }
+
+    #[test]
     fn a_change_of_radius_is_no_jump() {
-        let mut rack = Rack::new([0, 1, 2, 3], &rolled(0.0));
+        let mut rack = Rack::with_radius([0, 1, 2, 3], 2.0, &rolled(0.0));
         (0..50).for_each(|i| rack.accept(&rolled(f64::from(i))));
-        assert!(rack.set(Field::Radius, -7.0));
+        assert!(rack.set(Field::Radius, 7.0));
         assert!(rack.residual(&rolled(49.0)).abs() < 1e-12);
     }
 }

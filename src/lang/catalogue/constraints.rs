@@ -265,13 +265,16 @@ constraints! {
         example: "rigid A B C D",
     }
     Rack rack {
-        slots: [Points(2), Line(Role::On)],
-        takes: "a rack takes `on P Q`",
-        usage: "rack O A on P Q",
+        slots: [Points(2), Line(Role::On), Optional(Role::Radius, None)],
+        takes: "a rack takes `on P Q` and `radius r`",
+        usage: "rack O A on P Q [radius R]",
         summary: "a wheel rolls along a line without slipping",
         help: "O is the centre of the wheel and A a point of its rim, or any other point that turns with \
-             it. The radius is the height of O over the line as it stands: where the rim touches.",
-        example: "rack O A on P Q",
+             it. The radius is the height of O over the line as it stands: where the rim touches.\n\
+             With `radius` it is the pitch radius R at any height, on the side of the line where O is\n\
+             at the start, the left if on none. The height is not held.",
+        example: "rack O A on P Q\n\
+             rack O A on P Q radius 0.13",
     }
     Horizontal horizontal {
         slots: [Points(2)],

@@ -42,8 +42,8 @@ struct Wheel {
 enum Mesh {
     /// Two wheels and the ratio of their radii, second over first, negative for internal.
     Wheels([usize; 2], f64),
-    /// A wheel, the line it rolls on and its radius.
-    Rack(usize, [PointIdx; 2], f64),
+    /// A wheel, the line it rolls on, its radius, and whether it may be at any height over it.
+    Rack(usize, [PointIdx; 2], f64, bool),
 }
 
 /// All wheels of a scene, before they are sorted into trains.
@@ -64,10 +64,11 @@ impl Gears {
         self.meshes.push(Mesh::Wheels([first, second], ratio));
     }
 
-    /// Adds centre and marker of a wheel and the line it rolls on.
-    pub fn add_rack(&mut self, [o, a, p, q]: [PointIdx; 4], radius: f64) {
+    /// Adds centre and marker of a wheel and the line it rolls on, or a parallel to it at the
+    /// distance of the radius where the height is free.
+    pub fn add_rack(&mut self, [o, a, p, q]: [PointIdx; 4], radius: f64, is_free: bool) {
         let wheel = self.wheel([o, a], radius, false);
-        self.meshes.push(Mesh::Rack(wheel, [p, q], radius));
+        self.meshes.push(Mesh::Rack(wheel, [p, q], radius, is_free));
     }
 
     /// A wheel that is there already, or a new one: one shaft may carry wheels of several
@@ -108,7 +109,9 @@ impl Gears {
             }
             train.meshes.push(match mesh {
                 Mesh::Wheels(pair, ratio) => Mesh::Wheels(pair.map(|w| number_of[w]), ratio),
-                Mesh::Rack(wheel, line, radius) => Mesh::Rack(number_of[wheel], line, radius),
+                Mesh::Rack(wheel, line, radius, is_free) => {
+                    Mesh::Rack(number_of[wheel], line, radius, is_free)
+                }
             });
         }
         trains
@@ -168,7 +171,7 @@ impl Train {
                     found[a].get_or_insert(r1);
                     found[b].get_or_insert(r2);
                 }
-                Mesh::Rack(wheel, _, radius) => {
+                Mesh::Rack(wheel, _, radius, _) => {
                     found[wheel].get_or_insert(radius);
                 }
             }
@@ -241,9 +244,17 @@ impl Train {
         Some(rims)
     }
 
-    fn draw_rack(canvas: &mut Canvas, [p, q]: [PointIdx; 2], rim: &Rim) {
-        let segment = Segment::between(canvas, p, q);
+    fn draw_rack(canvas: &mut Canvas, [p, q]: [PointIdx; 2], rim: &Rim, is_free: bool) {
+        let mut segment = Segment::between(canvas, p, q);
         let e = Vector::polar(1.0, segment.placement.turn.to_radians());
+        if is_free {
+            canvas
+                .figure(Layer::Construction, segment.placement)
+                .path(Class::Construction, Path::along_x(0.0, segment.length));
+            let height = e.cross(rim.centre - segment.placement.at);
+            let side = if height < 0.0 { -1.0 } else { 1.0 };
+            segment.placement.at += e.perp() * (height - side * rim.radius);
+        }
         let to_centre = rim.centre - segment.placement.at;
         let support = to_centre.dot(e);
         let is_below = e.cross(to_centre) > 0.0;
@@ -273,7 +284,7 @@ impl Draw for Train {
         let mut points: Vec<PointIdx> =
             self.wheels.iter().flat_map(|wheel| [wheel.centre, wheel.marker]).collect();
         for mesh in &self.meshes {
-            if let Mesh::Rack(_, line, _) = mesh {
+            if let Mesh::Rack(_, line, ..) = mesh {
                 points.extend(line);
             }
         }
@@ -291,8 +302,8 @@ impl Draw for Train {
         let radii = self.radii(canvas.at);
         let rims = self.rims(canvas, &radii);
         for mesh in &self.meshes {
-            if let (Mesh::Rack(wheel, line, _), Some(rims)) = (*mesh, &rims) {
-                Self::draw_rack(canvas, line, &rims[wheel]);
+            if let (Mesh::Rack(wheel, line, _, is_free), Some(rims)) = (*mesh, &rims) {
+                Self::draw_rack(canvas, line, &rims[wheel], is_free);
             }
         }
         // A small wheel lies in front of a large one.

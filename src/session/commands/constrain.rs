@@ -285,6 +285,9 @@ pub(super) fn refuse_flaw(
         (Flaw::NegativeBeltRatio, _) => {
             ("a ratio of radii cannot be negative", span, format!("this is {now}"))
         }
+        (Flaw::ZeroRadius, _) => {
+            ("a wheel of radius 0 does not roll", span, format!("this is {now}"))
+        }
         (Flaw::ZeroRatio, _) => ("a ratio of radii cannot be 0", span, format!("this is {now}")),
     };
     let problem = Diagnostic::error(message).at(at, label);

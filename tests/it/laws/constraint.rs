@@ -322,7 +322,8 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
         // Turning the line or the line of centres alone reaches some way only, and a short
         // spoke or small wheel turns by more than the half turn that can be counted.
         Kind::Rack => {
-            let radius = c.get(Field::Radius).map_or(0.0, f64::abs);
+            let Constraint::Rack(rack) = c else { return false };
+            let radius = rack.radius().abs();
             let rim_is_on_line = c.points()[2..].contains(&c.points()[1]);
             let is_calm = shortest_segment(c, &scene.x) > 2.0 && radius > 1.0;
             is_free(1) && is_calm && !rim_is_on_line

@@ -102,7 +102,8 @@ impl Scene {
                 let n_points = 2 + usize::from(self.variant);
                 Rigid::new(&p[..n_points.min(p.len())], &before).into()
             }
-            Kind::Rack => Rack::new(four, &before).into(),
+            Kind::Rack if self.variant < 3 => Rack::new(four, &before).into(),
+            Kind::Rack => Rack::with_radius(four, length(n0), &before).into(),
             Kind::Symmetric => Symmetric { points: four }.into(),
             // Turned in any other way it would be no statement of the language.
             Kind::Aligned => {

@@ -75,6 +75,8 @@ fn constraint() -> impl Strategy<Value = String> {
         1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),
         1 => [point(), point(), point(), point()]
             .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
+        1 => ([point(), point(), point(), point()], number())
+            .prop_map(|([a, b, c, d], r)| format!("rack {a} {b} on {c} {d} radius abs({r})")),
     ];
     (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
 }

@@ -47,7 +47,9 @@ pub enum Kind {
     /// made.
     Rack {
         along: f64,
-        height: f64,
+        /// The pitch radius, positive on the left: the height above it unless it is said.
+        radius: f64,
+        is_said: bool,
         angle: f64,
     },
     Horizontal,
@@ -234,8 +236,20 @@ impl Kind {
         let arm = minus(o, p);
         Self::Rack {
             along: dot(v, arm) / norm(v),
-            height: cross(v, arm) / norm(v),
+            radius: cross(v, arm) / norm(v),
+            is_said: false,
             angle: angle_between(v, minus(a, o)),
+        }
+    }
+
+    /// The same of a pitch radius that is said.
+    pub fn pinion(said: f64, x: [Place; 4]) -> Self {
+        match Self::rack(x) {
+            Self::Rack { along, radius, angle, .. } => {
+                let radius = if radius < 0.0 { -said } else { said };
+                Self::Rack { along, radius, is_said: true, angle }
+            }
+            other => other,
         }
     }
 
@@ -343,14 +357,14 @@ impl Kind {
                 vec![range.outside(cross(v, minus(x[0], x[1])) / norm(v))]
             }
             Self::Rigid(made_at) => rigid(x, made_at),
-            Self::Rack { along, height, angle } => {
+            Self::Rack { along, radius, angle, .. } => {
                 if is_one_place(x[0], x[1]) || is_one_place(x[2], x[3]) {
                     return vec![idle()];
                 }
                 let v = minus(x[3], x[2]);
                 let s = dot(v, minus(x[0], x[2])) / norm(v) - T::constant(*along);
                 let by = turned(angle_between(v, minus(x[1], x[0])), *angle);
-                vec![active(s + T::constant(*height) * by)]
+                vec![active(s + T::constant(*radius) * by)]
             }
         }
     }
@@ -409,6 +423,10 @@ impl Kind {
                 let (ratio, way) =
                     ((second / first).abs(), if *second < 0.0 { " crossed" } else { "" });
                 format!("{word} {} {}, {} {} ratio {ratio}{way}", p[0], p[1], p[2], p[3])
+            }
+            Self::Rack { radius, is_said: true, .. } => {
+                let radius = radius.abs();
+                format!("{word} {} {} on {} {} radius {radius}", p[0], p[1], p[2], p[3])
             }
             Self::Rack { .. } => format!("{word} {} {} on {} {}", p[0], p[1], p[2], p[3]),
         }

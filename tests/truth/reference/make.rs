@@ -191,6 +191,7 @@ pub fn held(x: &[Place], word: &str, limits: f64, random: &mut Random) -> (Vec<u
         }
         "cog" => Kind::cog(random.pick(&[-0.25, -2.0, 0.5, 1.0, 3.0]), [0, 1, 2, 3].map(at)),
         "belt" => Kind::belt([1.0, 2.0], [0, 1, 2, 3].map(at)),
+        "pinion" => Kind::pinion(0.5, [0, 1, 2, 3].map(at)),
         "rack" => Kind::rack([0, 1, 2, 3].map(at)),
         _ => Kind::Rigid(p.iter().map(|&p| x[p]).collect()),
     };
@@ -234,6 +235,7 @@ pub fn stated(
         "bounded glider" => Kind::Glider { is_bounded: true },
         "hinge" => Kind::Hinge(value),
         "cog" => Kind::cog(2.0, [0, 1, 2, 3].map(at)),
+        "pinion" => Kind::pinion(value.max(0.5), [0, 1, 2, 3].map(at)),
         "belt" => Kind::belt([1.0, random.pick(&[2.0, -0.5])], [0, 1, 2, 3].map(at)),
         "distance" => Kind::Distance(range),
         "parallel" => Kind::Parallel,

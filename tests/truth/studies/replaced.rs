@@ -13,7 +13,7 @@ use crate::reference::random::Random;
 use crate::reference::scene::Scene;
 
 /// Kinds as a user tells them apart.
-const WORDS: [&str; 21] = [
+const WORDS: [&str; 22] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -33,6 +33,7 @@ const WORDS: [&str; 21] = [
     "horizontal",
     "multiple",
     "vertical",
+    "pinion",
     "belt",
     "symmetric",
 ];
@@ -120,6 +121,9 @@ fn replaced(old: &str, new: &str, random: &mut Random) -> f64 {
     match kind {
         Kind::Cog { ratio, .. } => *kind = Kind::cog(*ratio, [0, 1, 2, 3].map(|k| places[k])),
         Kind::Belt { radii, .. } => *kind = Kind::belt(*radii, [0, 1, 2, 3].map(|k| places[k])),
+        Kind::Rack { radius, is_said: true, .. } => {
+            *kind = Kind::pinion(radius.abs(), [0, 1, 2, 3].map(|k| places[k]));
+        }
         Kind::Rack { .. } => *kind = Kind::rack([0, 1, 2, 3].map(|k| places[k])),
         Kind::Rigid(made_at) if is_new => *made_at = places,
         // A motor that is switched on goes on from where its point then is, if that is anywhere.
