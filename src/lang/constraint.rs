@@ -26,7 +26,7 @@ pub struct Constraint {
 pub enum Part {
     /// `A`, `A B`, `A B C`
     Points(Vec<Name>),
-    /// `on A B`, `to A B`, `about A B`
+    /// `on A B`, `to A B`, `about A B`, `from A B`
     Line(Role, Pair),
     /// `= e`, `<= e`, `in a..b`; in a `change` of a point or a parameter `= e`.
     Relation(Relation),
@@ -47,6 +47,8 @@ pub enum Role {
     To,
     /// `about A B`: the axis of a symmetry.
     About,
+    /// `from A B`: the direction that an angle is measured from.
+    From,
     /// `radius e`
     Radius,
     /// `speed e`: an angle per time unit.
@@ -74,6 +76,7 @@ impl Role {
             Self::On => "on",
             Self::To => "to",
             Self::About => "about",
+            Self::From => "from",
             Self::Radius => "radius",
             Self::Speed => "speed",
             Self::Phase => "phase",

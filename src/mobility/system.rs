@@ -25,8 +25,9 @@ pub struct UnitRow {
     /// `f` divided by the value in the unit of the constraint.
     pub scale: f64,
     n_points: usize,
-    points: [u32; 4],
-    values: [f64; 8],
+    /// Those of a row, and one further unknown.
+    points: [u32; 5],
+    values: [f64; 10],
 }
 
 impl UnitRow {
@@ -53,8 +54,7 @@ impl UnitRow {
         self.values.iter_mut().for_each(|value| *value *= k);
     }
 
-    /// Adds a further unknown, the first of the two at `place`. No row of a motor has four
-    /// points already.
+    /// Adds a further unknown, the first of the two at `place`. There is room for one.
     pub fn add_unknown(&mut self, place: u32, gradient: f64) {
         self.points[self.n_points] = place;
         self.values[2 * self.n_points] = gradient;
@@ -222,8 +222,8 @@ impl ConstraintSystem<'_> {
             f: row.f * scale,
             scale,
             n_points: 0,
-            points: [0; 4],
-            values: [0.0; 8],
+            points: [0; 5],
+            values: [0.0; 10],
         };
         for (p, g) in row.terms() {
             if let Some(place) = place[p as usize] {

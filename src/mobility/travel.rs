@@ -133,9 +133,9 @@ impl<'a> Mechanism<'a> {
     fn rows(&mut self, stand: &Stand) -> UnitRows {
         let motor = &mut self.constraints[self.motor];
         motor.set(Field::Phase, self.phase + stand.turn);
-        let (radius, angle) = match motor {
-            Constraint::Motor(motor) => (motor.get(Field::Radius).unwrap_or(0.0), motor.angle()),
-            _ => (0.0, 0.0),
+        let slopes = match motor {
+            Constraint::Motor(motor) => motor.slopes(&stand.x),
+            _ => [0.0; 2],
         };
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
         let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: self.w };
@@ -149,10 +149,8 @@ impl<'a> Mechanism<'a> {
         });
         let turn = rows.points.len() as u32;
         rows.points.push(PointIdx::MAX);
-        let slope = Vector::polar(radius, angle).perp() * (-1.0 / self.size);
         for row in rows.rows.iter_mut().filter(|row| row.source.0 == self.motor) {
-            let part = if row.source.1 == 0 { slope.x } else { slope.y };
-            row.add_unknown(turn, part * row.scale);
+            row.add_unknown(turn, slopes[row.source.1] * (1.0 / self.size) * row.scale);
         }
         rows
     }

@@ -133,7 +133,7 @@ impl<'a> Classifier<'a> {
                     self.rods.insert(sorted([a, b]));
                 }
             }
-            (Constraint::Motor(_), &[a, b])
+            (Constraint::Motor(_), &[a, b, ..])
             | (Constraint::Glider(_) | Constraint::Hinge(_), &[_, a, b]) => connect(a, b),
             (
                 Constraint::Cog(_) | Constraint::CogVelocity(_) | Constraint::Rack(_),
@@ -193,10 +193,14 @@ impl<'a> Classifier<'a> {
             }
             Constraint::Motor(c) => {
                 let sense = Sense::of(record.constraint.get(Field::Speed).unwrap_or(0.0));
-                let n_motors = self.driven.entry(c.points[0]).or_default();
+                let crank = c.crank();
+                let n_motors = self.driven.entry(crank[0]).or_default();
                 let rank = *n_motors;
                 *n_motors = n_motors.saturating_add(1);
-                self.add(id, record, Crank { points: c.points, sense, rank });
+                if let Some([s, e]) = c.measured_from() {
+                    self.add(id, record, Angle { points: [s, e, crank[0], crank[1]] });
+                }
+                self.add(id, record, Crank { points: crank, sense, rank });
             }
             Constraint::Glider(c) => {
                 let [block, a, b] = c.points;

@@ -37,6 +37,12 @@ fn samples() -> Vec<(Kind, Vec<usize>, Vec<f64>)> {
             // At time 1/2 it points left.
             vec![5.0, 4.0],
         ),
+        (
+            // Where CD turned to the left points, along (1, 1), and across that.
+            Kind::Elbow { radius: 2.0, phase: FRAC_PI_2 },
+            all.clone(),
+            vec![7.0 * FRAC_1_SQRT_2 - 2.0, FRAC_1_SQRT_2],
+        ),
         (Kind::Glider { is_bounded: false }, vec![2, 0, 1], vec![0.4]),
         (Kind::Glider { is_bounded: true }, vec![0, 2, 3], vec![-1.5 * SQRT_2]),
         (Kind::Glider { is_bounded: true }, vec![0, 2, 1], vec![-1.0, -2.0]),

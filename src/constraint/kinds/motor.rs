@@ -1,26 +1,39 @@
-//! The motor constraint, section 3.7: a point that circulates around another.
+//! The motor constraint, section 3.7: a point that circulates around another, its angle measured
+//! against the x axis, or between two links.
 
 use std::sync::Arc;
 
+use crate::constraint::parts::carried_crank::CarriedCrank;
 use crate::constraint::parts::content::add_all;
+use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::linear::Linear;
+use crate::constraint::parts::two_rows;
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
     Quantity, Real, Refusal, Row, Stateful, Traits, Turns, Vec2, Vector,
 };
 
 /// The second point lies at distance `radius` from the first, at the angle `phase + turned`
-/// against the x axis.
+/// against the x axis, or against the direction from a third point to a fourth.
 ///
-/// The radius makes it a vector equation: linear, exact in one step and without the pole of
-/// an angle where the points coincide.
+/// The radius makes it a vector equation, without the pole of an angle where the points coincide.
+/// Against the x axis it is linear, so exact in one step. Between two links it asks for nothing
+/// while the points that the angle is measured from coincide.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motor {
-    /// The centre and the point driven around it.
-    pub points: [PointIdx; 2],
+    points: Points,
     heading: Heading,
     /// What stays from frame to frame: shared by copies, so that each is small and made at once.
     drive: Arc<Drive>,
+}
+
+/// The centre and the point driven around it, and where the angle is measured from.
+#[derive(Debug, Clone, PartialEq)]
+enum Points {
+    /// The x axis.
+    Fixed([PointIdx; 2]),
+    /// The direction from the third to the fourth. In a box, since most motors have none.
+    Between(Box<[PointIdx; 4]>),
 }
 
 /// All that time changes of a motor.
@@ -28,7 +41,7 @@ pub struct Motor {
 pub struct Heading {
     /// How far it has turned since it was made.
     turned: Turns,
-    /// Where the driven point belongs, from the centre.
+    /// Where the driven point belongs, from the centre, if the angle is measured from the x axis.
     target: Vector,
 }
 
@@ -51,7 +64,31 @@ impl Motor {
         let target = Vector::polar(radius, phase);
         let step = (0.0, Turns::default());
         let drive = Arc::new(Drive { radius, phase, speed, mean_speed: speed, step });
+        let points = Points::Fixed(points);
         Self { points, heading: Heading { turned: Turns::default(), target }, drive }
+    }
+
+    /// The same, its angles measured from the direction from one point to another.
+    #[must_use]
+    pub fn between(self, [s, e]: [PointIdx; 2]) -> Self {
+        let [a, b] = self.crank();
+        Self { points: Points::Between(Box::new([a, b, s, e])), ..self }
+    }
+
+    /// The centre and the point driven around it.
+    pub fn crank(&self) -> [PointIdx; 2] {
+        match &self.points {
+            Points::Fixed(crank) => *crank,
+            Points::Between(points) => [points[0], points[1]],
+        }
+    }
+
+    /// The points of the direction that its angles are measured from; none if from the x axis.
+    pub fn measured_from(&self) -> Option<[PointIdx; 2]> {
+        match &self.points {
+            Points::Fixed(_) => None,
+            Points::Between(points) => Some([points[2], points[3]]),
+        }
     }
 
     /// How far it has turned, and where that leads.
@@ -70,7 +107,7 @@ impl Motor {
         Arc::ptr_eq(&self.drive, &other.drive)
     }
 
-    /// The angle against the x axis without whole turns, radians.
+    /// The angle without whole turns, radians.
     pub fn angle(&self) -> f64 {
         crate::constraint::parts::geometry::wrap(self.drive.phase + self.heading.turned.angle())
     }
@@ -91,9 +128,21 @@ impl Motor {
         self.aim();
     }
 
-    /// Where the driven point belongs, from the centre.
+    /// Where the driven point belongs, from the centre, if the angle is measured from the x axis.
     pub const fn target(&self) -> Vector {
         self.heading.target
+    }
+
+    /// How the values of its two rows change with its angle, at a pose.
+    pub fn slopes(&self, x: &[Point]) -> [f64; 2] {
+        match &self.points {
+            Points::Fixed(_) => {
+                let Vector { x, y } = -self.heading.target.perp();
+                [x, y]
+            }
+            Points::Between(points) => CarriedCrank::new(**points, self.angle(), x)
+                .map_or([0.0; 2], |crank| crank.slopes()),
+        }
     }
 
     /// Says what the speed was on the average over the frame that it advances by next: that is how
@@ -109,13 +158,19 @@ impl Motor {
     }
 
     fn linear(&self) -> Linear {
-        let [a, b] = self.points;
+        let [a, b] = self.crank();
         Linear::new().with_real(a, -1.0).with_real(b, 1.0)
     }
 
+    /// The value of the vector equation where the angle is measured from the x axis.
     fn value(&self, x: &[Point]) -> Vector {
-        let [x1, x2] = self.points.map(|p| x[p as usize]);
+        let [x1, x2] = self.crank().map(|p| x[p as usize]);
         (x2 - x1) - self.heading.target
+    }
+
+    /// The rows of a motor between two links.
+    fn rows(&self, points: [PointIdx; 4], x: &[Point]) -> Option<[Row; 2]> {
+        Some(CarriedCrank::new(points, self.angle(), x)?.rows(self.drive.radius))
     }
 }
 
@@ -137,19 +192,48 @@ impl Declared for Motor {
             }
             None => o.distance(p),
         };
-        let phase = given.value(Field::Phase).unwrap_or_else(|| (p - o).angle());
         let speed = given.value(Field::Speed).unwrap_or(0.0);
-        Ok(Self::new(points, radius, phase, speed))
+        let said = given.value(Field::Phase);
+        if given.groups.len() == 1 {
+            let phase = said.unwrap_or_else(|| (p - o).angle());
+            return Ok(Self::new(points, radius, phase, speed));
+        }
+        let from = given.two(1, "a direction needs two different points")?;
+        if from == points || from == [points[1], points[0]] {
+            return Err(Refusal {
+                message: "the angle of a crank against itself is always the same",
+                at: Culprit::Group(1),
+                label: "the same two points again",
+                help: Some("name the link that carries the motor"),
+            });
+        }
+        let [s, e] = from.map(|p| given.at(p));
+        if said.is_none() && !has_direction(s, e) {
+            return Err(Refusal {
+                message: "there is no direction between points that coincide",
+                at: Culprit::Group(1),
+                label: "so the motor has no angle now",
+                help: Some("say which it is to have: `phase 90deg`"),
+            });
+        }
+        let phase = said.unwrap_or_else(|| (e - s).angle_to(p - o));
+        Ok(Self::new(points, radius, phase, speed).between(from))
     }
 }
 
 impl ConstraintKind for Motor {
     fn points(&self) -> &[PointIdx] {
-        &self.points
+        match &self.points {
+            Points::Fixed(points) => points,
+            Points::Between(points) => &**points,
+        }
     }
 
     fn points_mut(&mut self) -> &mut [PointIdx] {
-        &mut self.points
+        match &mut self.points {
+            Points::Fixed(points) => points,
+            Points::Between(points) => &mut **points,
+        }
     }
 
     fn n_rows(&self) -> usize {
@@ -157,15 +241,34 @@ impl ConstraintKind for Motor {
     }
 
     fn residual(&self, x: &[Point]) -> f64 {
-        self.value(x).norm()
+        match &self.points {
+            Points::Fixed(_) => self.value(x).norm(),
+            Points::Between(points) => self
+                .rows(**points, x)
+                .map_or(0.0, |[along, across]| Vector::new(along.f, across.f).norm()),
+        }
     }
 
+    /// Exact against the x axis; to first order between two links, of which both turn.
     fn correct(&self, x: &[Point], w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
-        self.linear().correct(self.value(x), w, move_by);
+        match &self.points {
+            Points::Fixed(_) => self.linear().correct(self.value(x), w, move_by),
+            Points::Between(points) => {
+                if let Some(rows) = self.rows(**points, x) {
+                    two_rows::correct(&rows, w, move_by);
+                }
+            }
+        }
     }
 
     fn jacobian(&self, x: &[Point], row: &mut impl FnMut(Row)) {
-        self.linear().rows(self.value(x), row);
+        match &self.points {
+            Points::Fixed(_) => self.linear().rows(self.value(x), row),
+            Points::Between(points) => {
+                let idle = || [Row::inactive(&**points); 2];
+                self.rows(**points, x).unwrap_or_else(idle).into_iter().for_each(row);
+            }
+        }
     }
 
     fn equations<T: Real>(
@@ -174,14 +277,26 @@ impl ConstraintKind for Motor {
         field: &impl Fn(Field, f64) -> T,
         equation: &mut impl FnMut(T),
     ) {
-        let [x1, x2] = self.points.map(x);
+        let [x1, x2] = self.crank().map(x);
         let turned =
             T::integral(self.heading.turned.angle(), field(Field::Speed, self.drive.speed));
         let angle = field(Field::Phase, self.drive.phase) + turned;
         let radius = field(Field::Radius, self.drive.radius);
         let v = x2 - x1;
-        equation(v.x - radius * angle.cos());
-        equation(v.y - radius * angle.sin());
+        let u = Vec2 { x: angle.cos(), y: angle.sin() };
+        let Some(from) = self.measured_from() else {
+            equation(v.x - radius * u.x);
+            return equation(v.y - radius * u.y);
+        };
+        let [s, e] = from.map(x);
+        if !has_direction(s.value().to_point(), e.value().to_point()) {
+            equation(T::constant(0.0));
+            return equation(T::constant(0.0));
+        }
+        let link = e - s;
+        let u = u.times(link.scale(T::constant(1.0) / link.norm()));
+        equation(u.dot(v) - radius);
+        equation(u.cross(v));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
@@ -218,8 +333,9 @@ impl ConstraintKind for Motor {
             quantity: Quantity::Length,
             bounds: None,
             activity: Activity::Always,
-            n_firm_rows: 2,
-            is_linear: true,
+            // What the angle is measured from feels only how it turns.
+            n_firm_rows: if self.measured_from().is_some() { 1 } else { 2 },
+            is_linear: self.measured_from().is_none(),
             is_wheel: false,
             carried: Carried::ByClock,
             flags: &[],
@@ -257,9 +373,16 @@ impl Stateful for Motor {
     /// Goes on from where the driven point is now, by less than half a turn; a point at the
     /// centre changes nothing.
     fn pick_up(&mut self, x: &[Point]) {
-        let [x1, x2] = self.points.map(|p| x[p as usize]);
-        if x1 != x2 {
-            self.heading.turned = self.heading.turned.pick_up((x2 - x1).angle() - self.drive.phase);
+        let [x1, x2] = self.crank().map(|p| x[p as usize]);
+        let angle = match self.measured_from() {
+            None => Some((x2 - x1).angle()),
+            Some(from) => {
+                let [s, e] = from.map(|p| x[p as usize]);
+                has_direction(s, e).then(|| (e - s).angle_to(x2 - x1))
+            }
+        };
+        if let Some(angle) = angle.filter(|_| x1 != x2) {
+            self.heading.turned = self.heading.turned.pick_up(angle - self.drive.phase);
             self.aim();
         }
     }
@@ -342,6 +465,28 @@ mod tests {
         assert!((motor.total() - total).abs() <= 0.5 * TAU);
         motor.pick_up(&[x[0], x[0]]);
         assert!((motor.target() - Vector::new(0.0, -1.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn between_two_links_both_give_way() {
+        // E H is to stand at a right angle on S E; both turn, and the length comes right too.
+        let motor = Motor::new([1, 2], 2.0, FRAC_PI_2, 0.0).between([0, 1]);
+        let mut x = [Point::ORIGIN, Point::new(3.0, 0.2), Point::new(4.0, 1.5)];
+        for _ in 0..20 {
+            motor.correct(&x.clone(), &[1.0, 1.0, 1.0], &mut |p, d| x[p as usize] += d);
+        }
+        let (upper, lower) = (x[1] - x[0], x[2] - x[1]);
+        assert!((lower.norm() - 2.0).abs() < 1e-14 && upper.dot(lower).abs() < 1e-13);
+        assert!(upper.cross(lower) > 0.0 && x[0] != Point::ORIGIN);
+    }
+
+    #[test]
+    fn switched_on_again_between_links_it_goes_on_from_the_point() {
+        let mut motor = Motor::new([1, 2], 1.0, 0.0, 1.0).between([0, 1]);
+        let x = [Point::ORIGIN, Point::new(0.0, 3.0), Point::new(1.0, 3.0)];
+        motor.pick_up(&x);
+        assert!((motor.angle() + FRAC_PI_2).abs() < 1e-15);
+        assert!(motor.residual(&x) < 1e-15);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the kinds are made of.
 
 pub mod bounds;
+pub mod carried_crank;
 pub mod content;
 pub mod gearing;
 pub mod geometry;

@@ -24,7 +24,7 @@ pub enum Slot {
     Points(usize),
     /// All the points there are.
     AllPoints,
-    /// Two points of a line.
+    /// Two points of a line; that which angles are measured from may be left out.
     Line(Role),
     /// What holds for the measured value: without one the present value is kept, or this one.
     Relation {
@@ -65,6 +65,12 @@ impl Pattern {
             _ => matches!((slot, part), (Slot::Value(Role::At), Part::Value(Role::Ratio, _))),
         };
         self.slots.iter().find(fits).copied()
+    }
+
+    /// How many groups of points come first, before any line.
+    pub fn n_point_groups(&self) -> usize {
+        let is_points = |slot: &&Slot| matches!(slot, Slot::Points(_) | Slot::AllPoints);
+        self.slots.iter().filter(is_points).count()
     }
 
     /// Whether its statement can say what holds for the measured value.
@@ -194,16 +200,19 @@ constraints! {
     Motor motor {
         slots: [
             Points(2),
+            Line(Role::From),
             Optional(Role::Radius, None),
             Optional(Role::Speed, None),
             Optional(Role::Phase, None),
         ],
-        takes: "a motor takes `radius`, `speed` and `phase`",
-        usage: "motor O P [radius R] [speed W] [phase PHI]",
+        takes: "a motor takes `radius`, `speed`, `phase` and `from A B`",
+        usage: "motor O P [radius R] [speed W] [phase PHI] [from A B]",
         summary: "P goes round O (3.7)",
         help: "The parts come in any order. Radius and phase are the present ones unless given.\n\
-             The angle grows by speed times dt each frame, so a change of speed makes no jump.",
-        example: "crank: motor O P radius 1 speed 1rev phase 90deg",
+             The angle grows by speed times dt each frame, so a change of speed makes no jump.\n\
+             It is measured from the x axis, or from the direction AB: a motor between two links.",
+        example: "crank: motor O P radius 1 speed 1rev phase 90deg\n\
+             motor E H speed 1rev from S E",
     }
     Glider glider {
         slots: [Points(1), Line(Role::On), Flag(Role::Unbounded)],

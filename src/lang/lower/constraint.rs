@@ -79,6 +79,7 @@ pub(super) fn role(rule: Rule) -> Option<Role> {
         Rule::on_line => Role::On,
         Rule::to_line => Role::To,
         Rule::about_line => Role::About,
+        Rule::from_line => Role::From,
         Rule::radius => Role::Radius,
         Rule::speed => Role::Speed,
         Rule::phase => Role::Phase,

@@ -325,6 +325,7 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::close_bracket
             | Rule::kw_to
             | Rule::kw_about
+            | Rule::kw_from
             | Rule::kw_over
             | Rule::kw_on
             | Rule::kw_at

@@ -92,8 +92,12 @@ impl Resolver<'_> {
                 let ends = self.ends(line)?;
                 let x = self.state.world.points().column();
                 let made = declare_again(&record.constraint, x, |said| {
-                    *said.groups.last_mut().expect("it has a line") = ends.to_vec();
+                    // The line stands behind the points, if it is said.
+                    said.groups.truncate(pattern.n_point_groups());
+                    said.groups.push(ends.to_vec());
                     said.flags.clear();
+                    // Another angle than that from another line would be a jump.
+                    said.values.retain(|(field, _)| *field != Field::Phase);
                 });
                 let at = line.from.span.to(line.to.span);
                 record.constraint = made.map_err(|refusal| refusal_at(&refusal, at))?;

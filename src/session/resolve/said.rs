@@ -33,7 +33,9 @@ impl Said {
                 Slot::Line(_) => 2,
                 _ => return None,
             };
-            Some(points.by_ref().take(n_points).collect())
+            let group: Vec<PointIdx> = points.by_ref().take(n_points).collect();
+            // A line may be left out.
+            (!group.is_empty()).then_some(group)
         });
         let values = Field::ALL.into_iter();
         let values = values.filter_map(|field| Some((field, constraint.get(field)?)));
@@ -70,6 +72,7 @@ pub(crate) fn field_of(role: Role) -> Field {
         Role::On
         | Role::To
         | Role::About
+        | Role::From
         | Role::Teeth
         | Role::Inside
         | Role::Crossed

@@ -189,9 +189,10 @@ pub(crate) fn find(
 /// The place of `p` that satisfies a linear vector equation.
 fn assign(p: PointIdx, constraint: &Constraint, x: &[Point]) -> Option<Point> {
     if let Constraint::Motor(motor) = constraint
-        && motor.points[1] == p
+        && let [o, driven] = motor.crank()
+        && driven == p
     {
-        return Some(x[motor.points[0] as usize] + motor.target());
+        return Some(x[o as usize] + motor.target());
     }
     let mut rows = [(0.0, Vector::ZERO); 2];
     let mut n = 0;

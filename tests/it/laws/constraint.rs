@@ -104,7 +104,8 @@ proptest! {
         let Some(met) = satisfied(&c, &scene) else { return Ok(()) };
         // A segment cannot shrink below 0: at that kink there is no gradient. A short axis turns
         // far for little.
-        let has_kinks = matches!(scene.kind, Kind::Equal | Kind::Symmetric);
+        let has_kinks =
+            matches!(scene.kind, Kind::Equal | Kind::Symmetric) || scene.is_between_links();
         prop_assume!(!has_kinks || shortest_segment(&c, &met) > 0.01);
         let x = moved(&met, &scene.before.iter().zip(&scene.x).map(|(&a, &b)| a - b).collect::<Vec<_>>(), 1e-6);
         let d = correction(&c, &x, &scene.w);
@@ -333,6 +334,11 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
             let [_, _, p, q] = four(c);
             let is_calm = scene.x[p].distance(scene.x[q]) > 2.0;
             (is_free(0) || is_free(1)) && is_calm && !scene.has_repeats()
+        }
+        // Where the crank itself is held, both its length and its angle may be wrong.
+        Kind::Motor if scene.is_between_links() => {
+            let [_, _, s, e] = four(c);
+            is_free(1) && scene.x[s].distance(scene.x[e]) > 2.0 && !scene.has_repeats()
         }
         Kind::Cog if shortest_segment(c, &scene.x) < 2.0 => false,
         Kind::Cog => is_free(1) || (is_free(3) && scene.ratio() != 0.0),

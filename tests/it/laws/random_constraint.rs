@@ -81,8 +81,12 @@ impl Scene {
                 Orientation { points: four, bounds, period, side: 0.0 }.into()
             }
             Kind::Motor => {
-                let motor = Motor::new([p[0], p[1]], length(n0), 3.0 * n1 + by.angle, n2);
-                let mut motor = Constraint::from(motor);
+                let at = |phase: f64| Motor::new([p[0], p[1]], length(n0), phase, n2);
+                let mut motor = Constraint::from(if self.is_between_links() {
+                    at(3.0 * n1).between([p[2], p[3]])
+                } else {
+                    at(3.0 * n1 + by.angle)
+                });
                 motor.advance(1.0);
                 motor
             }
@@ -168,8 +172,16 @@ impl Scene {
         }
     }
 
+    /// Whether it is a motor that measures its angle from a direction among the points.
+    pub fn is_between_links(&self) -> bool {
+        self.kind == Kind::Motor && self.variant > 2
+    }
+
     /// Whether one correction is exact wherever it starts.
     pub fn is_exact(&self) -> bool {
+        if self.is_between_links() {
+            return false;
+        }
         !matches!(self.kind, Kind::Cog | Kind::Rack | Kind::Distance | Kind::Symmetric)
             && !self.has_repeats()
     }

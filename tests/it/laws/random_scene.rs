@@ -53,6 +53,9 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|([a, b, c, d], r)| format!("orientation {a} {b}, {c} {d} {r}")),
         2 => (point(), point(), number(), number())
             .prop_map(|(a, b, r, v)| format!("motor {a} {b} radius abs({r}) speed {v}")),
+        1 => ([point(), point(), point(), point()], number(), number()).prop_map(
+            |([a, b, c, d], r, v)| format!("motor {a} {b} radius abs({r}) speed {v} from {c} {d}")
+        ),
         2 => ([point(), point(), point()], any::<bool>()).prop_map(|([a, b, c], free)| {
             format!("glider {a} on {b} {c} {}", if free { "unbounded" } else { "" })
         }),

@@ -52,6 +52,11 @@ pub enum Kind {
         is_said: bool,
         angle: f64,
     },
+    /// A motor that stands, its angle measured from the direction of two more points.
+    Elbow {
+        radius: f64,
+        phase: f64,
+    },
     Horizontal,
     Vertical,
     Symmetric,
@@ -262,7 +267,7 @@ impl Kind {
             Self::Equal(_) | Self::Multiple(_) => 3,
             Self::Length(_) => 4,
             Self::Orientation(_) => 5,
-            Self::Motor { .. } => 6,
+            Self::Motor { .. } | Self::Elbow { .. } => 6,
             Self::Glider { .. } => 7,
             Self::Hinge(_) => 8,
             Self::Cog { .. } => 9,
@@ -318,6 +323,17 @@ impl Kind {
             Self::Motor { radius, phase, speed } => {
                 let phi = phase + speed * time;
                 vector(minus(minus(x[1], x[0]), constant(polar(*radius, phi))))
+            }
+            Self::Elbow { radius, phase } => {
+                if is_one_place(x[2], x[3]) {
+                    return vec![idle(), idle()];
+                }
+                // Along where it belongs, and across.
+                let (link, crank) = (minus(x[3], x[2]), minus(x[1], x[0]));
+                let belongs = times(link, polar(1.0, *phase));
+                let along = dot(belongs, crank) / norm(link);
+                let across = cross(belongs, crank) / norm(link);
+                vec![active(along - T::constant(*radius)), active(across)]
             }
             Self::Glider { is_bounded } => glider(x, *is_bounded),
             Self::Hinge(ratio) => {
@@ -401,6 +417,10 @@ impl Kind {
             Self::Length(range) => format!("{word} {} {}{}", p[0], p[1], range.text(0.0, far)),
             Self::Motor { radius, phase, speed } => {
                 format!("{word} {} {} radius {radius} speed {speed} phase {phase}", p[0], p[1])
+            }
+            Self::Elbow { radius, phase } => {
+                let [o, h, s, e] = [&p[0], &p[1], &p[2], &p[3]];
+                format!("{word} {o} {h} radius {radius} phase {phase} from {s} {e}")
             }
             Self::Glider { is_bounded } => {
                 let ends = if *is_bounded { "" } else { " unbounded" };

@@ -190,6 +190,11 @@ pub fn held(x: &[Place], word: &str, limits: f64, random: &mut Random) -> (Vec<u
             Kind::Motor { radius: plane::length(v), phase: direction(v), speed }
         }
         "cog" => Kind::cog(random.pick(&[-0.25, -2.0, 0.5, 1.0, 3.0]), [0, 1, 2, 3].map(at)),
+        "elbow" => {
+            let (crank, link) = (way(at(0), at(1)), way(at(2), at(3)));
+            let phase = direction(crank) - direction(link);
+            Kind::Elbow { radius: plane::length(crank), phase }
+        }
         "belt" => Kind::belt([1.0, 2.0], [0, 1, 2, 3].map(at)),
         "pinion" => Kind::pinion(0.5, [0, 1, 2, 3].map(at)),
         "rack" => Kind::rack([0, 1, 2, 3].map(at)),
@@ -231,6 +236,7 @@ pub fn stated(
         "orientation" if range.is_exact() => Kind::Orientation(range),
         "orientation" => Kind::Orientation(Range { lo: value.min(2.0), hi: value.min(2.0) + 1.0 }),
         "motor" => Kind::Motor { radius: value, phase: random.angle(), speed: 0.0 },
+        "elbow" => Kind::Elbow { radius: value, phase: random.angle() },
         "glider" => Kind::Glider { is_bounded: false },
         "bounded glider" => Kind::Glider { is_bounded: true },
         "hinge" => Kind::Hinge(value),

@@ -13,7 +13,7 @@ use crate::reference::random::Random;
 use crate::reference::scene::Scene;
 
 /// Kinds as a user tells them apart.
-const WORDS: [&str; 22] = [
+const WORDS: [&str; 23] = [
     "coordinate",
     "coincidence",
     "equivalence",
@@ -33,6 +33,7 @@ const WORDS: [&str; 22] = [
     "horizontal",
     "multiple",
     "vertical",
+    "elbow",
     "pinion",
     "belt",
     "symmetric",
@@ -129,6 +130,10 @@ fn replaced(old: &str, new: &str, random: &mut Random) -> f64 {
         // A motor that is switched on goes on from where its point then is, if that is anywhere.
         Kind::Motor { phase, .. } if !is_new && places[0] != places[1] => {
             *phase = direction(way(places[0], places[1]));
+        }
+        Kind::Elbow { phase, .. } if !is_new && places[0] != places[1] => {
+            let link = direction(way(places[2], places[3]));
+            *phase = direction(way(places[0], places[1])) - link;
         }
         _ => {}
     }

@@ -179,6 +179,7 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_ratio => "ratio",
         Rule::kw_teeth => "teeth",
         Rule::kw_about => "about",
+        Rule::kw_from => "from",
         _ => return constraint::role(rule).map(Role::word),
     })
 }
