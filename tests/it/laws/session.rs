@@ -49,10 +49,6 @@ fn has_begun(talking: &Talking) -> bool {
 /// Taken back to before the first frame, a session is as one in which none has passed, and goes
 /// on as it went.
 fn undone_to_the_start(statements: &[String]) {
-    // The number of an instance that is not named is not given again once it was taken back.
-    let is_named =
-        |statement: &&String| !statement.starts_with("use ") || statement.contains(" as ");
-    let statements: Vec<String> = statements.iter().filter(is_named).cloned().collect();
     let mut talking = Talking::after(SCENE);
     let mut n_before = 0;
     while n_before < statements.len() && !has_begun(&talking) {
