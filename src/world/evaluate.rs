@@ -64,6 +64,16 @@ impl World {
         Ok(())
     }
 
+    /// Makes a parameter that was there before, whether or not it has a value now; gives the edit
+    /// that takes it back.
+    pub fn restore_parameter(&mut self, id: ParameterId, name: NameText, formula: Formula) -> Edit {
+        let depends = self.depends(&formula);
+        let value = (!depends.on_rates).then(|| self.evaluate(&formula, None).ok()).flatten();
+        // Why it has none is noted once it is asked for.
+        self.dependencies.note_change();
+        self.apply(Edit::Parameter(id, Some(Box::new(Parameter { name, formula, value, depends }))))
+    }
+
     /// Parameters that depend on one, each after those it mentions, and the constraints.
     fn affected(&self, id: ParameterId) -> (Vec<ParameterId>, Vec<ConstraintId>) {
         let mut finished: Vec<ParameterId> = Vec::new();

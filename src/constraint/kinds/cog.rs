@@ -256,8 +256,11 @@ impl Stateful for Cog {
         }
     }
 
+    /// Wheels of which one has no direction mesh as before.
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::new(self.points, self.ratio, x);
+        if self.spokes(x).is_some() {
+            *self = Self::new(self.points, self.ratio, x);
+        }
     }
 
     fn advance(&mut self, _dt: f64) -> bool {

@@ -84,14 +84,15 @@ impl Declared for Rack {
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
         let points = given.pairs()?;
-        let [o, a, ..] = points.map(|p| given.at(p));
-        if o == a {
-            return Err(Refusal {
-                message: "the rim point lies on the centre",
-                at: Culprit::Statement,
-                label: "a wheel of radius 0 does not roll",
-                help: None,
-            });
+        let [o, a, p, q] = points.map(|p| given.at(p));
+        let without_direction = [
+            (o == a, "the rim point lies on the centre", "a wheel of radius 0 does not roll"),
+            (p == q, "the points of the line lie on each other", "no line to roll along"),
+        ];
+        for (is_so, message, label) in without_direction {
+            if is_so && !given.is_restored {
+                return Err(Refusal { message, at: Culprit::Statement, label, help: None });
+            }
         }
         Ok(Self::new(points, given.x))
     }
@@ -208,8 +209,11 @@ impl Stateful for Rack {
         }
     }
 
+    /// A wheel or a line without a direction rolls as before.
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::new(self.points, x);
+        if self.arms(x).is_some() {
+            *self = Self::new(self.points, x);
+        }
     }
 
     fn advance(&mut self, _dt: f64) -> bool {

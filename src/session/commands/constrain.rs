@@ -27,7 +27,9 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let stated = &declaration.constraint;
         let (constraint, drivers) = self.resolve().build(stated, span)?;
-        self.note_slips(&constraint, &stated.parts, &drivers);
+        if !self.state.is_restoring {
+            self.note_slips(&constraint, &stated.parts, &drivers);
+        }
         let name = match &declaration.label {
             Some(label) => self.resolve().declare(label)?,
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
@@ -47,7 +49,8 @@ impl Resolver<'_> {
     ) -> Result<(Constraint, Drivers), Diagnostic> {
         let pattern = word.pattern();
         let mut drivers = Drivers::new();
-        let said = self.say(pattern, parts, &mut drivers)?;
+        let mut said = self.say(pattern, parts, &mut drivers)?;
+        said.is_restored = self.state.is_restoring;
         let word = pattern.entry.keyword;
         let kind = Kind::stated_by(word).expect("each word states a kind");
         let kind = match (kind, self.state.preferences.solve.cog) {
@@ -57,7 +60,9 @@ impl Resolver<'_> {
         let constraint = said
             .declare(kind, word, self.state.world.points().column())
             .map_err(|refusal| refused(&refusal, parts, span))?;
-        refuse_flaw(&constraint, parts, span)?;
+        if !self.state.is_restoring {
+            refuse_flaw(&constraint, parts, span)?;
+        }
         Ok((constraint, drivers))
     }
 

@@ -106,6 +106,7 @@ impl Execution<'_> {
         }
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
+        self.change(Change::Restoring(false));
         let definitions: Vec<_> = self.state.definitions.keys().cloned().collect();
         for name in definitions {
             self.change(Change::Definition(Box::new((name, None))));

@@ -25,11 +25,13 @@ pub enum Restorable {
     Ghost,
     /// What the solver remembers.
     Memory,
+    /// Whether what follows was there before: 1 or 0.
+    Past,
 }
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Clock,
         Self::Start,
         Self::State,
@@ -40,6 +42,7 @@ impl Restorable {
         Self::Missed,
         Self::Ghost,
         Self::Memory,
+        Self::Past,
     ];
 
     /// Its word in the statement.
@@ -55,6 +58,7 @@ impl Restorable {
             Self::Missed => "missed",
             Self::Ghost => "ghost",
             Self::Memory => "memory",
+            Self::Past => "past",
         }
     }
 

@@ -5,6 +5,7 @@ use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
+use crate::session::undo::journal::Change;
 use crate::world::{Clock, Edit, Ghost, Record, Sample, Value};
 
 /// Why something cannot be restored.
@@ -66,8 +67,9 @@ impl Execution<'_> {
             (Restorable::Missed, Some(name)) => self.restore_missed(name, values),
             (Restorable::Ghost, None) => self.restore_ghost(values),
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
+            (Restorable::Past, None) => self.restore_past(values),
             // These have an owner or none, and this is the other way.
-            (Restorable::Clock | Restorable::Ghost, Some(_))
+            (Restorable::Clock | Restorable::Ghost | Restorable::Past, Some(_))
             | (
                 Restorable::Start
                 | Restorable::State
@@ -130,6 +132,16 @@ impl Execution<'_> {
             return Err(Unfit::Values);
         }
         self.set_memory(memory);
+        Ok(())
+    }
+
+    fn restore_past(&mut self, values: &[Value]) -> Restored {
+        let is_restoring = match numbers(values)?[..] {
+            [1.0] => true,
+            [0.0] => false,
+            _ => return Err(Unfit::Values),
+        };
+        self.change(Change::Restoring(is_restoring));
         Ok(())
     }
 

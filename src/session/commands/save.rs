@@ -45,12 +45,14 @@ impl State {
             line(&mut script, Building::Define(definition.clone()));
         }
         self.save_points(&mut script);
+        restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
         for id in self.parameters_in_order() {
             let text = Unbind::of(&self.world).parameter_text(id);
             script.push_str(&text);
             script.push('\n');
         }
         self.save_constraints(&mut script);
+        restore(&mut script, Restorable::Past, None, numbers(&[0.0]));
         self.save_looks(&mut script);
         for (owner, values) in
             self.solver.memory().for_settings(&self.preferences.solve).to_numbers()

@@ -147,7 +147,12 @@ impl Resolver<'_> {
                     return Err(Diagnostic::error("a velocity cannot drive a constraint")
                         .at(expr.span, "velocities follow from the constraints"));
                 }
-                Ok((self.state.world.evaluate(&formula, None)?, Some(formula)))
+                let value = match self.state.world.evaluate(&formula, None) {
+                    // The one that it had last is put back after.
+                    Err(_) if self.state.is_restoring => Value::zero(shape),
+                    value => value?,
+                };
+                Ok((value, Some(formula)))
             }
         }
     }

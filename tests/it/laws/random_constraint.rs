@@ -127,8 +127,15 @@ impl Scene {
         ];
         let before = by.points(&self.before);
         let word = word.pattern().entry.keyword;
-        let (bounds, flags) = (None, &[]);
-        let given = Given { word, groups: &groups, bounds, values: &values, flags, x: &before };
+        let given = Given {
+            word,
+            groups: &groups,
+            bounds: None,
+            values: &values,
+            flags: &[],
+            x: &before,
+            is_restored: false,
+        };
         kind.declare(&given).expect("points that are apart")
     }
 

@@ -69,6 +69,18 @@ fn constraint() -> impl Strategy<Value = String> {
     (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
 }
 
+/// A constraint with an expression that has no value, or none that it could have, in some poses.
+fn live() -> impl Strategy<Value = String> {
+    let points = [point(), point(), point()];
+    (constraint_name(), points, any::<bool>()).prop_map(|(name, [a, b, c], is_quotient)| {
+        if is_quotient {
+            format!("{name}: length {a} {b} = 2 / distance({a}, {c})")
+        } else {
+            format!("{name}: length {a} {b} <= {c}.x")
+        }
+    })
+}
+
 /// A definition with names of its own that are names outside too.
 pub fn shadow() -> impl Strategy<Value = String> {
     (point(), constraint_name(), number()).prop_map(|(p, c, l)| {
@@ -109,6 +121,7 @@ pub fn renamed(statement: &str) -> String {
 pub fn edit() -> impl Strategy<Value = String> {
     prop_oneof![
         8 => constraint(),
+        1 => live(),
         1 => constraint_name().prop_map(|c| format!("delete {c}")),
         1 => point().prop_map(|p| format!("delete {p} cascade")),
         1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("point {p} = ({x}, {y})")),
@@ -119,6 +132,7 @@ pub fn edit() -> impl Strategy<Value = String> {
         2 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} = {v}")),
         1 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} speed {v}")),
         1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("move {p} to ({x}, {y})")),
+        1 => (point(), point()).prop_map(|(p, q)| format!("move {p} to {q}")),
         2 => (point(), number(), number(), 1..6u32)
             .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
         3 => (1..8u32).prop_map(|n| format!("step {n}")),

@@ -64,17 +64,6 @@ pub fn violation(world: &World) -> f64 {
     on.map(|(_, record)| record.constraint.violation(x, &w)).fold(0.0, f64::max)
 }
 
-/// Whether a script can state this world: not a rack whose rim point has come to lie on its
-/// centre, which a statement takes for a wheel of radius 0.
-pub fn can_be_stated(world: &World) -> bool {
-    let x = world.points().column();
-    let has_radius = |constraint: &Constraint| match constraint {
-        Constraint::Rack(rack) => x[rack.points[0] as usize] != x[rack.points[1] as usize],
-        _ => true,
-    };
-    world.constraints().all(|(_, record)| has_radius(&record.constraint))
-}
-
 /// How far a world extends, and no less than the lengths that are asked for in it.
 fn size(world: &World) -> f64 {
     let points = world.points();
