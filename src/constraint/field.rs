@@ -1,6 +1,7 @@
 //! The values of a constraint, by name.
 
-/// A value of a constraint that an expression may drive.
+/// A value of a constraint that an expression may drive, in the order in which `save` writes
+/// several of one constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Field {
     /// The least value of the measured quantity.
@@ -13,10 +14,10 @@ pub enum Field {
     Y,
     /// The radius of a motor or of a wheel on a rack.
     Radius,
-    /// The angular speed of a motor, radians per time unit.
-    Speed,
     /// The angle of a motor at its start, radians.
     Phase,
+    /// The angular speed of a motor, radians per time unit.
+    Speed,
     /// The ratio of a hinge or of a cog wheel pair.
     Ratio,
 }
@@ -24,5 +25,5 @@ pub enum Field {
 impl Field {
     /// All of them.
     pub const ALL: [Self; 8] =
-        [Self::Lo, Self::Hi, Self::X, Self::Y, Self::Radius, Self::Speed, Self::Phase, Self::Ratio];
+        [Self::Lo, Self::Hi, Self::X, Self::Y, Self::Radius, Self::Phase, Self::Speed, Self::Ratio];
 }

@@ -28,12 +28,13 @@ struct Extra {
 
 impl Record {
     /// A constraint that is switched on, driven by these expressions.
-    pub fn new(name: NameText, constraint: Constraint, drivers: Drivers) -> Self {
+    pub fn new(name: NameText, constraint: Constraint, mut drivers: Drivers) -> Self {
+        in_order(&mut drivers);
         let extra = (!drivers.is_empty()).then(|| Box::new(Extra { drivers, rho: None }));
         Self { name, constraint, is_on: true, extra }
     }
 
-    /// The live expressions behind some of its values.
+    /// The live expressions behind some of its values, in the order of the values.
     pub fn drivers(&self) -> &[(Field, Formula)] {
         self.extra.as_ref().map_or(&[], |extra| &extra.drivers)
     }
@@ -44,6 +45,7 @@ impl Record {
             let drivers = &mut self.extra.get_or_insert_default().drivers;
             drivers.retain(|(field, _)| !fields.contains(field));
             drivers.extend(new);
+            in_order(drivers);
         }
     }
 
@@ -88,6 +90,12 @@ impl Record {
             None => problem,
         })
     }
+}
+
+/// Whatever the order in which they were stated: a constraint that is made again has them in the
+/// same one.
+fn in_order(drivers: &mut Drivers) {
+    drivers.sort_by_key(|(field, _)| *field);
 }
 
 /// A named value.

@@ -5,7 +5,7 @@ use crate::constraint::{
 };
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::lang::ast::{
-    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation, Role,
+    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation,
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
@@ -14,10 +14,6 @@ use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
 use crate::terms::Shape;
 use crate::world::{Drivers, Edit, Record, Value};
-
-/// The parts of a statement that have a value, in the order in which `restore` brings back those
-/// that are live.
-const VALUES: [Role; 5] = [Role::At, Role::Radius, Role::Phase, Role::Speed, Role::Ratio];
 
 impl Execution<'_> {
     pub(crate) fn constrain(
@@ -82,17 +78,10 @@ impl Resolver<'_> {
                 Part::Line(_, pair) => said.groups.push(self.ends(pair)?.to_vec()),
                 Part::Relation(relation) => said.bounds = Some(self.bounds(relation, drivers)?),
                 Part::Flag(role) => said.flags.push(flag_of(*role)),
-                Part::Value(..) => {}
+                Part::Value(_, value) => {
+                    self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
+                }
             }
-        }
-        let values = parts.iter().filter_map(|part| match part {
-            Part::Value(role, value) => Some((VALUES.iter().position(|v| v == role), part, value)),
-            _ => None,
-        });
-        let mut values: Vec<_> = values.collect();
-        values.sort_by_key(|(rank, ..)| *rank);
-        for (_, part, value) in values {
-            self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
         }
         Ok(said)
     }

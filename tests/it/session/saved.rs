@@ -94,6 +94,23 @@ fn an_expression_that_has_no_value_in_the_pose_of_now_is_loaded_again() {
 }
 
 #[test]
+fn values_that_became_live_one_by_one_are_loaded_each_in_its_place() {
+    for changes in [
+        "speed time; change it phase time^2; change it radius 1 + time",
+        "phase time; change it speed time^2",
+        "speed time; change it radius 1 + time; change it speed -time",
+    ] {
+        let mut talking =
+            Talking::after("point p0 = (3, 0), p1 = (4, 2); it: motor p0 p1; step 20");
+        talking.run(&format!("change it {changes}; step 2; set dt 1/10"));
+        check(&mut talking, changes);
+    }
+    let mut talking = Talking::after("point p0 = (3, 0), p1 = (4, 2); it: length p0 p1 in time..9");
+    talking.run("step 20; change it in 0..20 + time; change it in time..20; step; set dt 1/10");
+    check(&mut talking, "a range");
+}
+
+#[test]
 fn what_is_said_of_a_parameter_without_a_value_is_what_was_said_before_it_was_saved() {
     let mut talking =
         Talking::after("point p = (1, 0); let s = 1 / p.x; let t = s + 1; move p to (0, 0)");
