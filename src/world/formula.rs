@@ -136,6 +136,15 @@ impl Formula {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
+    /// What gives the opposite of what it gives.
+    #[must_use]
+    pub fn negative(&self) -> Self {
+        match self.node() {
+            Node::Negate(inner) => inner.clone(),
+            _ => Self::new(Node::Negate(self.clone()), self.shape(), self.depends(), self.span()),
+        }
+    }
+
     /// Calls `visit` for each point and parameter it mentions.
     pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
         match self.node() {
