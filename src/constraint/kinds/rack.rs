@@ -150,7 +150,7 @@ impl ConstraintKind for Rack {
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        if field == Field::Radius {
+        if field == Field::Radius && value != self.radius {
             // Rolls on from where it stands.
             let angle = self.lifted.angle;
             self.k += (value - self.radius) * angle - self.wound();

@@ -13,6 +13,8 @@ pub(crate) struct Ends {
 }
 
 /// The values that a motion in between is made of. A speed is none: what it did to the angle is.
+/// Those of wheels are none either: wheels go on with other values from where they stand, and those
+/// of the end of a frame act from its beginning on.
 const FIELDS: [Field; 7] =
     [Field::Lo, Field::Hi, Field::X, Field::Y, Field::Radius, Field::Phase, Field::Ratio];
 
@@ -83,14 +85,14 @@ impl Ends {
 
 /// Sets the values of a constraint to those at instant `t`.
 fn between(now: &mut Constraint, before: &Constraint, after: &Constraint, t: f64) {
+    if now.traits().is_wheel {
+        return;
+    }
     for field in FIELDS {
         if let (Some(a), Some(b)) = (before.get(field), after.get(field)) {
             let is_between = t != 1.0 && a.is_finite() && b.is_finite();
             let value = if is_between { a + (b - a) * t } else { b };
-            // Setting the ratio of wheels makes them go on from where they stand: not idle.
-            if now.get(field) != Some(value) {
-                now.set(field, value);
-            }
+            now.set(field, value);
         }
     }
     if let (Constraint::Motor(now), Constraint::Motor(before), Constraint::Motor(after)) =

@@ -1,6 +1,7 @@
 //! The solver on mechanisms whose answers are known.
 
 mod hard;
+mod live_ratio;
 mod live_values;
 mod memory;
 mod motion;
