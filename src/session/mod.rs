@@ -253,7 +253,7 @@ impl Session {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
     /// live expressions have values.
     pub fn effects_on(&self, host: &dyn Host) -> Effects {
-        self.state.effects_on(&|| host.seconds())
+        self.state.effects_on(host)
     }
 
     /// How far a motor that is switched on can turn, the rest held as it is now.

@@ -6,6 +6,7 @@ use crate::diag::{
 };
 use crate::lang::ast::{DragTarget, Expr, Promise};
 use crate::session::execution::{Execution, Flow};
+use crate::session::host::{Host, NO_CLOCK};
 use crate::session::quotas::MOST_FRAMES;
 use crate::session::state::State;
 use crate::session::summary::Summary;
@@ -22,6 +23,18 @@ pub(crate) struct Limits {
     pub seconds: Option<f64>,
     /// The largest position error that is known of the run.
     pub known_error: f64,
+}
+
+impl Limits {
+    /// When the time of what begins now is up, by the clock of a host.
+    fn deadline(&self, host: &dyn Host) -> Option<f64> {
+        Some(host.seconds()? + self.seconds?)
+    }
+}
+
+/// Whether a moment has passed.
+fn has_passed(deadline: f64, host: &dyn Host) -> bool {
+    host.seconds().is_some_and(|now| now >= deadline)
 }
 
 /// So many frames, and the hands that are at work in them.
@@ -57,6 +70,11 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
+        if let Some(time) = &promise.in_time
+            && self.host.seconds().is_none()
+        {
+            return Err(Diagnostic::error(NO_CLOCK).at(time.span, "no time can be promised"));
+        }
         Ok(Limits { tolerance, seconds, known_error: 0.0 })
     }
 
@@ -203,7 +221,7 @@ impl Execution<'_> {
                 self.keep_frame(is_missed(&report));
             }
         }
-        summary.seconds += self.host.seconds() - begun;
+        summary.add_time(begun, self.host.seconds());
         if let Some(tolerance) = limits.tolerance
             && last == Status::Converged
             && summary.n_frames > n_before
@@ -282,10 +300,10 @@ impl Execution<'_> {
         let Self { state, host, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
-        let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
+        let deadline = limits.deadline(&**host);
         let is_over = || {
             may_be_long && host.is_interrupted()
-                || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+                || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
@@ -370,9 +388,10 @@ impl Execution<'_> {
         let mut report = {
             let Self { state, host, .. } = &mut *self;
             let State { solver, world, preferences, .. } = &mut **state;
-            let deadline = limits.seconds.map(|s| host.seconds() + s);
+            let deadline = limits.deadline(&**host);
             let is_over = || {
-                host.is_interrupted() || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+                host.is_interrupted()
+                    || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
             };
             let budget =
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
