@@ -50,6 +50,8 @@ pub struct Execution<'a> {
     pub outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     /// What has run so far.
     pub run: Option<Summary>,
+    /// Where likely slips were found.
+    pub slips: Vec<Span>,
 }
 
 impl<'a> Execution<'a> {
@@ -72,6 +74,7 @@ impl<'a> Execution<'a> {
             included: Vec::new(),
             outbox: Vec::new(),
             run: None,
+            slips: Vec::new(),
         }
     }
 

@@ -44,6 +44,7 @@ impl Execution<'_> {
         for part in lines.into_iter().chain(others) {
             self.resolve().change_part(&mut record, name, part)?;
         }
+        self.note_slips(&record.constraint, parts, record.drivers());
         let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
         let is_captured = !record.constraint.captured().is_empty();
         if is_on_another_line && is_captured && self.state.world.clock().frame > 0 {
