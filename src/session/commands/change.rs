@@ -46,15 +46,25 @@ impl Execution<'_> {
         }
         self.note_slips(&record.constraint, parts, record.drivers());
         let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
-        let is_captured = !record.constraint.captured().is_empty();
-        if is_on_another_line && is_captured && self.state.world.clock().frame > 0 {
-            let start = self.state.world.points().start_column();
-            if let Ok(at_start) = declare_again(&record.constraint, start, |_| {}) {
-                self.edit(self.state.world.begin_with(id, &at_start));
-            }
-        }
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        if is_on_another_line {
+            self.begin_at_start(id);
+        }
         Ok(())
+    }
+
+    /// Has `reset` bring back what is made anew while the clock runs as if it had been made of the
+    /// pose that is brought back too.
+    pub(super) fn begin_at_start(&mut self, id: ConstraintId) {
+        let world = &self.state.world;
+        let Some(Record { constraint, .. }) = world.constraint(id) else { return };
+        if world.clock().frame > 0
+            && constraint.state().is_some()
+            && !constraint.captured().is_empty()
+            && let Ok(at_start) = declare_again(constraint, world.points().start_column(), |_| {})
+        {
+            self.edit(world.begin_with(id, &at_start));
+        }
     }
 }
 

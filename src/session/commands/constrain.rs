@@ -33,6 +33,7 @@ impl Execution<'_> {
         let record = Record::new(name, constraint, drivers);
         let id = self.state.world.next_constraint();
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        self.begin_at_start(id);
         Ok(())
     }
 }
