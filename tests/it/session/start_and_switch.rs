@@ -128,4 +128,8 @@ fn wheels_that_are_made_while_the_clock_runs_are_undone_with_what_reset_knows_of
     assert_eq!(talking.script(), before);
     talking.run("for i in 1..2 { step; cog O G, Q H ratio 2; step }; undo");
     assert_eq!(talking.script(), before);
+    talking.run("point P = (0, -1), R = (9, -1); rack O G on P R; step");
+    let before = talking.script();
+    talking.run("change rack1 on R P; undo");
+    assert_eq!(talking.script(), before);
 }
