@@ -178,8 +178,7 @@ impl Dependencies {
             (Some((was, a)), Some((is, b))) => {
                 let is_like_before = a.is_live() == b.is_live() && was.is_same(is);
                 self.is_order_dirty |= (a.is_live() || b.is_live()) && !is_like_before;
-                let changes_a_ramp = !self.lists.ramps.is_empty() && !is_like_before;
-                self.are_lists_dirty |= a != b || changes_a_ramp;
+                self.are_lists_dirty |= a != b;
             }
             (Some((_, depends)), None) => self.is_order_dirty |= depends.is_live(),
             _ => {}
