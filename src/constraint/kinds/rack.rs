@@ -254,6 +254,9 @@ mod tests {
     fn a_change_of_radius_is_no_jump() {
         let mut rack = Rack::new([0, 1, 2, 3], &rolled(0.0));
         (0..50).for_each(|i| rack.accept(&rolled(f64::from(i))));
+        let before = rack.clone();
+        assert!(rack.set(Field::Radius, 2.0));
+        assert_eq!(rack, before, "the radius it has is no change");
         assert!(rack.set(Field::Radius, -7.0));
         assert!(rack.residual(&rolled(49.0)).abs() < 1e-12);
     }
