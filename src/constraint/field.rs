@@ -20,10 +20,26 @@ pub enum Field {
     Speed,
     /// The ratio of a hinge or of a cog wheel pair.
     Ratio,
+    /// What is measured: the number, or the horizontal coordinate of the vector.
+    Value,
+    /// The vertical coordinate of the vector that is measured.
+    ValueY,
+    /// What the values that are measured on the pose are given from outside, by its place.
+    Input(u16),
 }
 
 impl Field {
-    /// All of them.
-    pub const ALL: [Self; 8] =
-        [Self::Lo, Self::Hi, Self::X, Self::Y, Self::Radius, Self::Phase, Self::Speed, Self::Ratio];
+    /// All that a statement may give.
+    pub const ALL: [Self; 10] = [
+        Self::Lo,
+        Self::Hi,
+        Self::X,
+        Self::Y,
+        Self::Radius,
+        Self::Phase,
+        Self::Speed,
+        Self::Ratio,
+        Self::Value,
+        Self::ValueY,
+    ];
 }

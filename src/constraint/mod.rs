@@ -29,11 +29,14 @@ pub use field::Field;
 pub use given::{Culprit, Declared, Given, Refusal};
 pub use kinds::*;
 pub use parts::bounds::Bounds;
+pub(crate) use parts::function::{length, limited_argument, power, value_of};
 #[doc(hidden)]
 pub use parts::geometry;
 pub use parts::geometry::{Point, Vector};
 #[doc(hidden)]
 pub use parts::jet::{Jet, Real};
+#[doc(hidden)]
+pub use parts::program::{Operation, Program, Register};
 pub use parts::row::PointIdx;
 #[doc(hidden)]
 pub use parts::row::Row;

@@ -26,6 +26,8 @@ pub struct Constraint {
 pub enum Part {
     /// `A`, `A B`, `A B C`
     Points(Vec<Name>),
+    /// What is held: a number, or a vector.
+    Measure(Expr),
     /// `on A B`, `to A B`
     Line(Role, Pair),
     /// `= e`, `<= e`, `in a..b`; in a `change` of a point or a parameter `= e`.
@@ -80,7 +82,7 @@ impl Part {
     /// Parts stand in this order, whatever the order in which they were typed.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         match self {
-            Self::Points(_) => (0, None),
+            Self::Points(_) | Self::Measure(_) => (0, None),
             Self::Line(role, _) => (1, Some(*role)),
             Self::Relation(_) => (2, None),
             Self::Value(role, _) => (3, Some(*role)),

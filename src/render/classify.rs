@@ -116,7 +116,8 @@ impl<'a> Classifier<'a> {
     /// Notes what a constraint connects.
     fn bars(&mut self, record: &Record) {
         let mut connect = |a, b| _ = self.connected.insert(sorted([a, b]));
-        match (&record.constraint, record.constraint.points()) {
+        let stated = record.constraint.stated();
+        match (stated, stated.points()) {
             (Constraint::Length(length), &[a, b]) => {
                 connect(a, b);
                 if record.is_on && length.bounds.is_equality() {
@@ -143,7 +144,7 @@ impl<'a> Classifier<'a> {
 
     /// Notes which segments a constraint makes alike.
     fn segments(&mut self, record: &Record) {
-        match &record.constraint {
+        match record.constraint.stated() {
             Constraint::Equal(equal) => self.equal.join(equal.points),
             Constraint::Equivalence(equivalence) => self.parallel.join(equivalence.points),
             Constraint::Orientation(orientation) if is_parallel(orientation) => {
@@ -154,7 +155,8 @@ impl<'a> Classifier<'a> {
     }
 
     fn constraint(&mut self, id: ConstraintId, record: &Record) {
-        match &record.constraint {
+        let stated = record.constraint.at(self.at);
+        match &*stated {
             Constraint::Coordinate(c) => {
                 self.add(id, record, Cross { point: c.points[0], target: c.target });
             }
@@ -179,7 +181,7 @@ impl<'a> Classifier<'a> {
                 }
             }
             Constraint::Motor(c) => {
-                let sense = Sense::of(record.constraint.get(Field::Speed).unwrap_or(0.0));
+                let sense = Sense::of(stated.get(Field::Speed).unwrap_or(0.0));
                 let n_motors = self.driven.entry(c.points[0]).or_default();
                 let rank = *n_motors;
                 *n_motors = n_motors.saturating_add(1);
@@ -201,10 +203,12 @@ impl<'a> Classifier<'a> {
                 self.connection(id, record, [a, b]);
                 self.add(id, record, Dimension { point, line: [a, b] });
             }
-            Constraint::Rigid(_) => match *record.constraint.points() {
+            Constraint::Rigid(_) => match *stated.points() {
                 [a, b] => self.add(id, record, Rod { points: [a, b] }),
                 ref points => self.add(id, record, Plate::new(points, self.at)),
             },
+            Constraint::Hold(_) => {}
+            Constraint::Measured(_) => unreachable!("what is stated measures nothing"),
         }
     }
 

@@ -19,10 +19,6 @@ const FLOOR: f64 = 1e-10;
 /// Repetitions of the solve on what is left; each gains the digits that the floor costs.
 const REPETITIONS: u32 = 4;
 
-/// Rounds until rates and what is measured on them agree. Each gains the digits by which the
-/// measured value is the weaker cause.
-const MEASURED_ROUNDS: u32 = 8;
-
 /// The values of constraints that change in time, in order of constraint.
 type FieldRates = [(ConstraintId, Field, Jet)];
 
@@ -34,16 +30,12 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
     let n = world.points().column().len();
     let still = || vec![Vector::ZERO; n];
     let mut rates = Rates { velocity: still(), acceleration: still() };
-    // What is measured on moving points changes as they move, which moves them.
-    let n_rounds = if world.is_mutual() { MEASURED_ROUNDS } else { 1 };
-    for _ in 0..n_rounds {
-        let mut fields = world.field_rates(&rates)?;
-        fields.sort_by_key(|(id, ..)| *id);
-        let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
-        for k in all {
-            if let Some(island) = partition.get_mut(k) {
-                solve(island, &fields, &mut rates);
-            }
+    let mut fields = world.field_rates(&rates)?;
+    fields.sort_by_key(|(id, ..)| *id);
+    let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
+    for k in all {
+        if let Some(island) = partition.get_mut(k) {
+            solve(island, &fields, &mut rates);
         }
     }
     Ok(rates)

@@ -23,7 +23,6 @@ impl World {
             }
             Edit::Freeze(id, frozen) => {
                 self.touched.points.push(id);
-                self.dependencies.note_freeze();
                 Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
             }
             Edit::Weight(id, weight) => {
@@ -80,7 +79,6 @@ impl World {
         record: Option<Box<PointRecord>>,
     ) -> Option<Box<PointRecord>> {
         self.touched.points.push(id);
-        self.dependencies.note_freeze();
         let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
             let old = self.points.remove(id);
             self.index.remove(&old.name, Entity::Point(id));

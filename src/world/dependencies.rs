@@ -32,10 +32,6 @@ pub(super) struct Dependencies {
 pub(super) struct LiveConstraints {
     /// Those with a value that time or points drive, in order of creation.
     pub driven: Vec<ConstraintId>,
-    /// Those among them that points drive.
-    pub measured: Vec<ConstraintId>,
-    /// Whether the solver moves such a point: values and pose have to agree then.
-    pub is_mutual: bool,
     /// Motors that are switched on and turn, but for those of `ramps`.
     pub motors: Vec<ConstraintId>,
     /// Motors that are switched on and whose speed is an expression that mentions time.
@@ -75,11 +71,6 @@ impl Dependencies {
         &self.lists.driven
     }
 
-    /// Constraints with a value that points drive.
-    pub fn measured(&self) -> &[ConstraintId] {
-        &self.lists.measured
-    }
-
     /// Motors that are switched on and turn, but for those that [`ramps`](Self::ramps) lists.
     pub fn motors(&self) -> &[ConstraintId] {
         &self.lists.motors
@@ -108,16 +99,6 @@ impl Dependencies {
     /// Whether no value depends on time or points.
     pub fn is_idle(&self) -> bool {
         self.order.is_empty() && self.lists.driven.is_empty() && self.failures.is_empty()
-    }
-
-    /// Whether the solver moves a point that drives a constraint.
-    pub fn is_mutual(&self) -> bool {
-        self.lists.is_mutual
-    }
-
-    /// A point was made, deleted, frozen or thawed.
-    pub fn note_freeze(&mut self) {
-        self.are_lists_dirty |= !self.lists.measured.is_empty();
     }
 
     /// Whether the order of live parameters is to be made anew; it counts as made from here on.

@@ -66,14 +66,8 @@ impl World {
                     None => lists.motors.push(id),
                 }
             }
-            let formulas = record.drivers().iter().map(|(_, formula)| self.depends(formula));
-            let depends = formulas.fold(Depends::default(), Depends::or);
-            if depends.is_live() {
+            if record.live().iter().any(|(_, formula)| self.depends(formula).is_live()) {
                 lists.driven.push(id);
-            }
-            if depends.on_points {
-                lists.measured.push(id);
-                lists.is_mutual |= record.drivers().iter().any(|(_, f)| self.follows_motion(f));
             }
         }
         self.dependencies.set_lists(lists);

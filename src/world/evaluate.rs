@@ -5,7 +5,7 @@ use super::{
     ConstraintId, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User, Value,
     World,
 };
-use crate::constraint::{ConstraintKind, Field, Jet, Real};
+use crate::constraint::{Constraint, ConstraintKind as _, Field, Flag, Jet, Real};
 use crate::diag::Diagnostic;
 
 impl World {
@@ -58,7 +58,11 @@ impl World {
         }
         for id in constraints {
             let mut record = self.constraint(id).expect("a listed constraint lives").clone();
+            self.bind(&mut record);
             self.drive(&mut record)?;
+            if let Some(flaw) = record.flaw() {
+                return Err(flaw);
+            }
             undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
         }
         Ok(())
@@ -105,12 +109,13 @@ impl World {
 
     /// Puts the present values of its live expressions into a constraint.
     fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
-        for k in 0..record.drivers().len() {
-            let (field, ref formula) = record.drivers()[k];
+        for k in 0..record.live().len() {
+            let (field, ref formula) = record.live()[k];
             let value = formula.evaluate(&Here::new(self, None))?;
-            record.constraint.set(field, coordinate(field, value));
+            let value = given(&record.constraint, field, value);
+            record.constraint.set(field, value);
         }
-        record.flaw().map_or(Ok(()), Err)
+        Ok(())
     }
 
     /// Evaluates live parameters and driven constraints anew, for the time and the pose as
@@ -159,55 +164,25 @@ impl World {
         }
     }
 
-    /// Gives the largest change of a value of the constraint.
-    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<f64, Diagnostic> {
-        let mut change = 0.0_f64;
-        let n_drivers = self.constraint(id).expect("a listed constraint lives").drivers().len();
-        for k in 0..n_drivers {
-            let (field, formula) = &self.constraint(id).expect("it lives").drivers()[k];
+    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<(), Diagnostic> {
+        let mut is_changed = false;
+        let n_live = self.constraint(id).expect("a listed constraint lives").live().len();
+        for k in 0..n_live {
+            let (field, formula) = &self.constraint(id).expect("it lives").live()[k];
             let field = *field;
-            let value = coordinate(field, formula.evaluate(&Here::new(self, None))?);
+            let value = formula.evaluate(&Here::new(self, None))?;
             let constraint = self.constraint_state_mut(id);
-            if let Some(old) = constraint.get(field) {
-                change = change.max((value - old).abs());
-            }
+            let value = given(constraint, field, value);
+            is_changed |= constraint.get(field).is_some_and(|old| value != old);
             constraint.set(field, value);
         }
-        if change > 0.0 {
+        if is_changed {
             self.touched.values.push(id);
             if let Some(flaw) = self.constraint(id).expect("it lives").flaw() {
                 return Err(flaw);
             }
         }
-        Ok(change)
-    }
-
-    /// Whether some constraint's value is measured on points that the solver moves, so that a
-    /// frame has to be solved until both agree.
-    pub fn is_mutual(&mut self) -> bool {
-        self.sort_constraints();
-        self.dependencies.is_mutual()
-    }
-
-    /// Whether some constraint's value is measured on points, of whatever kind.
-    pub fn is_measured(&mut self) -> bool {
-        self.sort_constraints();
-        !self.dependencies.measured().is_empty()
-    }
-
-    /// Evaluates anew what is measured on the pose; gives the largest change of a value.
-    ///
-    /// # Errors
-    /// Where an expression has no value in this pose.
-    pub fn refresh_measured(&mut self) -> Result<f64, Diagnostic> {
-        self.dependencies.note_change();
-        self.refresh_parameters();
-        self.sort_constraints();
-        let mut change = 0.0_f64;
-        for k in 0..self.dependencies.measured().len() {
-            change = change.max(self.refresh_constraint(self.dependencies.measured()[k])?);
-        }
-        Ok(change)
+        Ok(())
     }
 
     /// The values that time and points drive, with their derivatives in time, given the
@@ -225,19 +200,26 @@ impl World {
         let mut all = Vec::new();
         for &id in self.dependencies.driven() {
             let record = self.constraint(id).expect("a listed constraint lives");
-            for (field, formula) in record.drivers() {
-                all.push((id, *field, coordinate(*field, formula.evaluate(&moving)?)));
+            for (field, formula) in record.live() {
+                let value = formula.evaluate(&moving)?;
+                all.push((id, *field, given(&record.constraint, *field, value)));
             }
         }
         Ok(all)
     }
 }
 
-/// The number that drives a field: the value, or the coordinate of it that the field is.
-fn coordinate<T: Real>(field: Field, value: Value<T>) -> T {
+/// The number that a value gives to a field of a constraint: the value, the coordinate of it that
+/// the field is, or what it comes to for wheels one of which runs inside of the other.
+pub(super) fn given<T: Real>(constraint: &Constraint, field: Field, value: Value<T>) -> T {
     match (field, value) {
-        (Field::X, Value::Vector(v)) => v.x,
-        (Field::Y, Value::Vector(v)) => v.y,
+        (Field::X | Field::Value, Value::Vector(v)) => v.x,
+        (Field::Y | Field::ValueY, Value::Vector(v)) => v.y,
+        (Field::Ratio, Value::Number(ratio))
+            if ratio.value() > 0.0 && constraint.traits().flags.contains(&Flag::Inside) =>
+        {
+            -ratio
+        }
         (_, value) => value.number(),
     }
 }

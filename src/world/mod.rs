@@ -22,12 +22,12 @@ mod users;
 
 // Expressions, their values, and what they depend on.
 mod arithmetic;
+mod compile;
 mod dependencies;
 mod dependency_order;
 mod environments;
 mod evaluate;
 mod formula;
-mod function;
 mod value;
 
 // Edits, and time going on.

@@ -92,7 +92,7 @@ impl World {
 
     /// All constraints with live values, whole.
     fn driven(&self) -> Vec<(ConstraintId, Constraint)> {
-        let driven = self.constraints().filter(|(_, r)| !r.drivers().is_empty());
+        let driven = self.constraints().filter(|(_, r)| !r.live().is_empty());
         driven.map(|(id, r)| (id, r.constraint.clone())).collect()
     }
 
@@ -186,7 +186,7 @@ impl World {
                 Ok(speed.evaluate(&within)?.number())
             })?;
             let constraint = self.constraint_state_mut(motor);
-            if let Constraint::Motor(motor) = constraint {
+            if let Constraint::Motor(motor) = constraint.stated_mut() {
                 motor.set_mean_speed(mean_speed);
             }
             if constraint.advance(dt) {

@@ -171,7 +171,8 @@ fn a_function_touches_two_files() {
         let path = format!("Function::{function:?}");
         let names = |source: &Source| match &*source.path {
             "terms/function.rs" => true,
-            "world/function.rs" => has_word(&source.code(), &format!("Self::{function:?}")),
+            // A rate is refused there, and what is of vectors falls apart into numbers.
+            "world/compile.rs" => false,
             _ => has_word(&source.code(), &path),
         };
         let found = naming(names);
@@ -227,7 +228,9 @@ fn scripts() -> Vec<String> {
 /// Whether a source names a kind of constraint: its type, its variant, or its word.
 fn names_kind(source: &Source, kind: Kind) -> bool {
     // What else is called so.
-    let code = source.code().replace("Quantity::Length", "").replace("feature = \"parallel\"", "");
+    let others =
+        ["Quantity::Length", "feature = \"parallel\"", "Hold => \"hold\"", "\"holds\", \"hold\""];
+    let code = others.iter().fold(source.code(), |code, other| code.replace(other, ""));
     let name = format!("{kind:?}");
     let words = ConstraintWord::ALL.iter().map(|word| word.pattern().entry.keyword);
     let mut words = words.filter(|word| Kind::stated_by(word) == Some(kind));

@@ -47,7 +47,7 @@ impl Equal {
         Some((f, if p == a || p == b { s.e12 } else { s.e34 } * sign))
     }
 
-    fn row(&self, s: &Segments) -> Row {
+    fn row(&self, s: &Segments) -> Row<'static> {
         let [a, b, c, d] = self.points;
         let f = self.bounds.excess(s.l12 - s.l34);
         if f == 0.0 && !self.bounds.is_equality() {

@@ -68,7 +68,7 @@ impl Rack {
         s + self.radius * theta + (self.wound() - self.k)
     }
 
-    fn row(&self, arms: &Arms) -> Row {
+    fn row(&self, arms: &Arms) -> Row<'static> {
         let [o, a, p, q] = self.points;
         let length = arms.line.norm();
         let e = arms.line / length;

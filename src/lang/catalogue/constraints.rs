@@ -24,6 +24,8 @@ pub enum Slot {
     Points(usize),
     /// All the points there are.
     AllPoints,
+    /// An expression that is held.
+    Measure,
     /// Two points of a line.
     Line(Role),
     /// What holds for the measured value: without one the present value is kept, or this one.
@@ -111,7 +113,7 @@ macro_rules! constraints {
     };
 }
 
-use Slot::{AllPoints, Flag, Line, Place, Points, Relation, Value};
+use Slot::{AllPoints, Flag, Line, Measure, Place, Points, Relation, Value};
 
 /// What is said of one that is points and nothing else.
 const NOTHING: &str = "this constraint has no part that can be changed";
@@ -246,5 +248,18 @@ constraints! {
         help: "O is the centre of the wheel and A a point of its rim, or any other point that turns with \
              it. The radius is the height of O over the line as it stands: where the rim touches.",
         example: "rack O A on P Q",
+    }
+    Hold hold {
+        slots: [Measure, Relation { default: None }],
+        takes: "this takes `= value`, `<= value`, `>= value` or `in a..b`",
+        usage: "hold EXPRESSION RELATION",
+        summary: "an equation or inequality between whatever can be measured",
+        help: "The expressions are numbers, or with `=` vectors. Both sides give way: all points that they \
+             measure may move, but for frozen ones.\n\
+             `change h = 5` puts something else on the right side.",
+        example: "rope: hold distance(A, B) + 2 * distance(B, C) = 9\n\
+             hold A.x = 4\n\
+             hold P = midpoint(A, B)\n\
+             hold angle(A, B) in -30deg..30deg",
     }
 }

@@ -38,13 +38,17 @@ impl Execution<'_> {
         parts: &[Part],
     ) -> Result<(), Diagnostic> {
         let mut record = self.state.world.constraint(id).expect("a named constraint lives").clone();
+        let as_stated = record.constraint.at(self.state.world.points().column()).into_owned();
+        record.constraint = as_stated;
         // What stands behind a line says something of that line.
         let (lines, others): (Vec<_>, Vec<_>) =
             parts.iter().partition(|part| matches!(part, Part::Line(..)));
         for part in lines.into_iter().chain(others) {
             self.resolve().change_part(&mut record, name, part)?;
         }
-        self.note_slips(&record.constraint, parts, record.drivers());
+        self.state.world.bind(&mut record);
+        refuse_flaw(&record.constraint, parts, name.span)?;
+        self.note_slips(record.constraint.stated(), parts, record.drivers());
         let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         if is_on_another_line {
@@ -88,7 +92,11 @@ impl Resolver<'_> {
         let mut drivers = Drivers::new();
         let mut values = Vec::new();
         match part {
-            Part::Points(_) => {}
+            Part::Points(_) | Part::Measure(_) => {}
+            Part::Relation(relation) if record.constraint.get(Field::ValueY).is_some() => {
+                let at = self.held_target(relation, &mut drivers)?;
+                values.extend([(Field::X, at.x), (Field::Y, at.y)]);
+            }
             Part::Relation(relation) => {
                 let Bounds { lo, hi } = self.bounds(relation, &mut drivers)?;
                 values.extend([(Field::Lo, lo), (Field::Hi, hi)]);
@@ -124,7 +132,6 @@ impl Resolver<'_> {
         for (field, value) in values {
             record.constraint.set(field, value);
         }
-        refuse_flaw(&record.constraint, std::slice::from_ref(part), name.span)?;
         record.replace_drivers(&changed, drivers);
         Ok(())
     }

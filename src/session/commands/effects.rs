@@ -171,10 +171,7 @@ impl Rehearsal {
             }
         }
         let budget = Budget::default();
-        let mut report = solver.frame(world, settings, &budget);
-        if world.is_mutual() {
-            solver.agree(world, settings, &budget, &mut report).ok()?;
-        }
+        let report = solver.frame(world, settings, &budget);
         laps.solving += laps.lap();
         for (k, effect) in EFFECTS.iter().enumerate() {
             if are_on[k]

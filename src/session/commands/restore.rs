@@ -106,8 +106,8 @@ impl Execution<'_> {
     fn restore_values(&mut self, name: &Name, values: &[Value]) -> Restored {
         let values = numbers(values)?;
         self.restore_record(name, |record| {
-            for (k, value) in values.iter().take(record.drivers().len()).enumerate() {
-                record.constraint.set(record.drivers()[k].0, *value);
+            for (k, value) in values.iter().take(record.live().len()).enumerate() {
+                record.constraint.set(record.live()[k].0, *value);
             }
         })
     }

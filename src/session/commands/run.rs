@@ -352,9 +352,6 @@ impl Execution<'_> {
                 flow = Flow::Stopped;
                 break;
             }
-            if self.state.world.is_measured() {
-                self.state.world.refresh_measured()?;
-            }
             let chunk = left.min(RELAX_CHUNK);
             let report = self.state.solver.relax(
                 &mut self.state.world,
@@ -381,11 +378,7 @@ impl Execution<'_> {
     pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
         let limits = self.promised_here(promise)?;
         self.begin_motion();
-        let is_measured = self.state.world.is_measured();
-        if is_measured {
-            self.state.world.refresh_measured()?;
-        }
-        let mut report = {
+        let report = {
             let Self { state, host, .. } = &mut *self;
             let State { solver, world, preferences, .. } = &mut **state;
             let deadline = limits.deadline(&**host);
@@ -397,10 +390,10 @@ impl Execution<'_> {
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
-        if is_measured {
-            let State { solver, world, preferences, .. } = &mut *self.state;
-            let budget = Budget { tolerance: limits.tolerance, stop: None, ..Budget::default() };
-            solver.agree(world, &preferences.solve, &budget, &mut report)?;
+        if report.status != Status::Converged
+            && let Some(why) = self.state.world.failed_measure()
+        {
+            return Err(why);
         }
         let tolerance = limits.tolerance.unwrap_or(self.state.preferences.solve.tolerance);
         let verdict = self.verdict_within(tolerance);

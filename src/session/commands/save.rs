@@ -130,9 +130,9 @@ impl State {
                 line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
             // The values come first: a new ratio makes wheels mesh anew.
-            if !record.drivers().is_empty() {
+            if !record.live().is_empty() {
                 let value = |field| record.constraint.get(field).unwrap_or_default();
-                let values: Vec<f64> = record.drivers().iter().map(|d| value(d.0)).collect();
+                let values: Vec<f64> = record.live().iter().map(|d| value(d.0)).collect();
                 restore(script, Restorable::Values, name, numbers(&values));
             }
             let captured = record.constraint.captured();

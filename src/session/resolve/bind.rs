@@ -136,11 +136,16 @@ impl Resolver<'_> {
         expr: &Expr,
         shape: Shape,
     ) -> Result<(Value, Option<Formula>), Diagnostic> {
-        let term = self.bind(expr, Mode::Live)?;
-        if term.shape() != shape {
+        let (value, formula) = self.measure(expr)?;
+        if value.shape() != shape {
             return Err(wanted(expr, shape));
         }
-        match term {
+        Ok((value, formula))
+    }
+
+    /// A value that a constraint may have or hold, with the expression behind it if it can change.
+    pub(crate) fn measure(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
+        match self.bind(expr, Mode::Live)? {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
                 if self.state.world.depends(&formula).on_rates {
@@ -149,7 +154,7 @@ impl Resolver<'_> {
                 }
                 let value = match self.state.world.evaluate(&formula, None) {
                     // The one that it had last is put back after.
-                    Err(_) if self.state.is_restoring => Value::zero(shape),
+                    Err(_) if self.state.is_restoring => Value::zero(formula.shape()),
                     value => value?,
                 };
                 Ok((value, Some(formula)))

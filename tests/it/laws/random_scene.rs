@@ -37,6 +37,18 @@ fn relation(value: impl Strategy<Value = String> + Clone) -> impl Strategy<Value
     ]
 }
 
+/// A number that is measured on the pose.
+fn measure() -> impl Strategy<Value = String> {
+    prop_oneof![
+        (point(), point()).prop_map(|(a, b)| format!("distance({a}, {b})")),
+        point().prop_map(|a| format!("{a}.x")),
+        (point(), point(), point())
+            .prop_map(|(a, b, c)| format!("(distance({a}, {b}) + 2 * distance({b}, {c}))")),
+        (point(), point(), point()).prop_map(|(a, b, c)| format!("dot({a} - {b}, {c} - {b})")),
+        (point(), point()).prop_map(|(a, b)| format!("sin({a}.x - {b}.y)")),
+    ]
+}
+
 /// A statement of a constraint of any type, with its name in front.
 fn constraint() -> impl Strategy<Value = String> {
     let body = prop_oneof![
@@ -65,6 +77,13 @@ fn constraint() -> impl Strategy<Value = String> {
         1 => [point(), point(), point()].prop_map(|[a, b, c]| format!("rigid {a} {b} {c}")),
         1 => [point(), point(), point(), point()]
             .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
+        2 => (point(), point(), measure()).prop_map(|(a, b, m)| format!("length {a} {b} = abs({m})")),
+        1 => (point(), point(), point(), measure())
+            .prop_map(|(a, b, c, m)| format!("orientation {a} {b}, {a} {c} = {m} / 4")),
+        2 => (measure(), relation(number().boxed()))
+            .prop_map(|(m, r)| format!("hold {m} {}", if r.is_empty() { "= 1" } else { &*r })),
+        1 => [point(), point(), point()]
+            .prop_map(|[a, b, c]| format!("hold {a} = midpoint({b}, {c})")),
     ];
     (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
 }

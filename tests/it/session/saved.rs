@@ -25,6 +25,8 @@ fn statement(word: ConstraintWord) -> String {
             Slot::Line(role) => format!("{} {}", role.word(), take(2)),
             Slot::Value(role) => format!("{} 2", role.word()),
             Slot::Place(role) => format!("{} (2, 3)", role.word()),
+            Slot::Measure => "distance(p0, p1) + angle(p0, p1, p2, p3)".to_owned(),
+            Slot::Relation { .. } if word == ConstraintWord::Hold => "= 2".to_owned(),
             Slot::Relation { .. } | Slot::Flag(_) => String::new(),
         };
         text.push_str(&part);

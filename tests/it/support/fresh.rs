@@ -34,7 +34,7 @@ pub fn flaws(world: &World, tolerance: f64) -> Vec<String> {
     let (x, w) = (world.points().column(), world.points().inverse_masses());
     let mut flaws = Vec::new();
     for (_, record) in world.constraints().filter(|(_, record)| record.is_on) {
-        for (field, formula) in record.drivers() {
+        for (field, formula) in record.live() {
             let wanted = match (field, formula.evaluate(&Fresh(world))) {
                 (Field::X, Ok(Value::Vector(v))) => v.x,
                 (Field::Y, Ok(Value::Vector(v))) => v.y,

@@ -96,6 +96,10 @@ fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
         Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
+        Slot::Measure => expr().prop_map(|value| Some(Part::Measure(value))).boxed(),
+        Slot::Relation { .. } if word == ConstraintWord::Hold => {
+            relation().prop_map(|relation| Some(Part::Relation(relation))).boxed()
+        }
         Slot::Relation { .. } => of(relation()).prop_map(|of| of.map(Part::Relation)).boxed(),
         Slot::Value(role) if word == ConstraintWord::Motor => {
             of(expr()).prop_map(move |value| Some(Part::Value(role, value?))).boxed()
