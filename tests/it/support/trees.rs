@@ -154,7 +154,11 @@ fn running() -> BoxedStrategy<Running> {
 }
 
 fn looking() -> BoxedStrategy<Looking> {
-    let item = prop_oneof![expr().prop_map(PrintItem::Value), text().prop_map(PrintItem::Text)];
+    let item = prop_oneof![
+        expr().prop_map(PrintItem::Value),
+        (expr(), select(Unit::ALL.to_vec())).prop_map(|(e, unit)| PrintItem::InUnit(e, unit)),
+        text().prop_map(PrintItem::Text)
+    ];
     prop_oneof![
         of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
         name().prop_map(Looking::Show),

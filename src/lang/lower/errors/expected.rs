@@ -44,6 +44,7 @@ impl Expected {
                     expected.add("a relation");
                     expected.keywords.push("in");
                 }
+                Rule::unit => expected.add("a unit"),
                 Rule::string => {
                     let is_path = match verb {
                         "print" | "sample" => false,
