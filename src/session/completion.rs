@@ -88,7 +88,7 @@ mod tests {
         check("step 3; und", (8, &["undo"]));
         check("bar: mot", (5, &["motor"]));
         check("show c", (5, &["coupler"]));
-        check("print c", (6, &["ceil", "cos", "coupler", "cross"]));
+        check("print c", (6, &["ceil", "clamp", "cos", "coupler", "cross", "curvature"]));
         check("length A coupler = co", (19, &["cos", "coupler"]));
         check("length A p[1", (9, &["p[10]", "p[1]"]));
         check("delete le", (7, &["left.P"]));

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
+use super::rate_function::{MovingPoint, rate};
 use super::{ParameterId, PointId, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
@@ -185,8 +186,8 @@ impl Formula {
                 let (left, right) = (a.evaluate(env)?, b.evaluate(env)?);
                 return operate(*operator, left, right, self.span(), b.span());
             }
-            Node::Call(function @ (Function::Velocity | Function::Acceleration), arguments) => {
-                return self.rate(*function, &arguments[0], env);
+            Node::Call(function, arguments) if function.is_rate() => {
+                return self.rate(*function, arguments, env);
             }
             Node::Call(function, arguments) => {
                 // Few arguments but for `min` and `max`: no allocation then.
@@ -209,18 +210,28 @@ impl Formula {
     fn rate<T: Real>(
         &self,
         function: Function,
-        argument: &Self,
+        arguments: &[Self],
         env: &impl Environment<T>,
     ) -> Result<Value<T>, Diagnostic> {
-        let Node::Point(id) = argument.node() else {
-            unreachable!("a rate is bound to the name of a point")
-        };
-        let Some((velocity, acceleration)) = env.rates(*id) else {
+        let moving = arguments.iter().map(|argument| {
+            let id = argument.point();
+            let (velocity, acceleration) = env.rates(id)?;
+            Some(MovingPoint { at: env.position(id), velocity, acceleration })
+        });
+        let Some(moving) = moving.collect::<Option<Vec<_>>>() else {
             return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
                 .at(self.span(), "only where a value is looked at")
                 .help("use it in `print`, `assert`, or a parameter that these use"));
         };
-        Ok(Value::Vector(if function == Function::Velocity { velocity } else { acceleration }))
+        rate(function, &moving, self.span())
+    }
+
+    /// The point, of an argument that is bound to the name of one.
+    fn point(&self) -> PointId {
+        match self.node() {
+            Node::Point(id) => *id,
+            other => unreachable!("{other:?} is bound to the name of a point"),
+        }
     }
 }
 

@@ -175,9 +175,7 @@ fn a_function_touches_two_files() {
             _ => has_word(&source.code(), &path),
         };
         let found = naming(names);
-        // Rates are asked of the solver: what is bound and evaluated has to know.
-        let is_rate = matches!(function, Function::Velocity | Function::Acceleration);
-        assert!(is_rate || found.len() == MOST_OF_A_FUNCTION, "{function:?}: {found:?}");
+        assert_eq!(found.len(), MOST_OF_A_FUNCTION, "{function:?}: {found:?}");
     }
 }
 

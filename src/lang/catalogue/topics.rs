@@ -46,9 +46,13 @@ pub(super) const TOPICS: &[Entry] = &[
         usage: "sin(a), distance(P, Q), ...",
         summary: "what an expression can call",
         help: "Numbers: `sin cos tan asin acos atan atan2 sqrt abs sign min max hypot floor ceil round\n\
-             exp ln mod`. Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
+             exp ln mod`, `clamp(x, lo, hi)`, `triangle(x)` (0 at even, 1 at odd x).\n\
+             Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
              Measures: `distance(P, Q)`, `distance(P, A, B)` from P to the line AB, `angle(P, Q)`,\n\
-             `angle(A, B, C, D)`, `velocity(P)`, `acceleration(P)`.",
+             `angle(A, B, C, D)`.\n\
+             Rates, only where a value is looked at: `velocity(P)`, `acceleration(P)`, `omega(A, B)` and\n\
+             `alpha(A, B)` of the direction AB, `curvature(P)` of P's path, and `ic(A, B, C, D)`, the instant\n\
+             centre of the bodies that hold the lines AB and CD.",
         example: "print distance(A, C), angle(A, B, C, D)",
     },
     Entry {

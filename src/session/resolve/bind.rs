@@ -285,7 +285,7 @@ impl Resolver<'_> {
         expr: &Expr,
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
-        let is_rate = matches!(function, Function::Velocity | Function::Acceleration);
+        let is_rate = function.is_rate();
         let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
         let mut many = Vec::new();
         let is_few = arguments.len() <= few.len();
@@ -306,7 +306,7 @@ impl Resolver<'_> {
         }
         let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
         if is_rate {
-            return self.bind_rate(function, &terms[0], arguments, expr, mode);
+            return self.bind_rate(function, terms, arguments, expr, mode);
         }
         if terms.iter().all(|term| matches!(term, Term::Constant(_))) {
             let constant = |term: &Term| match term {
@@ -331,29 +331,38 @@ impl Resolver<'_> {
     fn bind_rate(
         &mut self,
         function: Function,
-        argument: &Term,
+        terms: &[Term],
         arguments: &[Expr],
         expr: &Expr,
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
-        let formula = match argument {
-            Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => formula.clone(),
-            _ => {
-                return Err(Diagnostic::error(format!(
-                    "`{}` takes the name of a point",
-                    function.name()
-                ))
-                .at(arguments[0].span, "this is not a point"));
-            }
-        };
+        let points = points_of(function, terms, arguments)?;
         let depends = Depends { on_rates: true, ..Depends::default() };
-        let node = Node::Call(function, Box::new([formula]));
-        let formula = Formula::new(node, Shape::Vector, depends, expr.span);
+        let node = Node::Call(function, points);
+        let formula = Formula::new(node, function.result(), depends, expr.span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),
         }
     }
+}
+
+/// The arguments of a function that takes the names of points.
+fn points_of(
+    function: Function,
+    terms: &[Term],
+    arguments: &[Expr],
+) -> Result<Box<[Formula]>, Diagnostic> {
+    let points = terms.iter().zip(arguments).map(|(term, argument)| match term {
+        Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => Ok(formula.clone()),
+        _ => {
+            let wants =
+                if terms.len() == 1 { "the name of a point" } else { "the names of points" };
+            Err(Diagnostic::error(format!("`{}` takes {wants}", function.name()))
+                .at(argument.span, "this is not a point"))
+        }
+    });
+    points.collect()
 }
 
 fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {

@@ -1,0 +1,4 @@
+//! What expressions are worth, against closed forms.
+
+mod functions;
+mod rates;
