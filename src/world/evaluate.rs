@@ -46,6 +46,9 @@ impl World {
         }
         self.refresh_parameters();
         let (parameters, constraints) = self.affected(id);
+        if depends.on_constraints && !constraints.is_empty() {
+            return Err(self.follows_from_a_constraint(id));
+        }
         for id in parameters {
             let mut record = self.parameter(id).expect("a listed parameter lives").clone();
             record.depends = self.depends(&record.formula);
@@ -58,7 +61,8 @@ impl World {
         }
         for id in constraints {
             let mut record = self.constraint(id).expect("a listed constraint lives").clone();
-            self.drive(&mut record)?;
+            record.drive(&Here::new(self, None))?;
+            record.flaw().map_or(Ok(()), Err)?;
             undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
         }
         Ok(())
@@ -72,6 +76,15 @@ impl World {
         // Why it has none is noted once it is asked for.
         self.dependencies.note_change();
         self.apply(Edit::Parameter(id, Some(Box::new(Parameter { name, formula, value, depends }))))
+    }
+
+    /// Why a parameter cannot drive a constraint.
+    fn follows_from_a_constraint(&self, id: ParameterId) -> Diagnostic {
+        let parameter = self.parameter(id).expect("a named parameter lives");
+        let text = format!("`{}` follows from a constraint", parameter.name);
+        Diagnostic::error(text)
+            .at(parameter.formula.span(), "what a constraint comes to cannot drive one")
+            .help("use it in `print`, `assert`, or a parameter that these use")
     }
 
     /// Parameters that depend on one, each after those it mentions, and the constraints.
@@ -101,16 +114,6 @@ impl World {
         constraints.sort_unstable();
         constraints.dedup();
         (finished, constraints)
-    }
-
-    /// Puts the present values of its live expressions into a constraint.
-    fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
-        for k in 0..record.drivers().len() {
-            let (field, ref formula) = record.drivers()[k];
-            let value = formula.evaluate(&Here::new(self, None))?;
-            record.constraint.set(field, coordinate(field, value));
-        }
-        record.flaw().map_or(Ok(()), Err)
     }
 
     /// Evaluates live parameters and driven constraints anew, for the time and the pose as
@@ -157,6 +160,22 @@ impl World {
                 self.dependencies.fail(id, why);
             }
         }
+    }
+
+    /// Evaluates anew what the angles of motors drive, once these have turned.
+    ///
+    /// # Errors
+    /// Where an expression has no value at these angles.
+    pub(super) fn refresh_turned(&mut self) -> Result<(), Diagnostic> {
+        if self.dependencies.turned().is_empty() {
+            return Ok(());
+        }
+        self.dependencies.note_change();
+        self.refresh_parameters();
+        for k in 0..self.dependencies.turned().len() {
+            self.refresh_constraint(self.dependencies.turned()[k])?;
+        }
+        Ok(())
     }
 
     /// Gives the largest change of a value of the constraint.
@@ -230,6 +249,18 @@ impl World {
             }
         }
         Ok(all)
+    }
+}
+
+impl Record {
+    /// Puts the present values of its live expressions into the constraint.
+    pub(super) fn drive(&mut self, here: &Here) -> Result<(), Diagnostic> {
+        for k in 0..self.drivers().len() {
+            let (field, ref formula) = self.drivers()[k];
+            let value = formula.evaluate(here)?;
+            self.constraint.set(field, coordinate(field, value));
+        }
+        Ok(())
     }
 }
 

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
 use super::rate_function::{MovingPoint, rate};
-use super::{ParameterId, PointId, Value};
+use super::{ConstraintId, ParameterId, PointId, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::terms::{Function, Operator, Shape};
+use crate::terms::{Function, Member, Operator, Shape};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -35,6 +35,8 @@ pub enum Node {
     Parameter(ParameterId),
     /// The position of a point.
     Point(PointId),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
     /// The time of the clock.
     Time,
     /// The negative.
@@ -51,7 +53,7 @@ pub enum Node {
 
 /// What can change the value of a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[allow(clippy::struct_excessive_bools)] // Four independent facts, joined by "or".
+#[allow(clippy::struct_excessive_bools)] // Independent facts, joined by "or".
 pub struct Depends {
     /// It mentions time, itself or through a parameter.
     pub on_time: bool,
@@ -59,6 +61,10 @@ pub struct Depends {
     pub on_points: bool,
     /// It mentions a velocity or an acceleration.
     pub on_rates: bool,
+    /// It mentions the angle of a motor.
+    pub on_angles: bool,
+    /// It mentions what a constraint measures, or by how much it is missed.
+    pub on_constraints: bool,
     /// It mentions a parameter.
     pub on_parameters: bool,
 }
@@ -66,7 +72,7 @@ pub struct Depends {
 impl Depends {
     /// Whether anything but the user's own edit of a parameter can change it.
     pub const fn is_live(self) -> bool {
-        self.on_time || self.on_points || self.on_rates
+        self.on_time || self.on_points || self.on_rates || self.on_angles || self.on_constraints
     }
 
     /// Whether nothing can change it.
@@ -81,6 +87,8 @@ impl Depends {
             on_time: self.on_time || o.on_time,
             on_points: self.on_points || o.on_points,
             on_rates: self.on_rates || o.on_rates,
+            on_angles: self.on_angles || o.on_angles,
+            on_constraints: self.on_constraints || o.on_constraints,
             on_parameters: self.on_parameters || o.on_parameters,
         }
     }
@@ -97,6 +105,11 @@ pub trait Environment<T: Real> {
     fn position(&self, id: PointId) -> Vec2<T>;
     /// The time.
     fn time(&self) -> T;
+    /// The value of a member of a constraint.
+    ///
+    /// # Errors
+    /// Where a live value of the constraint has none.
+    fn member(&self, id: ConstraintId, member: Member) -> Result<T, Diagnostic>;
     /// Velocity and acceleration of a point; none where they cannot be had.
     fn rates(&self, id: PointId) -> Option<(Vec2<T>, Vec2<T>)>;
 }
@@ -146,12 +159,13 @@ impl Formula {
         }
     }
 
-    /// Calls `visit` for each point and parameter it mentions.
+    /// Calls `visit` for each point, parameter and member it mentions.
     pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
         match self.node() {
             Node::Number(_) | Node::Time => {}
             Node::Parameter(id) => visit(Mention::Parameter(*id)),
             Node::Point(id) => visit(Mention::Point(*id)),
+            Node::Member(id, member) => visit(Mention::Member(*id, *member)),
             Node::Negate(a) | Node::X(a) | Node::Y(a) => a.mentions(visit),
             Node::Vector(a, b) | Node::Binary(_, a, b) => {
                 a.mentions(visit);
@@ -173,6 +187,7 @@ impl Formula {
             Node::Time => return Ok(Number(env.time())),
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
+            Node::Member(id, member) => Number(env.member(*id, *member)?),
             Node::Vector(x, y) => {
                 Vector(Vec2 { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
             }
@@ -242,4 +257,6 @@ pub enum Mention {
     Point(PointId),
     /// A parameter.
     Parameter(ParameterId),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
 }

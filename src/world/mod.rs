@@ -28,6 +28,7 @@ mod environments;
 mod evaluate;
 mod formula;
 mod function;
+mod member;
 mod rate_function;
 mod value;
 

@@ -169,7 +169,7 @@ impl World {
         if !self.dependencies.ramps().is_empty() {
             self.advance_ramps()?;
         }
-        Ok(())
+        self.refresh_turned()
     }
 
     /// Turns the motors whose speed changes within the frame that the clock has just made: by the

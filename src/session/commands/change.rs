@@ -44,7 +44,9 @@ impl Execution<'_> {
         for part in lines.into_iter().chain(others) {
             self.resolve().change_part(&mut record, name, part)?;
         }
-        self.note_slips(&record.constraint, parts, record.drivers());
+        if !self.state.is_restoring {
+            self.note_slips(&record.constraint, parts, record.drivers());
+        }
         let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         if is_on_another_line {
@@ -124,7 +126,10 @@ impl Resolver<'_> {
         for (field, value) in values {
             record.constraint.set(field, value);
         }
-        refuse_flaw(&record.constraint, std::slice::from_ref(part), name.span)?;
+        // What has no value now is given the one that it had last.
+        if !self.state.is_restoring {
+            refuse_flaw(&record.constraint, std::slice::from_ref(part), name.span)?;
+        }
         record.replace_drivers(&changed, drivers);
         Ok(())
     }

@@ -1,11 +1,12 @@
 //! Expressions of the language become values, or formulas that stay live.
 
 use super::scope::{Bound, Meaning, Resolver};
+use super::unbind::Unbind;
 use crate::constraint::{Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Operator, Shape};
-use crate::world::{Depends, Entity, Formula, Node, Rates, Value, call, operate};
+use crate::terms::{Function, Member, Operator, Shape};
+use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, call, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -143,10 +144,7 @@ impl Resolver<'_> {
         match term {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
-                if self.state.world.depends(&formula).on_rates {
-                    return Err(Diagnostic::error("a velocity cannot drive a constraint")
-                        .at(expr.span, "velocities follow from the constraints"));
-                }
+                self.refuse_what_follows(&formula, expr.span)?;
                 let value = match self.state.world.evaluate(&formula, None) {
                     // The one that it had last is put back after.
                     Err(_) if self.state.is_restoring => Value::zero(shape),
@@ -227,6 +225,7 @@ impl Resolver<'_> {
                     Mode::Now => self.evaluate(&formula).map(Term::Constant),
                 };
             }
+            Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
             Meaning::Bound(Bound::Point(id)) => Entity::Point(id),
             Meaning::Entity(entity) => entity,
         };
@@ -262,6 +261,47 @@ impl Resolver<'_> {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),
         }
+    }
+
+    fn bind_member(
+        &mut self,
+        id: ConstraintId,
+        member: Member,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let follows = member.follows();
+        let depends = Depends {
+            on_angles: !follows,
+            on_constraints: follows,
+            on_points: follows,
+            ..Depends::default()
+        };
+        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+
+    /// Refuses to drive a constraint by what follows from the constraints.
+    fn refuse_what_follows(&self, formula: &Formula, span: Span) -> Result<(), Diagnostic> {
+        let depends = self.state.world.depends(formula);
+        if depends.on_rates {
+            return Err(Diagnostic::error("a velocity cannot drive a constraint")
+                .at(span, "velocities follow from the constraints"));
+        }
+        let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
+        let unbind = Unbind::of(&self.state.world);
+        let name =
+            format!("{}.{}", self.state.world.name_of(Entity::Constraint(id)), member.word());
+        let problem = Diagnostic::error(format!("`{name}` cannot drive a constraint"));
+        Err(match (member, unbind.measure_text(id)) {
+            (Member::Value, Some(measure)) => problem
+                .at(span, "it follows from the constraints")
+                .help(format!("write what it measures: `{measure}`")),
+            _ => problem.at(span, "it follows from the constraints"),
+        })
     }
 
     /// The value of a formula now, velocities included if it needs them.

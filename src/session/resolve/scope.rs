@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::state::State;
+use crate::terms::Member;
 use crate::world::{ConstraintId, Entity, Formula, NameText, PointId};
 
 /// Names that have a meaning of their own in every expression.
@@ -101,6 +102,8 @@ pub enum Meaning {
     Bound(Bound),
     /// Something with a name.
     Entity(Entity),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
 }
 
 impl<'a> Resolver<'a> {
@@ -190,14 +193,51 @@ impl<'a> Resolver<'a> {
             self.scopes.spelling = whole;
             return Ok((Meaning::Entity(entity), None));
         }
-        if axis.is_some() {
-            let vector = self.spell(name, name.parts.len() - 1)?;
-            if let Some(entity) = self.find(&vector) {
-                self.scopes.spelling = vector;
-                return Ok((Meaning::Entity(entity), axis));
+        let member = match name.parts.last().map(|part| &part.kind) {
+            Some(PartKind::Member(member)) => Member::named(member),
+            _ => None,
+        };
+        if axis.is_some() || member.is_some() {
+            let owner = self.spell(name, name.parts.len() - 1)?;
+            let found = self.find(&owner);
+            self.scopes.spelling = owner;
+            match (found, member) {
+                (Some(entity), None) => return Ok((Meaning::Entity(entity), axis)),
+                (Some(entity), Some(member)) => {
+                    return Ok((self.member(entity, member, name.span)?, None));
+                }
+                (None, _) => {}
             }
         }
         Err(self.unknown(&whole, name.span))
+    }
+
+    /// The members that a constraint has.
+    fn members(&self, id: ConstraintId) -> impl Iterator<Item = Member> {
+        let world = &self.state.world;
+        Member::ALL.into_iter().filter(move |&member| world.has_member(id, member))
+    }
+
+    /// A member of something with a name.
+    fn member(&self, of: Entity, member: Member, span: Span) -> Result<Meaning, Diagnostic> {
+        let world = &self.state.world;
+        let (name, word) = (world.name_of(of), member.word());
+        let Entity::Constraint(id) = of else {
+            return Err(Diagnostic::error(format!("`{name}` is a {}", of.noun()))
+                .at(span, format!("only a constraint has a member `.{word}`")));
+        };
+        if world.has_member(id, member) {
+            return Ok(Meaning::Member(id, member));
+        }
+        let others = self.members(id).map(|other| format!("`{name}.{}`", other.word()));
+        let others: Vec<String> = others.collect();
+        let label = match member {
+            Member::Angle => "only a motor has an angle",
+            _ => "it measures no single number",
+        };
+        Err(Diagnostic::error(format!("`{name}` has no `.{word}`"))
+            .at(span, label)
+            .help(format!("there is {}", others.join(" and "))))
     }
 
     /// What has this name.
@@ -218,7 +258,7 @@ impl<'a> Resolver<'a> {
                 Err(Diagnostic::error(format!("`{}` stands for {value} here", name.head.text))
                     .at(name.span, format!("expected the name of {wanted}")))
             }
-            (_, Some(_)) => {
+            (_, Some(_)) | (Meaning::Member(..), None) => {
                 let whole = self.spell(name, name.parts.len())?;
                 Err(self.unknown(&whole, name.span))
             }
@@ -319,6 +359,13 @@ impl<'a> Resolver<'a> {
         for (dot, _) in text.match_indices('.') {
             let owner = &text[..dot];
             if let Some(entity) = names.get(owner) {
+                if let (Entity::Constraint(id), Some(member)) =
+                    (entity, Member::named(&text[dot + 1..]))
+                    && self.state.world.has_member(id, member)
+                {
+                    return Err(Diagnostic::error(format!("`{text}` is a member of `{owner}`"))
+                        .at(span, "this name has its meaning already"));
+                }
                 return Err(Diagnostic::error(format!("`{owner}` is a {}", entity.noun()))
                     .at(span, "only an instance of a definition has members")
                     .help("choose a name without the dot"));
@@ -357,6 +404,15 @@ impl<'a> Resolver<'a> {
                 format!("there is `{first}`")
             } else {
                 format!("there are `{first}` to `{last}`")
+            });
+        }
+        if let Some((owner, word)) = text.rsplit_once('.')
+            && let Some(Entity::Constraint(id)) = self.find(owner)
+        {
+            let members: Vec<&str> = self.members(id).map(Member::word).collect();
+            return problem.help(match nearest(word, members.iter().copied()) {
+                Some(near) => format!("did you mean `{owner}.{near}`?"),
+                None => format!("its members are `.{}`", members.join("`, `.")),
             });
         }
         let prefix = &self.scope().prefix;

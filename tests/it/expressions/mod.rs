@@ -1,4 +1,5 @@
 //! What expressions are worth, against closed forms.
 
 mod functions;
+mod members;
 mod rates;

@@ -3,7 +3,8 @@
 
 use linkwork::constraint::{Constraint, ConstraintKind as _, Field, Point, Vec2};
 use linkwork::diag::Diagnostic;
-use linkwork::world::{Environment, ParameterId, PointId, Value, World};
+use linkwork::terms::Member;
+use linkwork::world::{ConstraintId, Environment, ParameterId, PointId, Value, World};
 
 /// A world as its formulas see it: each parameter is what its own formula gives now.
 struct Fresh<'a>(&'a World);
@@ -20,6 +21,13 @@ impl Environment<f64> for Fresh<'_> {
 
     fn time(&self) -> f64 {
         self.0.clock().time()
+    }
+
+    fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
+        match self.0.constraint(id).map(|record| &record.constraint) {
+            Some(Constraint::Motor(motor)) if member == Member::Angle => Ok(motor.total()),
+            other => unreachable!("{member:?} of {other:?} drives nothing"),
+        }
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
