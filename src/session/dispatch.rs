@@ -27,6 +27,7 @@ impl Execution<'_> {
                 problem
             }
         })?;
+        self.begin_counts();
         if flow == Flow::On && self.host.is_interrupted() {
             self.note("stopped");
             return Ok(Flow::Stopped);

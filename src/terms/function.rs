@@ -73,6 +73,8 @@ functions! {
     DistanceToLine "distance(P, A, B)" "vvv" -> Number, "distance(P, A, B): from P to the line AB, positive on the left of A->B";
     Angle "angle(P, Q)" "vv" -> Number, "angle(P, Q): direction of PQ against the x axis, in (-pi, pi]";
     AngleBetween "angle(A, B, C, D)" "vvvv" -> Number, "angle(A, B, C, D): signed angle from AB to CD, in (-pi, pi]";
+    Turn "turn(A, B)" "pp" -> Number, "turn(A, B): direction of AB against the x axis, whole turns counted";
+    TurnBetween "turn(A, B, C, D)" "pppp" -> Number, "turn(A, B, C, D): signed angle from AB to CD, whole turns counted";
     Velocity "velocity(P)" "p" -> Vector, "velocity(P): rate of change of P, per time unit";
     Acceleration "acceleration(P)" "p" -> Vector, "acceleration(P): second derivative of P, per time unit squared";
     Omega "omega(A, B)" "pp" -> Number, "omega(A, B): angular velocity of the direction AB, radians per time unit";
@@ -86,6 +88,11 @@ impl Function {
     pub fn name(self) -> &'static str {
         let usage = self.usage();
         usage.split_once('(').map_or(usage, |(name, _)| name)
+    }
+
+    /// Whether it is an angle whose whole turns are counted.
+    pub const fn counts_turns(self) -> bool {
+        matches!(self, Self::Turn | Self::TurnBetween)
     }
 
     /// Whether it is had from velocities, which follow from the constraints.

@@ -92,11 +92,11 @@ pub fn call<T: Real>(
             }
             Number(cross(b - a, p - a) / l)
         }
-        Function::Angle => {
+        Function::Angle | Function::Turn => {
             let v = vector(1) - vector(0);
             angle(v.x, v.y, span)?
         }
-        Function::AngleBetween => {
+        Function::AngleBetween | Function::TurnBetween => {
             let (u, v) = (vector(1) - vector(0), vector(3) - vector(2));
             angle(u.dot(v), cross(u, v), span)?
         }

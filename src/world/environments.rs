@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{ConstraintId, Environment, ParameterId, PointId, Value, World};
+use super::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real, Vec2, Vector};
 use crate::diag::Diagnostic;
 use crate::terms::Member;
@@ -67,6 +67,10 @@ impl Environment<f64> for Here<'_> {
         self.world.clock.time()
     }
 
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
+    }
+
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
         self.world.member(id, member)
     }
@@ -123,6 +127,10 @@ impl Environment<f64> for Within<'_> {
 
     fn time(&self) -> f64 {
         self.time
+    }
+
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
@@ -211,6 +219,10 @@ impl Environment<Jet> for Moving<'_> {
 
     fn time(&self) -> Jet {
         Jet::new(self.world.clock.time(), 1.0, 0.0)
+    }
+
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {

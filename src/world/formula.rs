@@ -1,10 +1,12 @@
 //! Expressions bound to what they name: live formulas over points, parameters and time.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
 use super::rate_function::{MovingPoint, rate};
-use super::{ConstraintId, ParameterId, PointId, Value};
+use super::turn_count::whole_turns;
+use super::{ConstraintId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
 use crate::terms::{Function, Member, Operator, Shape};
@@ -105,6 +107,8 @@ pub trait Environment<T: Real> {
     fn position(&self, id: PointId) -> Vec2<T>;
     /// The time.
     fn time(&self) -> T;
+    /// The angle with whole turns that a direction of now is nearest to.
+    fn expected_turn(&self, turning: Turning) -> f64;
     /// The value of a member of a constraint.
     ///
     /// # Errors
@@ -204,6 +208,9 @@ impl Formula {
             Node::Call(function, arguments) if function.is_rate() => {
                 return self.rate(*function, arguments, env);
             }
+            Node::Call(function, arguments) if function.counts_turns() => {
+                return self.turn(*function, arguments, env);
+            }
             Node::Call(function, arguments) => {
                 // Few arguments but for `min` and `max`: no allocation then.
                 let mut few = [Number(T::constant(0.0)); 4];
@@ -241,12 +248,31 @@ impl Formula {
         rate(function, &moving, self.span())
     }
 
+    fn turn<T: Real>(
+        &self,
+        function: Function,
+        arguments: &[Self],
+        env: &impl Environment<T>,
+    ) -> Result<Value<T>, Diagnostic> {
+        let points: Vec<PointId> = arguments.iter().map(Self::point).collect();
+        let places: Vec<_> = points.iter().map(|&id| Value::Vector(env.position(id))).collect();
+        let angle = call(function, &places, self.span())?.number();
+        let turning = Turning::of(&points).expect("it is bound to two points, or four");
+        let turns = whole_turns(env.expected_turn(turning), angle.value());
+        finite(Value::Number(angle + T::constant(turns * TAU)), self.span())
+    }
+
+    /// The point, if that is all it is.
+    pub fn as_point(&self) -> Option<PointId> {
+        match self.node() {
+            Node::Point(id) => Some(*id),
+            _ => None,
+        }
+    }
+
     /// The point, of an argument that is bound to the name of one.
     fn point(&self) -> PointId {
-        match self.node() {
-            Node::Point(id) => *id,
-            other => unreachable!("{other:?} is bound to the name of a point"),
-        }
+        self.as_point().expect("it is bound to the name of a point")
     }
 }
 

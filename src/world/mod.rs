@@ -39,6 +39,7 @@ mod edit;
 mod motion;
 mod quadrature;
 mod same;
+mod turn_count;
 mod unchanged;
 
 pub(crate) use arithmetic::{call, operate};
@@ -60,5 +61,6 @@ pub use state::World;
 #[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
+pub use turn_count::{TurnCount, Turning};
 pub use user::User;
 pub use value::Value;

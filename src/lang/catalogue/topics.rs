@@ -61,7 +61,8 @@ pub(super) const TOPICS: &[Entry] = &[
              exp ln mod`, `clamp(x, lo, hi)`, `triangle(x)` (0 at even, 1 at odd x).\n\
              Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
              Measures: `distance(P, Q)`, `distance(P, A, B)` from P to the line AB, `angle(P, Q)`,\n\
-             `angle(A, B, C, D)`.\n\
+             `angle(A, B, C, D)`; `turn(A, B)` and `turn(A, B, C, D)` are the same angles with their whole\n\
+             turns, counted from the first statement that asks.\n\
              Rates, only where a value is looked at: `velocity(P)`, `acceleration(P)`, `omega(A, B)` and\n\
              `alpha(A, B)` of the direction AB, `curvature(P)` of P's path, and `ic(A, B, C, D)`, the instant\n\
              centre of the bodies that hold the lines AB and CD.",

@@ -46,6 +46,7 @@ impl State {
             line(&mut script, Building::Define(definition.clone()));
         }
         self.save_points(&mut script);
+        self.save_turn_counts(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
         // What mentions members of constraints comes after these.
         let (late, early): (Vec<_>, Vec<_>) =
@@ -113,6 +114,19 @@ impl State {
                 let place = vec![vector(start.x, start.y)];
                 restore(script, Restorable::Start, Some(points.name(id)), place);
             }
+        }
+    }
+
+    fn save_turn_counts(&self, script: &mut String) {
+        let numbered = ordinals(&self.world);
+        for (turning, count) in self.world.turn_counts() {
+            let points = turning.points();
+            let ordinal = |id| numbered.binary_search(id).unwrap_or_default() as f64;
+            let mut values = vec![points.len() as f64];
+            values.extend(points.iter().map(ordinal));
+            values.extend(count.winding.to_numbers());
+            values.extend(count.start.iter().flat_map(|start| start.to_numbers()));
+            restore(script, Restorable::Turn, None, numbers(&values));
         }
     }
 

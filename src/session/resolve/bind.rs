@@ -325,15 +325,15 @@ impl Resolver<'_> {
         expr: &Expr,
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
-        let is_rate = function.is_rate();
+        let is_of_points = function.is_rate() || function.counts_turns();
         let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
         let mut many = Vec::new();
         let is_few = arguments.len() <= few.len();
         let letters =
             function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
         for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
-            // Only a formula keeps the name that a rate needs.
-            let term = self.bind(argument, if is_rate { Mode::Live } else { mode })?;
+            // Only a formula keeps the names of points.
+            let term = self.bind(argument, if is_of_points { Mode::Live } else { mode })?;
             let shape = if letter == b'n' { Shape::Number } else { Shape::Vector };
             if term.shape() != shape {
                 return Err(wanted(argument, shape));
@@ -345,8 +345,8 @@ impl Resolver<'_> {
             }
         }
         let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
-        if is_rate {
-            return self.bind_rate(function, terms, arguments, expr, mode);
+        if is_of_points {
+            return self.bind_of_points(function, terms, arguments, expr, mode);
         }
         if terms.iter().all(|term| matches!(term, Term::Constant(_))) {
             let constant = |term: &Term| match term {
@@ -368,7 +368,7 @@ impl Resolver<'_> {
         Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
     }
 
-    fn bind_rate(
+    fn bind_of_points(
         &mut self,
         function: Function,
         terms: &[Term],
@@ -377,7 +377,11 @@ impl Resolver<'_> {
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
         let points = points_of(function, terms, arguments)?;
-        let depends = Depends { on_rates: true, ..Depends::default() };
+        if function.counts_turns() {
+            self.note_turning(&points);
+        }
+        let is_rate = function.is_rate();
+        let depends = Depends { on_rates: is_rate, on_points: !is_rate, ..Depends::default() };
         let node = Node::Call(function, points);
         let formula = Formula::new(node, function.result(), depends, expr.span);
         match mode {

@@ -6,7 +6,7 @@ use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::state::State;
 use crate::terms::Member;
-use crate::world::{ConstraintId, Entity, Formula, NameText, PointId};
+use crate::world::{ConstraintId, Entity, Formula, NameText, PointId, Turning};
 
 /// Names that have a meaning of their own in every expression.
 pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -21,11 +21,13 @@ pub struct Scopes {
     stack: Vec<Scope>,
     /// Room for the text of a name.
     spelling: String,
+    /// What the statement under way wants counted.
+    turnings: Vec<Turning>,
 }
 
 impl Default for Scopes {
     fn default() -> Self {
-        Self { stack: vec![Scope::default()], spelling: String::new() }
+        Self { stack: vec![Scope::default()], spelling: String::new(), turnings: Vec::new() }
     }
 }
 
@@ -55,6 +57,11 @@ impl Scopes {
     /// Forgets a loop variable of the innermost scope.
     pub fn unbind(&mut self, place: usize) {
         self.innermost_mut().bindings.truncate(place);
+    }
+
+    /// What was to be counted since this was last asked for.
+    pub fn take_turnings(&mut self) -> Vec<Turning> {
+        std::mem::take(&mut self.turnings)
     }
 
     fn innermost(&self) -> &Scope {
@@ -110,6 +117,12 @@ impl<'a> Resolver<'a> {
     /// Names as they are in `scopes`; `sources` holds the text they stand in.
     pub fn new(state: &'a mut State, scopes: &'a mut Scopes, sources: &'a Sources) -> Self {
         Self { state, scopes, sources }
+    }
+
+    /// Wants counted how far something turns, from this statement on.
+    pub(super) fn note_turning(&mut self, points: &[Formula]) {
+        let points: Vec<PointId> = points.iter().filter_map(Formula::as_point).collect();
+        self.scopes.turnings.extend(Turning::of(&points));
     }
 
     /// The text at a place.

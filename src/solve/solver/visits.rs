@@ -75,6 +75,7 @@ impl Solver {
         }
         due.clear();
         self.due = due;
+        world.follow_turns();
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
         for &violation in self.unsatisfiable.values() {
             let is_met = violation <= tolerance;

@@ -3,3 +3,4 @@
 mod functions;
 mod members;
 mod rates;
+mod turns;

@@ -4,7 +4,7 @@
 use linkwork::constraint::{Constraint, ConstraintKind as _, Field, Point, Vec2};
 use linkwork::diag::Diagnostic;
 use linkwork::terms::Member;
-use linkwork::world::{ConstraintId, Environment, ParameterId, PointId, Value, World};
+use linkwork::world::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
 
 /// A world as its formulas see it: each parameter is what its own formula gives now.
 struct Fresh<'a>(&'a World);
@@ -21,6 +21,10 @@ impl Environment<f64> for Fresh<'_> {
 
     fn time(&self) -> f64 {
         self.0.clock().time()
+    }
+
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.0.turn_count(turning).total()
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
