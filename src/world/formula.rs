@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
 use super::rate_function::{MovingPoint, rate};
-use super::turn_count::whole_turns;
+use super::turning::whole_turns;
 use super::{ConstraintId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};

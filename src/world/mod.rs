@@ -40,6 +40,7 @@ mod motion;
 mod quadrature;
 mod same;
 mod turn_count;
+mod turning;
 mod unchanged;
 
 pub(crate) use arithmetic::{call, operate};
@@ -61,6 +62,6 @@ pub use state::World;
 #[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
-pub use turn_count::{TurnCount, Turning};
+pub use turning::{TurnCount, Turning};
 pub use user::User;
 pub use value::Value;

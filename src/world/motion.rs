@@ -8,7 +8,7 @@ use super::environments::Within;
 use super::quadrature::mean;
 use super::same::{States, are_same_places, are_same_states};
 use super::trace::Tail;
-use super::turn_count::{TurnCounts, TurnsAhead, are_same_counts};
+use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
 use super::{Clock, ConstraintId, Ghost, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 use crate::diag::Diagnostic;

@@ -6,7 +6,7 @@ use super::dependencies::Dependencies;
 use super::name_index::NameIndex;
 use super::point_users::PointUsers;
 use super::records::Table;
-use super::turn_count::{TurnCounts, TurnsAhead};
+use super::turning::{TurnCounts, TurnsAhead};
 use super::{
     Clock, ConstraintId, Entity, Ghost, NameText, Parameter, ParameterId, PointId, Points, Record,
     Touched, Trace,

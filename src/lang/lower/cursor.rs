@@ -331,6 +331,7 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::open_bracket
             | Rule::close_bracket
             | Rule::kw_to
+            | Rule::kw_through
             | Rule::kw_over
             | Rule::kw_on
             | Rule::kw_at
