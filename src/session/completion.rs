@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::commands::setting_table::Setting;
-use crate::lang::ast::Function;
+use crate::lang::ast::{Function, Unit};
 use crate::lang::catalogue;
 use crate::solve::Method;
 use crate::terms::Member;
@@ -54,6 +54,7 @@ impl Completion {
             [] => commands().collect(),
             [label] if label.ends_with(':') => commands().collect(),
             ["help"] => commands().chain(catalogue::topics().map(|entry| entry.keyword)).collect(),
+            ["print", .., "in"] => Unit::ALL.iter().map(|unit| unit.suffix()).collect(),
             ["set"] => Setting::names().collect(),
             ["set", "method"] => Method::ALL.iter().map(|method| method.word()).collect(),
             ["list"] => vec!["points", "constraints", "traces", "parameters", "definitions"],
@@ -104,6 +105,7 @@ mod tests {
         check("print c", (6, &["ceil", "clamp", "cos", "coupler", "cross", "curvature"]));
         check("print coupler.", (6, &["coupler.residual", "coupler.value"]));
         check("show coupler.", (5, &[]));
+        check("print coupler.value in r", (23, &["rad", "rev", "rpm"]));
         check("length A coupler = co", (19, &["cos", "coupler"]));
         check("length A p[1", (9, &["p[10]", "p[1]"]));
         check("delete le", (7, &["left.P"]));

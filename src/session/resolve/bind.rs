@@ -1,7 +1,6 @@
 //! Expressions of the language become values, or formulas that stay live.
 
 use super::scope::{Bound, Meaning, Resolver};
-use super::unbind::Unbind;
 use crate::constraint::{Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
@@ -282,26 +281,6 @@ impl Resolver<'_> {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),
         }
-    }
-
-    /// Refuses to drive a constraint by what follows from the constraints.
-    fn refuse_what_follows(&self, formula: &Formula, span: Span) -> Result<(), Diagnostic> {
-        let depends = self.state.world.depends(formula);
-        if depends.on_rates {
-            return Err(Diagnostic::error("a velocity cannot drive a constraint")
-                .at(span, "velocities follow from the constraints"));
-        }
-        let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
-        let unbind = Unbind::of(&self.state.world);
-        let name =
-            format!("{}.{}", self.state.world.name_of(Entity::Constraint(id)), member.word());
-        let problem = Diagnostic::error(format!("`{name}` cannot drive a constraint"));
-        Err(match (member, unbind.measure_text(id)) {
-            (Member::Value, Some(measure)) => problem
-                .at(span, "it follows from the constraints")
-                .help(format!("write what it measures: `{measure}`")),
-            _ => problem.at(span, "it follows from the constraints"),
-        })
     }
 
     /// The value of a formula now, velocities included if it needs them.

@@ -225,34 +225,6 @@ impl<'a> Resolver<'a> {
         Err(self.unknown(&whole, name.span))
     }
 
-    /// The members that a constraint has.
-    fn members(&self, id: ConstraintId) -> impl Iterator<Item = Member> {
-        let world = &self.state.world;
-        Member::ALL.into_iter().filter(move |&member| world.has_member(id, member))
-    }
-
-    /// A member of something with a name.
-    fn member(&self, of: Entity, member: Member, span: Span) -> Result<Meaning, Diagnostic> {
-        let world = &self.state.world;
-        let (name, word) = (world.name_of(of), member.word());
-        let Entity::Constraint(id) = of else {
-            return Err(Diagnostic::error(format!("`{name}` is a {}", of.noun()))
-                .at(span, format!("only a constraint has a member `.{word}`")));
-        };
-        if world.has_member(id, member) {
-            return Ok(Meaning::Member(id, member));
-        }
-        let others = self.members(id).map(|other| format!("`{name}.{}`", other.word()));
-        let others: Vec<String> = others.collect();
-        let label = match member {
-            Member::Angle => "only a motor has an angle",
-            _ => "it measures no single number",
-        };
-        Err(Diagnostic::error(format!("`{name}` has no `.{word}`"))
-            .at(span, label)
-            .help(format!("there is {}", others.join(" and "))))
-    }
-
     /// What has this name.
     pub(crate) fn entity(&mut self, name: &Name) -> Result<Entity, Diagnostic> {
         self.entity_for(name, "a point, a constraint or a parameter")

@@ -9,6 +9,7 @@ use crate::constraint::{
     Constraint, ConstraintKind as _, Field, Jet, Point, PointIdx, Real as _, Vec2, Vector,
 };
 use crate::solve::island::Island;
+use crate::solve::method::spectrum::noise;
 use crate::solve::method::{Limits, Pose, Stiffness, Workspace, newton};
 use crate::solve::report::{Counters, Status};
 use crate::solve::velocity;
@@ -28,6 +29,10 @@ const MOST_CUTS: u32 = 8;
 const CUT: f64 = 0.25;
 /// A step that moves no point by this part of its length leads against an end stop.
 const BLOCKED: f64 = 1e-3;
+/// How far points are pushed aside, relative to the size, and the part of the squared distance that
+/// this has to gain.
+const PUSH: f64 = 1e-3;
+const WORTHWHILE: f64 = 1e-9;
 /// What rounding leaves of a sum of squares.
 const ROUNDING: f64 = 1e-14;
 /// A bound is reached if the value is within this part of the size, or so many radians.
@@ -43,17 +48,9 @@ pub(crate) type Pulled = (usize, Point);
 pub(crate) fn pull(island: &mut Island, pulled: &[Pulled], limits: &Limits, work: &mut Counters) {
     let limits = Limits { n_iterations: MOST_CORRECTIONS, ..*limits };
     let mut workspace = island.take_workspace();
-    let mut way = Way { direction: Vec::new(), slope: Vec::new(), held: Vec::new() };
-    for _ in 0..MOST_STEPS {
-        let mut bounds = Bounds::take(island, &limits);
-        let leads_on = way.turn(island, &mut workspace, &mut bounds, pulled, &limits, work);
-        bounds.act(island);
-        let went = leads_on && step(island, &mut workspace, &way, pulled, &limits, work);
-        bounds.release(island);
-        if !went || limits.budget.is_spent() {
-            break;
-        }
-        island.accept_pose();
+    descend(island, &mut workspace, pulled, &limits, work);
+    if distance(island, pulled).sqrt() > FLAT * limits.size {
+        leave_toggle(island, &mut workspace, pulled, &limits, work);
     }
     let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
     workspace.evaluate(&pose, work);
@@ -70,6 +67,66 @@ pub(crate) fn pull(island: &mut Island, pulled: &[Pulled], limits: &Limits, work
     island.history.forget();
     island.accept_pose();
     island.update_sides();
+}
+
+/// Goes on as long as a way leads nearer.
+fn descend(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    pulled: &[Pulled],
+    limits: &Limits,
+    work: &mut Counters,
+) {
+    let mut way = Way { direction: Vec::new(), slope: Vec::new(), held: Vec::new() };
+    for _ in 0..MOST_STEPS {
+        let mut bounds = Bounds::take(island, limits);
+        let leads_on = way.turn(island, workspace, &mut bounds, pulled, limits, work);
+        bounds.act(island);
+        let went = leads_on && step(island, workspace, &way, pulled, limits, work);
+        bounds.release(island);
+        if !went || limits.budget.is_spent() {
+            break;
+        }
+        island.accept_pose();
+    }
+}
+
+/// Where two bars lie in one line, the point that they hold gives way to their joint's moving aside
+/// only with its square, and no slope shows it. So what is open is pushed a little, one way and the
+/// other; where that leads no nearer, all stays where it is.
+fn leave_toggle(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    pulled: &[Pulled],
+    limits: &Limits,
+    work: &mut Counters,
+) {
+    let before = distance(island, pulled);
+    let here: Box<[Point]> = island.x[..island.n_free].into();
+    let pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    workspace.evaluate(&pose, work);
+    workspace.assemble(Stiffness::None).factor(velocity::FLOOR);
+    work.factorisations += 1;
+    // By place and not by handle, which a saved session gives anew.
+    let aside = open_part(workspace, (0..2 * island.n_free as u32).map(noise).collect());
+    let reach = workspace.equations.reach(&aside);
+    if reach <= ROUNDING {
+        return;
+    }
+    for way in [PUSH, -PUSH] {
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        let t = way * limits.size / reach;
+        if workspace.equations.displace(pose.x, &here, &aside, t)
+            && newton::solve_near(workspace, &mut pose, limits, work).is_converged()
+        {
+            descend(island, workspace, pulled, limits, work);
+            if distance(island, pulled) < before * (1.0 - WORTHWHILE) {
+                return;
+            }
+        }
+        island.x[..here.len()].copy_from_slice(&here);
+        island.accept_pose();
+    }
 }
 
 /// Half the sum of the squared distances that are left.

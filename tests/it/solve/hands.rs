@@ -183,3 +183,16 @@ fn a_drag_follows_its_path_by_length() {
     // Without a number of frames each piece takes one.
     talking.run("drag A through (1, 0), (1, 2), (2, 2); assert time = 3/60; assert A = (2, 2)");
 }
+
+#[test]
+fn a_pull_leads_out_of_a_straight_stay() {
+    // The stay is straight where the lid is open: its joint has to go aside before the lid moves.
+    let mut talking = Talking::after(
+        "point H = (0, 0) frozen, F = (1.5, -1) frozen, L = (4, 0), M = (2, 0), K = (2.9, -1.3)
+         length H L = 4; hinge M on H L at 1/2; length F K = 1.7; length K M = 1.6; solve",
+    );
+    talking.run("pull L through (3, 3), (-3, 5) over 40; assert distance(K, F, M) = 0 within 1e-6");
+    talking.run("pull L to (4, 1) over 20; assert angle(H, L) = atan2(1, 4) within 1e-9");
+    talking.run("pull L to (-4, 3) over 0; assert distance(F, M) = 3.3 within 1e-9");
+    talking.run("pull L to (4, 1) over 0; assert angle(H, L) = atan2(1, 4) within 1e-9");
+}
