@@ -61,9 +61,10 @@ impl Completion {
             _ => self.names.iter().map(String::as_str).collect(),
         };
         // A value may be computed; what a command is about is named.
+        let is_unit = matches!(said[..], ["print", .., "in"]);
         let is_value = before[statement..start].contains(['=', '('])
             || matches!(said.first(), Some(&("print" | "assert" | "let" | "sample")));
-        if is_value {
+        if is_value && !is_unit {
             Function::ALL.iter().for_each(|function| found.push(function.name()));
             let is_member = word.contains('.');
             found.extend(self.members.iter().filter(|_| is_member).map(String::as_str));
