@@ -42,4 +42,5 @@ pub use parts::row::PointIdx;
 pub use parts::row::Row;
 pub use parts::turns::Turns;
 pub use parts::vec2::Vec2;
+pub(crate) use parts::winding::Winding;
 pub use traits::{Activity, Carried, Flag, Flaw, Quantity, Traits};

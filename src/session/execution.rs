@@ -126,6 +126,18 @@ impl<'a> Execution<'a> {
         self.history.edit(self.state, edit);
     }
 
+    /// Counts from now on how far that turns which a statement asked for.
+    pub fn begin_counts(&mut self) {
+        for turning in self.scopes.take_turnings() {
+            let world = &self.state.world;
+            let is_there = turning.points().iter().all(|&id| world.points().is_alive(id));
+            if is_there && !world.counts(turning) {
+                let count = world.turn_count(turning);
+                self.edit(Edit::TurnCount(Box::new((turning, Some(count)))));
+            }
+        }
+    }
+
     /// Lets the solver take in what was edited, as part of the command.
     pub fn sync(&mut self) {
         self.history.sync(self.state);

@@ -15,7 +15,7 @@ use crate::world::{ConstraintId, Rates, World};
 
 /// Far below the smallest square of a singular value that matters; the repetitions remove
 /// what it does to the result.
-const FLOOR: f64 = 1e-10;
+pub(super) const FLOOR: f64 = 1e-10;
 /// Repetitions of the solve on what is left; each gains the digits that the floor costs.
 const REPETITIONS: u32 = 4;
 
@@ -104,7 +104,7 @@ pub(super) fn position_error(island: &mut Island) -> f64 {
 }
 
 /// What the rows of J times the unknown rates have to be.
-fn right_side(
+pub(super) fn right_side(
     island: &Island,
     workspace: &Workspace,
     drive: &impl Fn(usize, Field, f64) -> Jet,
@@ -129,7 +129,7 @@ fn right_side(
 }
 
 /// The shortest y for which J y comes nearest to the right side.
-fn shortest(workspace: &mut Workspace, rhs: &[f64]) -> Vec<f64> {
+pub(super) fn shortest(workspace: &mut Workspace, rhs: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; 2 * workspace.equations.points().len()];
     let mut d = y.clone();
     for _ in 0..REPETITIONS {

@@ -92,17 +92,16 @@ pub fn call<T: Real>(
             }
             Number(cross(b - a, p - a) / l)
         }
-        Function::Angle => {
+        Function::Angle | Function::Turn => {
             let v = vector(1) - vector(0);
             angle(v.x, v.y, span)?
         }
-        Function::AngleBetween => {
+        Function::AngleBetween | Function::TurnBetween => {
             let (u, v) = (vector(1) - vector(0), vector(3) - vector(2));
             angle(u.dot(v), cross(u, v), span)?
         }
-        Function::Velocity | Function::Acceleration => {
-            unreachable!("rates are not functions of values")
-        }
+        Function::Clamp => Number(clamp([0, 1, 2].map(number), span)?),
+        _ if function.is_rate() => unreachable!("rates are not functions of values"),
         _ => {
             let mut few = [T::constant(0.0); 4];
             let value = if let Some(few) = few.get_mut(..arguments.len()) {
@@ -129,6 +128,20 @@ fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
         );
     }
     Ok(Value::Number(y.atan2(x)))
+}
+
+/// x, but no less than the least and no more than the greatest.
+fn clamp<T: Real>([x, lo, hi]: [T; 3], span: Span) -> Result<T, Diagnostic> {
+    if lo.value() > hi.value() {
+        let [lo, hi] = [lo, hi].map(|end| format_number(end.value()));
+        return Err(Diagnostic::error("`clamp` has an empty range")
+            .at(span, format!("its least value, {lo}, is above its greatest, {hi}")));
+    }
+    Ok(match x.value() {
+        v if v < lo.value() => lo,
+        v if v > hi.value() => hi,
+        _ => x,
+    })
 }
 
 fn cross<T: Real>(a: Vec2<T>, b: Vec2<T>) -> T {

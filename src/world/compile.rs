@@ -75,7 +75,11 @@ impl World {
             let register = match place {
                 Place::Number(register) => register,
                 Place::Vector(x, y) => {
-                    if matches!(field, Field::X | Field::Value) { x } else { y }
+                    if matches!(field, Field::X | Field::Value) {
+                        x
+                    } else {
+                        y
+                    }
                 }
             };
             values.push((*field, register));
@@ -259,8 +263,18 @@ impl<'a> Compiler<'a> {
                     (Place::Number(k), Place::Vector(x, y)) => self.scale((x, y), k),
                 }
             }
-            Node::Call(function, arguments) => self.call(*function, arguments),
-            Node::Time => unreachable!("what does not measure the pose is an input"),
+            Node::Call(function, arguments) => {
+                let place = self.call(*function, arguments);
+                if !function.counts_turns() {
+                    return place;
+                }
+                // The whole turns are those that it had when the frame began.
+                let before = self.input(formula);
+                Place::Number(self.push(Operation::NearestTurn(place.number(), before)))
+            }
+            Node::Member(..) | Node::Time => {
+                unreachable!("what does not measure the pose is an input")
+            }
         }
     }
 
@@ -304,19 +318,22 @@ impl<'a> Compiler<'a> {
                 let length = self.push(Operation::Norm(line.0, line.1));
                 self.binary(Operator::Divide, area, length)
             }
-            Function::Angle => {
+            Function::Angle | Function::Turn => {
                 let (x, y) = self.subtract(vector(1), vector(0));
                 self.push(Operation::OfTwo(Function::Atan2, y, x))
             }
-            Function::AngleBetween => {
+            Function::AngleBetween | Function::TurnBetween => {
                 let u = self.subtract(vector(1), vector(0));
                 let v = self.subtract(vector(3), vector(2));
                 let (along, across) = (self.dot(u, v), self.cross(u, v));
                 self.push(Operation::OfTwo(Function::Atan2, across, along))
             }
-            Function::Velocity | Function::Acceleration => {
-                unreachable!("no rate drives a constraint")
+            Function::Clamp => {
+                let (x, lo, hi) = (number(0), number(1), number(2));
+                let x = self.push(Operation::OfTwo(Function::Min, x, hi));
+                self.push(Operation::OfTwo(Function::Max, x, lo))
             }
+            _ if function.is_rate() => unreachable!("no rate drives a constraint"),
             _ => {
                 let mut numbers = places.iter().map(|place| place.number());
                 let first = numbers.next().expect("a function has an argument");

@@ -46,6 +46,9 @@ impl World {
         }
         self.refresh_parameters();
         let (parameters, constraints) = self.affected(id);
+        if depends.on_constraints && !constraints.is_empty() {
+            return Err(self.follows_from_a_constraint(id));
+        }
         for id in parameters {
             let mut record = self.parameter(id).expect("a listed parameter lives").clone();
             record.depends = self.depends(&record.formula);
@@ -59,10 +62,8 @@ impl World {
         for id in constraints {
             let mut record = self.constraint(id).expect("a listed constraint lives").clone();
             self.bind(&mut record);
-            self.drive(&mut record)?;
-            if let Some(flaw) = record.flaw() {
-                return Err(flaw);
-            }
+            record.drive(&Here::new(self, None))?;
+            record.flaw().map_or(Ok(()), Err)?;
             undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
         }
         Ok(())
@@ -76,6 +77,15 @@ impl World {
         // Why it has none is noted once it is asked for.
         self.dependencies.note_change();
         self.apply(Edit::Parameter(id, Some(Box::new(Parameter { name, formula, value, depends }))))
+    }
+
+    /// Why a parameter cannot drive a constraint.
+    fn follows_from_a_constraint(&self, id: ParameterId) -> Diagnostic {
+        let parameter = self.parameter(id).expect("a named parameter lives");
+        let text = format!("`{}` follows from a constraint", parameter.name);
+        Diagnostic::error(text)
+            .at(parameter.formula.span(), "what a constraint comes to cannot drive one")
+            .help("use it in `print`, `assert`, or a parameter that these use")
     }
 
     /// Parameters that depend on one, each after those it mentions, and the constraints.
@@ -105,17 +115,6 @@ impl World {
         constraints.sort_unstable();
         constraints.dedup();
         (finished, constraints)
-    }
-
-    /// Puts the present values of its live expressions into a constraint.
-    fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
-        for k in 0..record.live().len() {
-            let (field, ref formula) = record.live()[k];
-            let value = formula.evaluate(&Here::new(self, None))?;
-            let value = given(&record.constraint, field, value);
-            record.constraint.set(field, value);
-        }
-        Ok(())
     }
 
     /// Evaluates live parameters and driven constraints anew, for the time and the pose as
@@ -164,6 +163,22 @@ impl World {
         }
     }
 
+    /// Evaluates anew what the angles of motors drive, once these have turned.
+    ///
+    /// # Errors
+    /// Where an expression has no value at these angles.
+    pub(super) fn refresh_turned(&mut self) -> Result<(), Diagnostic> {
+        if self.dependencies.turned().is_empty() {
+            return Ok(());
+        }
+        self.dependencies.note_change();
+        self.refresh_parameters();
+        for k in 0..self.dependencies.turned().len() {
+            self.refresh_constraint(self.dependencies.turned()[k])?;
+        }
+        Ok(())
+    }
+
     fn refresh_constraint(&mut self, id: ConstraintId) -> Result<(), Diagnostic> {
         let mut is_changed = false;
         let n_live = self.constraint(id).expect("a listed constraint lives").live().len();
@@ -206,6 +221,19 @@ impl World {
             }
         }
         Ok(all)
+    }
+}
+
+impl Record {
+    /// Puts the present values of its live expressions into the constraint.
+    pub(super) fn drive(&mut self, here: &Here) -> Result<(), Diagnostic> {
+        for k in 0..self.live().len() {
+            let (field, ref formula) = self.live()[k];
+            let value = formula.evaluate(here)?;
+            let value = given(&self.constraint, field, value);
+            self.constraint.set(field, value);
+        }
+        Ok(())
     }
 }
 

@@ -54,6 +54,12 @@ pub fn value_of<T: Real>(function: Function, a: &[T]) -> Option<T> {
             x.chain(e, e, e)
         }
         Function::Ln => (v > 0.0).then(|| x.chain(libm::log(v), 1.0 / v, -1.0 / (v * v)))?,
+        Function::Triangle => {
+            // The nearest even number is exact, and so is the distance from it.
+            let r = v - 2.0 * (0.5 * v).round();
+            let slope = if (0.0..1.0).contains(&r) { 1.0 } else { -1.0 };
+            x.chain(r.abs(), slope, 0.0)
+        }
         Function::Mod => {
             let b = a[1].value();
             if b == 0.0 {

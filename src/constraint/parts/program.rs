@@ -7,6 +7,7 @@ use super::content::add_all;
 use super::function::{length, power, value_of};
 use crate::constraint::{Jet, Real, Vec2, Vector};
 use crate::terms::{Function, Operator};
+use std::f64::consts::TAU;
 
 /// The place of a result in the list of operations.
 pub type Register = u32;
@@ -32,6 +33,8 @@ pub enum Operation {
     Of(Function, Register),
     /// A function of two numbers.
     OfTwo(Function, Register, Register),
+    /// The angle that differs from the first by whole turns and is nearest to the second.
+    NearestTurn(Register, Register),
 }
 
 /// Operations, each on the results of those before it.
@@ -68,7 +71,8 @@ impl Program {
                     Operation::Negate(a) | Operation::Of(_, a) => operation.apply(at(a), at(a)),
                     Operation::Binary(_, a, b)
                     | Operation::Norm(a, b)
-                    | Operation::OfTwo(_, a, b) => operation.apply(at(a), at(b)),
+                    | Operation::OfTwo(_, a, b)
+                    | Operation::NearestTurn(a, b) => operation.apply(at(a), at(b)),
                 };
             }
             look(results)
@@ -98,7 +102,8 @@ impl Program {
                     }
                     Operation::Binary(_, a, b)
                     | Operation::Norm(a, b)
-                    | Operation::OfTwo(_, a, b) => {
+                    | Operation::OfTwo(_, a, b)
+                    | Operation::NearestTurn(a, b) => {
                         let still = [at(a), at(b)].map(Jet::constant);
                         let moving = [at(a), at(b)].map(|v| Jet::new(v, 1.0, 0.0));
                         adjoint[a as usize] += s * operation.apply(moving[0], still[1]).d;
@@ -127,9 +132,10 @@ impl Program {
                 Operation::Binary(Operator::Multiply | Operator::Divide, a, b) if still(&[b]) => {
                     at(a)
                 }
-                Operation::Binary(_, a, b) | Operation::Norm(a, b) | Operation::OfTwo(_, a, b) => {
-                    (!still(&[a, b]), still(&[a, b]))
-                }
+                Operation::Binary(_, a, b)
+                | Operation::Norm(a, b)
+                | Operation::OfTwo(_, a, b)
+                | Operation::NearestTurn(a, b) => (!still(&[a, b]), still(&[a, b])),
                 Operation::Of(_, a) => (!still(&[a]), still(&[a])),
             };
             known.push(of);
@@ -150,6 +156,7 @@ impl Program {
                 Operation::Y(p) => (3, p, 0),
                 Operation::Negate(a) => (4, a, 0),
                 Operation::Norm(a, b) => (5, a, b),
+                Operation::NearestTurn(a, b) => (6, a, b),
                 Operation::Binary(operator, a, b) => (0x100 + operator as u64, a, b),
                 Operation::Of(function, a) => (0x200 + function as u64, a, 0),
                 Operation::OfTwo(function, a, b) => (0x300 + function as u64, a, b),
@@ -172,6 +179,10 @@ impl Operation {
             Self::Binary(Operator::Divide, ..) if b.value() == 0.0 => none(),
             Self::Binary(Operator::Divide, ..) => a / b,
             Self::Binary(Operator::Power, ..) => power(a, b).unwrap_or_else(none),
+            Self::NearestTurn(..) => {
+                let turns = ((b.value() - a.value()) / TAU).round();
+                a + T::constant(turns * TAU)
+            }
             Self::Norm(..) => length(Vec2 { x: a, y: b }),
             Self::Of(function, _) => value_of(function, &[a]).unwrap_or_else(none),
             Self::OfTwo(function, ..) => value_of(function, &[a, b]).unwrap_or_else(none),

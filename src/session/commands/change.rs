@@ -47,8 +47,11 @@ impl Execution<'_> {
             self.resolve().change_part(&mut record, name, part)?;
         }
         self.state.world.bind(&mut record);
-        refuse_flaw(&record.constraint, parts, name.span)?;
-        self.note_slips(record.constraint.stated(), parts, record.drivers());
+        // What has no value now is given the one that it had last.
+        if !self.state.is_restoring {
+            refuse_flaw(&record.constraint, parts, name.span)?;
+            self.note_slips(record.constraint.stated(), parts, record.drivers());
+        }
         let is_on_another_line = parts.iter().any(|part| matches!(part, Part::Line(..)));
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
         if is_on_another_line {

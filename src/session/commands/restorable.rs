@@ -15,6 +15,9 @@ pub enum Restorable {
     FirstState,
     /// What a constraint took from the pose at its creation.
     Captured,
+    /// How far something has turned: its number of points, these by number, then whole turns and
+    /// angle, and those that `reset` brings back.
+    Turn,
     /// The values of a driven constraint.
     Values,
     /// The places of a trace.
@@ -31,12 +34,13 @@ pub enum Restorable {
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 11] = [
+    const ALL: [Self; 12] = [
         Self::Clock,
         Self::Start,
         Self::State,
         Self::FirstState,
         Self::Captured,
+        Self::Turn,
         Self::Values,
         Self::Trace,
         Self::Missed,
@@ -53,6 +57,7 @@ impl Restorable {
             Self::State => "state",
             Self::FirstState => "firststate",
             Self::Captured => "captured",
+            Self::Turn => "turn",
             Self::Values => "values",
             Self::Trace => "trace",
             Self::Missed => "missed",

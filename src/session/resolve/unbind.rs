@@ -201,6 +201,23 @@ impl<'a> Unbind<'a> {
         }
     }
 
+    /// The expression that measures what a constraint measures, if there is one.
+    pub(crate) fn measure_text(&self, id: ConstraintId) -> Option<String> {
+        let constraint = self.world.constraint(id)?.constraint.stated();
+        let names: Vec<&str> =
+            constraint.points().iter().map(|&p| self.world.points().name(PointId(p))).collect();
+        Some(match (constraint, &names[..]) {
+            (Constraint::Length(_) | Constraint::Distance(_), names) => {
+                format!("distance({})", names.join(", "))
+            }
+            (Constraint::Orientation(_), names) => format!("angle({})", names.join(", ")),
+            (Constraint::Equal(_), [a, b, c, d]) => {
+                format!("distance({a}, {b}) - distance({c}, {d})")
+            }
+            _ => return None,
+        })
+    }
+
     /// A formula as the language writes it.
     pub(crate) fn unbind(&self, formula: &Formula) -> Expr {
         let two = |a: &Formula, b: &Formula| Box::new([self.unbind(a), self.unbind(b)]);
@@ -209,6 +226,10 @@ impl<'a> Unbind<'a> {
             Node::Time => Syntax::Time,
             Node::Point(id) => Syntax::Name(named(self.world.points().name(*id))),
             Node::Parameter(id) => Syntax::Name(named(self.world.name_of(Entity::Parameter(*id)))),
+            Node::Member(id, member) => {
+                let name = self.world.name_of(Entity::Constraint(*id));
+                Syntax::Name(named(&format!("{name}.{}", member.word())))
+            }
             Node::Vector(x, y) => Syntax::Vector(two(x, y)),
             Node::Negate(a) => Syntax::Negate(Box::new(self.unbind(a))),
             Node::Binary(op, a, b) => Syntax::Binary(*op, two(a, b)),

@@ -12,6 +12,7 @@ use super::island::partition::{Home, Partition};
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
+use crate::constraint::Point;
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
 
@@ -98,6 +99,27 @@ impl Solver {
     /// Solves until everything holds, or no iteration changes anything any more.
     pub fn settle(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
         self.run(world, settings, budget, Task::Settle)
+    }
+
+    /// Brings points as near to places as the constraints allow, from a pose that meets them:
+    /// nothing is torn, and no time passes.
+    ///
+    /// # Errors
+    /// A live expression that has no value in the new pose.
+    pub fn pull(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        pulled: &[(PointId, Point)],
+    ) -> Result<Report, Diagnostic> {
+        self.sync(world, settings);
+        let report = self.pull_islands(world, settings, budget, pulled);
+        let is_met = report.status == Status::Converged;
+        match if is_met { None } else { world.failed_measure() } {
+            Some(why) => Err(why),
+            None => Ok(report),
+        }
     }
 
     /// Takes in what the user edited. To be called before the clock goes on and before a point

@@ -154,6 +154,10 @@ pub fn edit() -> impl Strategy<Value = String> {
         1 => (point(), point()).prop_map(|(p, q)| format!("move {p} to {q}")),
         2 => (point(), number(), number(), 1..6u32)
             .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
+        1 => (point(), number(), number(), 0..6u32)
+            .prop_map(|(p, x, y, n)| format!("pull {p} to ({x}, {y}) over {n}")),
+        1 => (point(), number(), number(), prop_oneof![Just(0), 2..6u32])
+            .prop_map(|(p, x, y, n)| format!("drag {p} through ({x}, 0), ({x}, {y}) over {n}")),
         3 => (1..8u32).prop_map(|n| format!("step {n}")),
         1 => Just("solve".to_owned()),
         1 => Just("relax 5".to_owned()),

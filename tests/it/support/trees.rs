@@ -60,14 +60,18 @@ fn making() -> BoxedStrategy<Making> {
         at,
         frozen,
     });
-    let target = (name(), expr()).prop_map(|(point, to)| DragTarget { point, to });
+    let targets = || {
+        let target = (name(), vec(expr(), 1..4));
+        vec(target.prop_map(|(point, places)| DragTarget { point, places }), 1..3)
+    };
     prop_oneof![
         vec(binding, 1..3).prop_map(Making::Let),
         vec(point, 1..3).prop_map(Making::Point),
         selection().prop_map(Making::Freeze),
         selection().prop_map(Making::Thaw),
         (name(), expr()).prop_map(|(point, to)| Making::Move { point, to }),
-        (vec(target, 1..3), of(expr())).prop_map(|(targets, over)| Making::Drag { targets, over }),
+        (targets(), of(expr())).prop_map(|(targets, over)| Making::Drag { targets, over }),
+        (targets(), of(expr())).prop_map(|(targets, over)| Making::Pull { targets, over }),
     ]
     .boxed()
 }
@@ -158,7 +162,11 @@ fn running() -> BoxedStrategy<Running> {
 }
 
 fn looking() -> BoxedStrategy<Looking> {
-    let item = prop_oneof![expr().prop_map(PrintItem::Value), text().prop_map(PrintItem::Text)];
+    let item = prop_oneof![
+        expr().prop_map(PrintItem::Value),
+        (expr(), select(Unit::ALL.to_vec())).prop_map(|(e, unit)| PrintItem::InUnit(e, unit)),
+        text().prop_map(PrintItem::Text)
+    ];
     prop_oneof![
         of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
         name().prop_map(Looking::Show),
