@@ -121,3 +121,18 @@ fn what_measures_no_point_cannot_be_held() {
         assert!(talking.execute(statement).is_err(), "{statement}");
     }
 }
+
+#[test]
+fn a_count_of_turns_is_held_beyond_half_a_turn() {
+    // A wheel that may turn by a turn and a half, and is pushed on by another that turns two.
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, A = (1, 0), Q = (3, 0) frozen, B = (4, 0)
+         length O A = 1
+         motor Q B radius 1 speed 1rev
+         stop: hold turn(O, A) <= 1.5rev
+         follow: hold turn(O, A) = turn(Q, B) / 2
+         set dt 1/36; step 36",
+    );
+    talking.run("assert turn(O, A) = 0.5rev within 1e-9; assert A = (-1, 0) within 1e-9");
+    talking.run("step 36; assert turn(O, A) = 1rev within 1e-9; assert A = (1, 0) within 1e-9");
+}
