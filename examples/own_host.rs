@@ -49,8 +49,8 @@ impl Host for Memory {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
-        self.begun.elapsed().as_secs_f64()
+    fn seconds(&self) -> Option<f64> {
+        Some(self.begun.elapsed().as_secs_f64())
     }
 }
 

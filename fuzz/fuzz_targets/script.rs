@@ -48,8 +48,8 @@ impl Host for Impatient {
         path.to_path_buf()
     }
 
-    fn seconds(&self) -> f64 {
-        f64::from(self.asked()) * 1e-3
+    fn seconds(&self) -> Option<f64> {
+        Some(f64::from(self.asked()) * 1e-3)
     }
 }
 

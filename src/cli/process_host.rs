@@ -70,7 +70,7 @@ impl Host for ProcessHost {
         }
     }
 
-    fn seconds(&self) -> f64 {
-        self.begun.elapsed().as_secs_f64()
+    fn seconds(&self) -> Option<f64> {
+        Some(self.begun.elapsed().as_secs_f64())
     }
 }

@@ -1,6 +1,7 @@
 //! The values of a constraint, by name.
 
-/// A value of a constraint that an expression may drive.
+/// A value of a constraint that an expression may drive, in the order in which `save` writes
+/// several of one constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Field {
     /// The least value of the measured quantity.
@@ -13,31 +14,39 @@ pub enum Field {
     Y,
     /// The radius of a motor or of a wheel on a rack.
     Radius,
-    /// The angular speed of a motor, radians per time unit.
-    Speed,
     /// The angle of a motor at its start, radians.
     Phase,
+    /// The angular speed of a motor, radians per time unit.
+    Speed,
     /// The ratio of a hinge, of a cog wheel pair or of two lengths.
     Ratio,
     /// The teeth of the first of two wheels, where they are geared by these.
     FirstTeeth,
     /// The teeth of the second.
     SecondTeeth,
+    /// What is measured: the number, or the horizontal coordinate of the vector.
+    Value,
+    /// The vertical coordinate of the vector that is measured.
+    ValueY,
+    /// What the values that are measured on the pose are given from outside, by its place.
+    Input(u16),
 }
 
 impl Field {
-    /// All of them.
-    pub const ALL: [Self; 10] = [
+    /// All that a statement may give.
+    pub const ALL: [Self; 12] = [
         Self::Lo,
         Self::Hi,
         Self::X,
         Self::Y,
         Self::Radius,
-        Self::Speed,
         Self::Phase,
+        Self::Speed,
         Self::Ratio,
         Self::FirstTeeth,
         Self::SecondTeeth,
+        Self::Value,
+        Self::ValueY,
     ];
 
     /// Whether it says how two wheels are geared.

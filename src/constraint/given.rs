@@ -17,6 +17,9 @@ pub struct Given<'a> {
     pub flags: &'a [Flag],
     /// Where all points are.
     pub x: &'a [Point],
+    /// Whether it was there before and is made again: whatever pose it has come to since, what it
+    /// took from the pose is put back after.
+    pub is_restored: bool,
 }
 
 /// A kind that a statement can make.

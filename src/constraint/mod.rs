@@ -29,14 +29,18 @@ pub use field::Field;
 pub use given::{Culprit, Declared, Given, Refusal};
 pub use kinds::*;
 pub use parts::bounds::Bounds;
+pub(crate) use parts::function::{length, limited_argument, power, value_of};
 #[doc(hidden)]
 pub use parts::geometry;
 pub use parts::geometry::{Point, Vector};
 #[doc(hidden)]
 pub use parts::jet::{Jet, Real};
+#[doc(hidden)]
+pub use parts::program::{Operation, Program, Register};
 pub use parts::row::PointIdx;
 #[doc(hidden)]
 pub use parts::row::Row;
 pub use parts::turns::Turns;
 pub use parts::vec2::Vec2;
+pub(crate) use parts::winding::Winding;
 pub use traits::{Activity, Carried, Flag, Flaw, Quantity, Traits};

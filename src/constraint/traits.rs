@@ -36,6 +36,8 @@ pub enum Quantity {
     Length,
     /// Radians.
     Angle,
+    /// Whatever unit its expression has.
+    Number,
 }
 
 /// What of a constraint binds at a pose at which it is met.

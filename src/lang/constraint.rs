@@ -26,6 +26,8 @@ pub struct Constraint {
 pub enum Part {
     /// `A`, `A B`, `A B C`
     Points(Vec<Name>),
+    /// What is held: a number, or a vector.
+    Measure(Expr),
     /// `on A B`, `to A B`, `about A B`, `from A B`
     Line(Role, Pair),
     /// `= e`, `<= e`, `in a..b`; in a `change` of a point or a parameter `= e`.

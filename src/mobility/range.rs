@@ -84,7 +84,7 @@ const SAME: f64 = 1e-6;
 /// How far the motor at place `motor` of a scene can turn, everything else standing as it is.
 /// Distances up to `tolerance`, a part of the size of what it drives, count as none.
 pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRange {
-    let Constraint::Motor(it) = scene.constraints[motor] else {
+    let Constraint::Motor(it) = scene.constraints[motor].stated() else {
         unreachable!("the range of a motor was asked for")
     };
     let mut range =
@@ -133,7 +133,7 @@ pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRan
 /// What stops the motor at place `motor` within the turn `way`, radians, from this pose; none
 /// if nothing does, or if it cannot be told. Its angle is counted with whole turns.
 pub fn dead_end(scene: &ConstraintSystem, motor: usize, way: f64) -> Option<RangeEnd> {
-    let Constraint::Motor(it) = scene.constraints[motor] else { return None };
+    let Constraint::Motor(it) = scene.constraints[motor].stated() else { return None };
     let mut mechanism = Mechanism::new(scene, motor);
     if !mechanism.can_move() || mechanism.has_velocities() {
         return None;

@@ -57,7 +57,7 @@ impl Subset {
         let place = |p: PointIdx| held.partition_point(|&q| q < p) as PointIdx;
         let constraints = sources.iter().map(|&c| {
             let mut constraint = scene.constraints[c].clone();
-            constraint.points_mut().iter_mut().for_each(|p| *p = place(*p));
+            constraint.map_points(place);
             constraint
         });
         let constraints = constraints.collect();

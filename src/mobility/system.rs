@@ -1,5 +1,7 @@
 //! A scene at rest, as the analysis takes it, and its rows of length 1.
 
+use smallvec::SmallVec;
+
 use crate::constraint::{Constraint, ConstraintKind, Jet, Point, PointIdx, Row, Vec2, Vector};
 use crate::linalg::DisjointSets;
 
@@ -24,27 +26,25 @@ pub struct UnitRow {
     pub f: f64,
     /// `f` divided by the value in the unit of the constraint.
     pub scale: f64,
-    n_points: usize,
-    /// Those of a row, and one further unknown.
-    points: [u32; 5],
-    values: [f64; 10],
+    points: SmallVec<[u32; 4]>,
+    values: SmallVec<[f64; 8]>,
 }
 
 impl UnitRow {
     /// The points that move, as indices into [`UnitRows::points`].
     pub fn points(&self) -> &[u32] {
-        &self.points[..self.n_points]
+        &self.points
     }
 
     /// The gradient by (x, y) of each of these points.
     pub fn values(&self) -> &[f64] {
-        &self.values[..2 * self.n_points]
+        &self.values
     }
 
     /// The same row over points with other indices.
     pub fn renumbered(&self, place: impl Fn(u32) -> u32) -> Self {
         let mut row = self.clone();
-        row.points[..row.n_points].iter_mut().for_each(|p| *p = place(*p));
+        row.points.iter_mut().for_each(|p| *p = place(*p));
         row
     }
 
@@ -54,11 +54,10 @@ impl UnitRow {
         self.values.iter_mut().for_each(|value| *value *= k);
     }
 
-    /// Adds a further unknown, the first of the two at `place`. There is room for one.
+    /// Adds a further unknown, the first of the two at `place`.
     pub fn add_unknown(&mut self, place: u32, gradient: f64) {
-        self.points[self.n_points] = place;
-        self.values[2 * self.n_points] = gradient;
-        self.n_points += 1;
+        self.points.push(place);
+        self.values.extend([gradient, 0.0]);
     }
 
     /// The product with a vector of unknowns.
@@ -221,17 +220,14 @@ impl ConstraintSystem<'_> {
             source,
             f: row.f * scale,
             scale,
-            n_points: 0,
-            points: [0; 5],
-            values: [0.0; 10],
+            points: SmallVec::new(),
+            values: SmallVec::new(),
         };
         for (p, g) in row.terms() {
             if let Some(place) = place[p as usize] {
                 let g = g * (self.w[p as usize].sqrt() * scale);
-                unit.points[unit.n_points] = place;
-                unit.values[2 * unit.n_points] = g.x;
-                unit.values[2 * unit.n_points + 1] = g.y;
-                unit.n_points += 1;
+                unit.points.push(place);
+                unit.values.extend([g.x, g.y]);
             }
         }
         Some(unit)

@@ -126,7 +126,8 @@ impl<'a> Classifier<'a> {
     /// Notes what a constraint connects.
     fn bars(&mut self, record: &Record) {
         let mut connect = |a, b| _ = self.connected.insert(sorted([a, b]));
-        match (&record.constraint, record.constraint.points()) {
+        let stated = record.constraint.stated();
+        match (stated, stated.points()) {
             (Constraint::Length(length), &[a, b]) => {
                 connect(a, b);
                 if record.is_on && length.bounds.is_equality() {
@@ -153,7 +154,7 @@ impl<'a> Classifier<'a> {
 
     /// Notes which segments a constraint makes alike.
     fn segments(&mut self, record: &Record) {
-        match &record.constraint {
+        match record.constraint.stated() {
             Constraint::Equal(equal) if is_one_length(record) => self.equal.join(equal.points),
             Constraint::Equivalence(equivalence) => self.parallel.join(equivalence.points),
             Constraint::Orientation(orientation) if is_parallel(orientation) => {
@@ -164,7 +165,8 @@ impl<'a> Classifier<'a> {
     }
 
     fn constraint(&mut self, id: ConstraintId, record: &Record) {
-        match &record.constraint {
+        let stated = record.constraint.at(self.at);
+        match &*stated {
             Constraint::Coordinate(c) => {
                 self.add(id, record, Cross { point: c.points[0], target: c.target });
             }
@@ -192,7 +194,7 @@ impl<'a> Classifier<'a> {
                 }
             }
             Constraint::Motor(c) => {
-                let sense = Sense::of(record.constraint.get(Field::Speed).unwrap_or(0.0));
+                let sense = Sense::of(stated.get(Field::Speed).unwrap_or(0.0));
                 let crank = c.crank();
                 let n_motors = self.driven.entry(crank[0]).or_default();
                 let rank = *n_motors;
@@ -223,7 +225,7 @@ impl<'a> Classifier<'a> {
                 self.connection(id, record, [a, b]);
                 self.add(id, record, Dimension { point, line: [a, b] });
             }
-            Constraint::Rigid(_) => match *record.constraint.points() {
+            Constraint::Rigid(_) => match *stated.points() {
                 [a, b] => self.add(id, record, Rod { points: [a, b] }),
                 ref points => self.add(id, record, Plate::new(points, self.at)),
             },
@@ -235,6 +237,8 @@ impl<'a> Classifier<'a> {
                 self.connection(id, record, c.points);
                 self.add(id, record, AxisMark { points: c.points, direction: c.direction });
             }
+            Constraint::Hold(_) => {}
+            Constraint::Measured(_) => unreachable!("what is stated measures nothing"),
         }
     }
 

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use super::host::Host;
 use crate::diag::{Diagnostic, Severity, Sources};
 
-/// All that a session printed, told and wrote, in memory. It has no clock: receipts say that no
-/// time went by, and no promise of time is broken.
+/// All that a session printed, told and wrote, in memory. It has no clock: receipts say nothing of
+/// time, and what promises or measures it is refused.
 #[derive(Debug, Clone, Default)]
 pub struct Answer {
     /// The lines printed.
@@ -53,7 +53,7 @@ impl Host for Answer {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
-        0.0
+    fn seconds(&self) -> Option<f64> {
+        None
     }
 }

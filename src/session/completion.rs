@@ -4,10 +4,11 @@
 use std::collections::BTreeSet;
 
 use super::commands::setting_table::Setting;
-use crate::lang::ast::Function;
+use crate::lang::ast::{Function, Unit};
 use crate::lang::catalogue;
 use crate::solve::Method;
-use crate::world::World;
+use crate::terms::Member;
+use crate::world::{Entity, World};
 
 /// Names offered; more than this are no help, and are not looked through.
 const MOST_NAMES: usize = 10_000;
@@ -16,6 +17,8 @@ const MOST_NAMES: usize = 10_000;
 #[derive(Debug, Clone, Default)]
 pub struct Completion {
     names: BTreeSet<String>,
+    /// Members of constraints: offered once the dot is there.
+    members: BTreeSet<String>,
     /// The world's revision at which it had these names.
     revision: u64,
 }
@@ -30,6 +33,13 @@ impl Completion {
         let names = world.names();
         let all = names.instances().chain(names.iter().map(|(name, _)| name));
         self.names = all.take(MOST_NAMES).map(str::to_owned).collect();
+        let constraints = world.constraints().map(|(id, _)| id).take(MOST_NAMES);
+        let members = constraints.flat_map(|id| {
+            let name = world.name_of(Entity::Constraint(id));
+            let members = Member::ALL.into_iter().filter(move |&m| world.has_member(id, m));
+            members.map(move |member| format!("{name}.{}", member.word()))
+        });
+        self.members = members.collect();
     }
 
     /// Where the word at the end of `before` begins, and what it may become, in order.
@@ -44,16 +54,20 @@ impl Completion {
             [] => commands().collect(),
             [label] if label.ends_with(':') => commands().collect(),
             ["help"] => commands().chain(catalogue::topics().map(|entry| entry.keyword)).collect(),
+            ["print", .., "in"] => Unit::ALL.iter().map(|unit| unit.suffix()).collect(),
             ["set"] => Setting::names().collect(),
             ["set", "method"] => Method::ALL.iter().map(|method| method.word()).collect(),
             ["list"] => vec!["points", "constraints", "traces", "parameters", "definitions"],
             _ => self.names.iter().map(String::as_str).collect(),
         };
         // A value may be computed; what a command is about is named.
+        let is_unit = matches!(said[..], ["print", .., "in"]);
         let is_value = before[statement..start].contains(['=', '('])
             || matches!(said.first(), Some(&("print" | "assert" | "let" | "sample")));
-        if is_value {
+        if is_value && !is_unit {
             Function::ALL.iter().for_each(|function| found.push(function.name()));
+            let is_member = word.contains('.');
+            found.extend(self.members.iter().filter(|_| is_member).map(String::as_str));
         }
         found.retain(|candidate| candidate.starts_with(word));
         found.sort_unstable();
@@ -73,7 +87,8 @@ mod tests {
 
     fn check(before: &str, wanted: (usize, &[&str])) {
         let names = ["A", "coupler", "p[10]", "p[1]", "left.P"].map(str::to_owned).into();
-        let (start, found) = Completion { names, revision: 0 }.candidates(before);
+        let members = ["coupler.value", "coupler.residual"].map(str::to_owned).into();
+        let (start, found) = Completion { names, members, revision: 0 }.candidates(before);
         assert_eq!(
             (start, found.iter().map(String::as_str).collect::<Vec<_>>()),
             (wanted.0, wanted.1.to_vec()),
@@ -88,7 +103,10 @@ mod tests {
         check("step 3; und", (8, &["undo"]));
         check("bar: mot", (5, &["motor"]));
         check("show c", (5, &["coupler"]));
-        check("print c", (6, &["ceil", "cos", "coupler", "cross"]));
+        check("print c", (6, &["ceil", "clamp", "cos", "coupler", "cross", "curvature"]));
+        check("print coupler.", (6, &["coupler.residual", "coupler.value"]));
+        check("show coupler.", (5, &[]));
+        check("print coupler.value in r", (23, &["rad", "rev", "rpm"]));
         check("length A coupler = co", (19, &["cos", "coupler"]));
         check("length A p[1", (9, &["p[10]", "p[1]"]));
         check("delete le", (7, &["left.P"]));

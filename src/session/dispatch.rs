@@ -27,6 +27,7 @@ impl Execution<'_> {
                 problem
             }
         })?;
+        self.begin_counts();
         if flow == Flow::On && self.host.is_interrupted() {
             self.note("stopped");
             return Ok(Flow::Stopped);
@@ -55,6 +56,7 @@ impl Execution<'_> {
             Making::Freeze(selection) => self.freeze(selection, true)?,
             Making::Thaw(selection) => self.freeze(selection, false)?,
             Making::Move { point, to } => self.move_point(point, to)?,
+            Making::Pull { targets, over } => return self.pull(targets, over.as_ref(), span),
             Making::Drag { targets, over } => return self.drag(targets, over.as_ref(), span),
         }
         Ok(Flow::On)

@@ -50,6 +50,8 @@ pub struct Execution<'a> {
     pub outbox: Vec<(PathBuf, Vec<u8>, Span)>,
     /// What has run so far.
     pub run: Option<Summary>,
+    /// Where likely slips were found.
+    pub slips: Vec<Span>,
 }
 
 impl<'a> Execution<'a> {
@@ -72,6 +74,7 @@ impl<'a> Execution<'a> {
             included: Vec::new(),
             outbox: Vec::new(),
             run: None,
+            slips: Vec::new(),
         }
     }
 
@@ -121,6 +124,18 @@ impl<'a> Execution<'a> {
     /// Makes an edit of the world that belongs to the command.
     pub fn edit(&mut self, edit: Edit) {
         self.history.edit(self.state, edit);
+    }
+
+    /// Counts from now on how far that turns which a statement asked for.
+    pub fn begin_counts(&mut self) {
+        for turning in self.scopes.take_turnings() {
+            let world = &self.state.world;
+            let is_there = turning.points().iter().all(|&id| world.points().is_alive(id));
+            if is_there && !world.counts(turning) {
+                let count = world.turn_count(turning);
+                self.edit(Edit::TurnCount(Box::new((turning, Some(count)))));
+            }
+        }
     }
 
     /// Lets the solver take in what was edited, as part of the command.

@@ -50,9 +50,13 @@ pub trait Host {
     /// Told how much of a long piece of work is done, from 0 to 1.
     fn progress(&self, _share: f64) {}
 
-    /// Seconds of wall time since some fixed moment; for promises and receipts only.
-    fn seconds(&self) -> f64;
+    /// Seconds of wall time since some fixed moment, none where there is no clock; for promises and
+    /// receipts only.
+    fn seconds(&self) -> Option<f64>;
 }
+
+/// What is wrong where time is to be measured and [`Host::seconds`] has none.
+pub(super) const NO_CLOCK: &str = "there is no clock here";
 
 /// A relative path that stays below the folder it starts from, without its idle dots.
 ///
@@ -114,7 +118,7 @@ impl Host for Nowhere {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
-        0.0
+    fn seconds(&self) -> Option<f64> {
+        None
     }
 }

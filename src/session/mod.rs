@@ -142,7 +142,7 @@ impl Session {
     pub fn residual(&self, constraint: &str) -> Option<f64> {
         let Entity::Constraint(id) = self.world().names().get(constraint)? else { return None };
         let record = self.world().constraint(id).filter(|record| record.is_on)?;
-        if record.drivers().is_empty() {
+        if record.live().is_empty() {
             return Some(record.constraint.residual(self.world().points().column()));
         }
         // The value that was asked for last need not be the value now.
@@ -253,7 +253,7 @@ impl Session {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
     /// live expressions have values.
     pub fn effects_on(&self, host: &dyn Host) -> Effects {
-        self.state.effects_on(&|| host.seconds())
+        self.state.effects_on(host)
     }
 
     /// How far a motor that is switched on can turn, the rest held as it is now.

@@ -41,7 +41,7 @@ impl Execution<'_> {
     /// little beside what ran.
     fn judge_the_end(&mut self, summary: &mut Summary) {
         let n = self.state.world.n_constraints();
-        let is_cheap = n <= SMALL || summary.seconds >= LONG;
+        let is_cheap = n <= SMALL || summary.is_longer_than(LONG);
         if !is_cheap || summary.n_frames == 0 || summary.n_missed > 0 {
             return;
         }
@@ -84,7 +84,7 @@ impl Execution<'_> {
     /// where the mechanism was next to a singular pose; where nothing is free.
     fn estimate_position_error(&self, summary: &Summary) -> Option<f64> {
         let n = self.state.world.n_constraints();
-        let is_cheap = n <= SMALL || (n <= LARGE && summary.seconds >= LONG);
+        let is_cheap = n <= SMALL || (n <= LARGE && summary.is_longer_than(LONG));
         let is_solved = summary.worst_status == Status::Converged && summary.n_frames > 0;
         if !is_cheap || !is_solved || n == 0 || !self.host.is_listening() {
             return None;

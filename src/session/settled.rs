@@ -60,12 +60,7 @@ impl Settled {
     /// A world brought to rest.
     pub fn new(mut world: World, settings: &Settings) -> Self {
         let mut solver = Solver::new();
-        let has_values = world.refresh_measured().is_ok();
-        let mut report = solver.settle(&mut world, settings, &Budget::default());
-        if has_values && world.is_measured() {
-            // What has no value in the pose it came to is not met there: the verdict says so.
-            let _ = solver.agree(&mut world, settings, &Budget::default(), &mut report);
-        }
+        let report = solver.settle(&mut world, settings, &Budget::default());
         let size = solver.size();
         let slack = settings.tolerance.max(1e-9) * size;
         let verdict = verdict(&world, settings);
@@ -117,7 +112,7 @@ pub(super) fn miss(world: &World, constraint: &Constraint) -> String {
     let missed = constraint.residual(world.points().column()).abs();
     match constraint.traits().quantity {
         Quantity::Angle => format!("{} deg", format_rounded(missed.to_degrees())),
-        Quantity::Length => format_rounded(missed),
+        Quantity::Length | Quantity::Number => format_rounded(missed),
     }
 }
 

@@ -54,7 +54,7 @@ impl Host for Silent<'_> {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
+    fn seconds(&self) -> Option<f64> {
         self.host.seconds()
     }
 }

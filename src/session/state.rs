@@ -27,6 +27,9 @@ pub struct State {
     pub recorders: Vec<Recorder>,
     /// What `sample` collects.
     pub series: SeriesList,
+    /// Whether what is stated was there before, in a world that `save` wrote: how it stands now is
+    /// then no reason to refuse it.
+    pub is_restoring: bool,
 }
 
 impl State {
@@ -40,6 +43,7 @@ impl State {
             definitions: BTreeMap::new(),
             recorders: Vec::new(),
             series: SeriesList::new(),
+            is_restoring: false,
         }
     }
 }

@@ -32,8 +32,8 @@ pub struct Summary {
     pub n_turned_over: u64,
     /// The first few of them, as the clock counts, each with a point that changed sides.
     pub turned_over: Vec<(u64, PointId)>,
-    /// Wall time of all frames together, seconds.
-    pub seconds: f64,
+    /// Wall time of all frames together, seconds, where there is a clock.
+    pub seconds: Option<f64>,
     /// How the frames were solved, with the number of frames each.
     pub ways: Vec<(Way, u64)>,
     /// How far points may be from where they belong, length units, where that can be said and
@@ -82,7 +82,7 @@ impl Summary {
             tolerance: 0.0,
             n_turned_over: 0,
             turned_over: Vec::new(),
-            seconds: 0.0,
+            seconds: None,
             ways: Vec::new(),
             position_error: None,
             error_on_the_way: 0.0,
@@ -141,15 +141,27 @@ impl Summary {
         self.missed_at = self.missed_at.or(self.ended_at);
     }
 
+    /// So much more wall time went by: what the clock said before, and says now.
+    pub(super) fn add_time(&mut self, before: Option<f64>, now: Option<f64>) {
+        if let (Some(before), Some(now)) = (before, now) {
+            *self.seconds.get_or_insert(0.0) += now - before;
+        }
+    }
+
+    /// Whether at least so many seconds of wall time went by.
+    pub(super) fn is_longer_than(&self, seconds: f64) -> bool {
+        self.seconds.is_some_and(|all| all >= seconds)
+    }
+
     /// The receipt, in one line.
     pub(super) fn line(&self) -> String {
         let n = self.n_frames.max(1) as f64;
         let mut text = format!(
-            "{} by {}: {} iterations and {} a frame, largest residual {}",
+            "{} by {}: {} iterations{} a frame, largest residual {}",
             frames(self.n_frames),
             self.ways_text(),
             format_rounded(self.n_iterations as f64 / n),
-            format_seconds(self.seconds / n),
+            self.seconds.map_or_else(String::new, |it| format!(" and {}", format_seconds(it / n))),
             format_rounded(self.worst_residual)
         );
         // Writing to a string cannot fail.

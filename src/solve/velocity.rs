@@ -15,13 +15,9 @@ use crate::world::{ConstraintId, Rates, World};
 
 /// Far below the smallest square of a singular value that matters; the repetitions remove
 /// what it does to the result.
-const FLOOR: f64 = 1e-10;
+pub(super) const FLOOR: f64 = 1e-10;
 /// Repetitions of the solve on what is left; each gains the digits that the floor costs.
 const REPETITIONS: u32 = 4;
-
-/// Rounds until rates and what is measured on them agree. Each gains the digits by which the
-/// measured value is the weaker cause.
-const MEASURED_ROUNDS: u32 = 8;
 
 /// The values of constraints that change in time, in order of constraint.
 type FieldRates = [(ConstraintId, Field, Jet)];
@@ -34,16 +30,12 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
     let n = world.points().column().len();
     let still = || vec![Vector::ZERO; n];
     let mut rates = Rates { velocity: still(), acceleration: still() };
-    // What is measured on moving points changes as they move, which moves them.
-    let n_rounds = if world.is_mutual() { MEASURED_ROUNDS } else { 1 };
-    for _ in 0..n_rounds {
-        let mut fields = world.field_rates(&rates)?;
-        fields.sort_by_key(|(id, ..)| *id);
-        let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
-        for k in all {
-            if let Some(island) = partition.get_mut(k) {
-                solve(island, &fields, &mut rates);
-            }
+    let mut fields = world.field_rates(&rates)?;
+    fields.sort_by_key(|(id, ..)| *id);
+    let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
+    for k in all {
+        if let Some(island) = partition.get_mut(k) {
+            solve(island, &fields, &mut rates);
         }
     }
     Ok(rates)
@@ -112,7 +104,7 @@ pub(super) fn position_error(island: &mut Island) -> f64 {
 }
 
 /// What the rows of J times the unknown rates have to be.
-fn right_side(
+pub(super) fn right_side(
     island: &Island,
     workspace: &Workspace,
     drive: &impl Fn(usize, Field, f64) -> Jet,
@@ -137,7 +129,7 @@ fn right_side(
 }
 
 /// The shortest y for which J y comes nearest to the right side.
-fn shortest(workspace: &mut Workspace, rhs: &[f64]) -> Vec<f64> {
+pub(super) fn shortest(workspace: &mut Workspace, rhs: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; 2 * workspace.equations.points().len()];
     let mut d = y.clone();
     for _ in 0..REPETITIONS {

@@ -135,7 +135,7 @@ pub fn least_tolerance(world: &World) -> f64 {
 /// A world with its live values as they are at this time and pose, and whether all of them have
 /// one; those that have none are as they were.
 pub fn present(world: &World) -> (Cow<'_, World>, bool) {
-    if world.constraints().all(|(_, record)| record.drivers().is_empty()) {
+    if world.constraints().all(|(_, record)| record.live().is_empty()) {
         return (Cow::Borrowed(world), true);
     }
     let mut now = world.clone();

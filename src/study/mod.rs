@@ -6,6 +6,7 @@
 //! from the caller.
 
 mod advice;
+mod hand;
 mod host;
 mod measure;
 mod picture;
@@ -18,11 +19,12 @@ mod setting_ladder;
 mod table;
 
 pub use advice::{Advice, Wish};
+pub use hand::{Hand, move_by};
 pub use host::StudyHost;
 pub use measure::study;
 pub use picture::picture;
 pub use reference_run::freedoms;
-pub use repeatable_motion::{Hand, Leg, RepeatableMotion, move_by};
+pub use repeatable_motion::{Leg, RepeatableMotion};
 pub use report::{RungResult, Study};
 pub use setting_ladder::ladder;
 pub use table::{csv, json, table};

@@ -1,6 +1,7 @@
 //! The motion to be repeated: where it starts, how long it takes, and what a hand moves.
 
-use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, Vector};
+use super::hand::{Hand, move_by};
+use crate::constraint::{Carried, Constraint, ConstraintKind as _};
 use crate::diag::Diagnostic;
 use crate::solve::{Budget, Memory, Report, Settings, Solver};
 use crate::world::{Edit, Motion, PointId, World};
@@ -27,32 +28,6 @@ pub struct Leg {
     pub n_frames: u64,
     /// The points moved from outside.
     pub hands: Vec<Hand>,
-}
-
-/// A point that is moved in a straight line, by the same way each frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hand {
-    /// The point; it is held while the hand moves it.
-    pub point: PointId,
-    /// Where it is taken up.
-    pub from: Point,
-    /// From there to where it is let go.
-    pub way: Vector,
-}
-
-impl Hand {
-    /// Where the point is after `share` of the way.
-    pub fn at(&self, share: f64) -> Point {
-        if share >= 1.0 { self.from + self.way } else { self.from + self.way * share }
-    }
-}
-
-/// Moves points to where hands have them after `share` of their ways.
-#[inline]
-pub fn move_by(hands: &[Hand], share: f64, world: &mut World) {
-    for hand in hands {
-        world.apply(Edit::Move(hand.point, hand.at(share)));
-    }
 }
 
 impl RepeatableMotion {

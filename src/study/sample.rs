@@ -146,25 +146,22 @@ impl Subject<'_> {
         host: &StudyHost,
     ) -> Result<(World, Report, f64), Diagnostic> {
         let mut world = self.motion.world().clone();
-        let is_measured = world.is_measured();
-        if is_measured {
-            world.refresh_measured()?;
-        }
         let mut solver = Solver::new();
         // The scene is taken in before the clock runs: a mechanism is built once and solved often.
         let at_once = || true;
         let nothing = Budget { tolerance: None, stop: Some(&at_once), ..Budget::default() };
         solver.settle(&mut world, settings, &nothing);
         let before = (host.now)();
-        let mut report = match step {
+        let report = match step {
             Step::Iterations(n) => solver.relax(&mut world, settings, n.into()),
             Step::Tolerance(_) => solver.settle(&mut world, settings, budget),
         };
-        if is_measured {
-            solver.agree(&mut world, settings, budget, &mut report)?;
-        }
         let seconds = (host.now)() - before;
-        Ok((world, report, seconds))
+        let is_met = report.status == Status::Converged;
+        match if is_met { None } else { world.failed_measure() } {
+            Some(why) => Err(why),
+            None => Ok((world, report, seconds)),
+        }
     }
 }
 

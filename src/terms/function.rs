@@ -60,6 +60,8 @@ functions! {
     Round "round(a)" "n" -> Number, "nearest whole number, halves away from 0";
     Exp "exp(a)" "n" -> Number, "e to this power";
     Ln "ln(a)" "n" -> Number, "natural logarithm";
+    Clamp "clamp(x, lo, hi)" "nnn" -> Number, "clamp(x, lo, hi): x, but no less than lo and no more than hi";
+    Triangle "triangle(x)" "n" -> Number, "0 at even x, 1 at odd x, straight between: there and back";
     Mod "mod(a, b)" "nn" -> Number, "mod(a, b): a - b floor(a / b)";
     Norm "norm(v)" "v" -> Number, "length of a vector";
     Dot "dot(v, w)" "vv" -> Number, "scalar product";
@@ -71,8 +73,14 @@ functions! {
     DistanceToLine "distance(P, A, B)" "vvv" -> Number, "distance(P, A, B): from P to the line AB, positive on the left of A->B";
     Angle "angle(P, Q)" "vv" -> Number, "angle(P, Q): direction of PQ against the x axis, in (-pi, pi]";
     AngleBetween "angle(A, B, C, D)" "vvvv" -> Number, "angle(A, B, C, D): signed angle from AB to CD, in (-pi, pi]";
+    Turn "turn(A, B)" "pp" -> Number, "turn(A, B): direction of AB against the x axis, whole turns counted";
+    TurnBetween "turn(A, B, C, D)" "pppp" -> Number, "turn(A, B, C, D): signed angle from AB to CD, whole turns counted";
     Velocity "velocity(P)" "p" -> Vector, "velocity(P): rate of change of P, per time unit";
     Acceleration "acceleration(P)" "p" -> Vector, "acceleration(P): second derivative of P, per time unit squared";
+    Omega "omega(A, B)" "pp" -> Number, "omega(A, B): angular velocity of the direction AB, radians per time unit";
+    Alpha "alpha(A, B)" "pp" -> Number, "alpha(A, B): angular acceleration of the direction AB, radians per time unit squared";
+    InstantCentre "ic(A, B, C, D)" "pppp" -> Vector, "ic(A, B, C, D): instant centre of the bodies that hold the lines AB and CD: where both move alike";
+    Curvature "curvature(P)" "p" -> Number, "curvature(P): of the path of P, positive where it turns counter-clockwise";
 }
 
 impl Function {
@@ -80,6 +88,24 @@ impl Function {
     pub fn name(self) -> &'static str {
         let usage = self.usage();
         usage.split_once('(').map_or(usage, |(name, _)| name)
+    }
+
+    /// Whether it is an angle whose whole turns are counted.
+    pub const fn counts_turns(self) -> bool {
+        matches!(self, Self::Turn | Self::TurnBetween)
+    }
+
+    /// Whether it is had from velocities, which follow from the constraints.
+    pub const fn is_rate(self) -> bool {
+        matches!(
+            self,
+            Self::Velocity
+                | Self::Acceleration
+                | Self::Omega
+                | Self::Alpha
+                | Self::InstantCentre
+                | Self::Curvature
+        )
     }
 
     /// The functions with this name, one for each number of arguments.

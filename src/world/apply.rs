@@ -23,7 +23,6 @@ impl World {
             }
             Edit::Freeze(id, frozen) => {
                 self.touched.points.push(id);
-                self.dependencies.note_freeze();
                 Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
             }
             Edit::Weight(id, weight) => {
@@ -70,6 +69,11 @@ impl World {
             Edit::StartStates(states) => {
                 Edit::StartStates(Box::new(std::mem::replace(&mut self.start_states, *states)))
             }
+            Edit::TurnCount(mut count) => {
+                let (turning, it) = &mut *count;
+                *it = self.swap_turn_count(*turning, it.take());
+                Edit::TurnCount(count)
+            }
             Edit::Motion(motion) => Edit::Motion(Box::new(self.swap_motion(*motion))),
         }
     }
@@ -80,7 +84,6 @@ impl World {
         record: Option<Box<PointRecord>>,
     ) -> Option<Box<PointRecord>> {
         self.touched.points.push(id);
-        self.dependencies.note_freeze();
         let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
             let old = self.points.remove(id);
             self.index.remove(&old.name, Entity::Point(id));
@@ -149,6 +152,7 @@ impl World {
         let mut edits: Vec<Edit> = Vec::new();
         edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
         edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
+        edits.extend(self.turn_counts().map(|(t, _)| Edit::TurnCount(Box::new((t, None)))));
         edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
         let mut parameters: Vec<_> =
             self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();

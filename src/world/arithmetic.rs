@@ -1,7 +1,7 @@
 //! Arithmetic on values: operators and functions, with errors that point at their place.
 
 use super::Value;
-use crate::constraint::{Real, Vec2};
+use crate::constraint::{Real, Vec2, length, limited_argument, power, value_of};
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::terms::{Function, Operator};
 
@@ -92,27 +92,26 @@ pub fn call<T: Real>(
             }
             Number(cross(b - a, p - a) / l)
         }
-        Function::Angle => {
+        Function::Angle | Function::Turn => {
             let v = vector(1) - vector(0);
             angle(v.x, v.y, span)?
         }
-        Function::AngleBetween => {
+        Function::AngleBetween | Function::TurnBetween => {
             let (u, v) = (vector(1) - vector(0), vector(3) - vector(2));
             angle(u.dot(v), cross(u, v), span)?
         }
-        Function::Velocity | Function::Acceleration => {
-            unreachable!("rates are not functions of values")
-        }
+        Function::Clamp => Number(clamp([0, 1, 2].map(number), span)?),
+        _ if function.is_rate() => unreachable!("rates are not functions of values"),
         _ => {
             let mut few = [T::constant(0.0); 4];
             let value = if let Some(few) = few.get_mut(..arguments.len()) {
                 few.iter_mut().zip(arguments).for_each(|(n, argument)| *n = argument.number());
-                function.of_numbers(few)
+                value_of(function, few)
             } else {
-                function.of_numbers(&arguments.iter().map(|a| a.number()).collect::<Vec<T>>())
+                value_of(function, &arguments.iter().map(|a| a.number()).collect::<Vec<T>>())
             };
             Number(value.ok_or_else(|| {
-                let given = number(function.limited_argument()).value();
+                let given = number(limited_argument(function)).value();
                 let at = format_number(given);
                 Diagnostic::error(format!("`{}` has no value at {at}", function.name()))
                     .at(span, "outside its domain")
@@ -131,34 +130,20 @@ fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
     Ok(Value::Number(y.atan2(x)))
 }
 
+/// x, but no less than the least and no more than the greatest.
+fn clamp<T: Real>([x, lo, hi]: [T; 3], span: Span) -> Result<T, Diagnostic> {
+    if lo.value() > hi.value() {
+        let [lo, hi] = [lo, hi].map(|end| format_number(end.value()));
+        return Err(Diagnostic::error("`clamp` has an empty range")
+            .at(span, format!("its least value, {lo}, is above its greatest, {hi}")));
+    }
+    Ok(match x.value() {
+        v if v < lo.value() => lo,
+        v if v > hi.value() => hi,
+        _ => x,
+    })
+}
+
 fn cross<T: Real>(a: Vec2<T>, b: Vec2<T>) -> T {
     a.x * b.y - a.y * b.x
-}
-
-/// The length of a vector; the value never overflows before its result does.
-fn length<T: Real>(v: Vec2<T>) -> T {
-    let squares = v.norm();
-    let exact = crate::constraint::Vector::new(v.x.value(), v.y.value()).norm();
-    if squares.value() == exact { squares } else { squares.chain(exact, 1.0, 0.0) }
-}
-
-/// a^b; none where it has no real value.
-fn power<T: Real>(a: T, b: T) -> Option<T> {
-    let (x, p) = (a.value(), b.value());
-    if (x == 0.0 && p < 0.0) || (x < 0.0 && p != p.trunc()) {
-        return None;
-    }
-    let v = libm::pow(x, p);
-    // As a function of the base with a constant power, then of the power with a constant base.
-    let by_base = a.chain(v, slope(p, x, p - 1.0), slope(p * (p - 1.0), x, p - 2.0));
-    if b.is_constant() || x <= 0.0 {
-        return Some(by_base);
-    }
-    let e = b * a.chain(libm::log(x), 1.0 / x, -1.0 / (x * x));
-    Some(e.chain(v, v, v))
-}
-
-/// k x^p, 0 where k is.
-fn slope(k: f64, x: f64, p: f64) -> f64 {
-    if k == 0.0 { 0.0 } else { k * libm::pow(x, p) }
 }

@@ -13,6 +13,8 @@ use crate::diag::Diagnostic;
 pub(super) struct Dependencies {
     /// By parameter, what mentions it.
     users: BTreeSet<(ParameterId, User)>,
+    /// By constraint, what mentions a member of it.
+    member_users: BTreeSet<(ConstraintId, User)>,
     /// Live parameters, each after those it mentions.
     order: Vec<ParameterId>,
     /// Why live parameters have no value now.
@@ -32,10 +34,8 @@ pub(super) struct Dependencies {
 pub(super) struct LiveConstraints {
     /// Those with a value that time or points drive, in order of creation.
     pub driven: Vec<ConstraintId>,
-    /// Those among them that points drive.
-    pub measured: Vec<ConstraintId>,
-    /// Whether the solver moves such a point: values and pose have to agree then.
-    pub is_mutual: bool,
+    /// Those that the angles of motors drive, or the turns of directions.
+    pub turned: Vec<ConstraintId>,
     /// Motors that are switched on and turn, but for those of `ramps`.
     pub motors: Vec<ConstraintId>,
     /// Motors that are switched on and whose speed is an expression that mentions time.
@@ -75,9 +75,9 @@ impl Dependencies {
         &self.lists.driven
     }
 
-    /// Constraints with a value that points drive.
-    pub fn measured(&self) -> &[ConstraintId] {
-        &self.lists.measured
+    /// Constraints with a value that the angles of motors drive, or the turns of directions.
+    pub fn turned(&self) -> &[ConstraintId] {
+        &self.lists.turned
     }
 
     /// Motors that are switched on and turn, but for those that [`ramps`](Self::ramps) lists.
@@ -108,16 +108,6 @@ impl Dependencies {
     /// Whether no value depends on time or points.
     pub fn is_idle(&self) -> bool {
         self.order.is_empty() && self.lists.driven.is_empty() && self.failures.is_empty()
-    }
-
-    /// Whether the solver moves a point that drives a constraint.
-    pub fn is_mutual(&self) -> bool {
-        self.lists.is_mutual
-    }
-
-    /// A point was made, deleted, frozen or thawed.
-    pub fn note_freeze(&mut self) {
-        self.are_lists_dirty |= !self.lists.measured.is_empty();
     }
 
     /// Whether the order of live parameters is to be made anew; it counts as made from here on.
@@ -155,6 +145,21 @@ impl Dependencies {
         self.users.range((id, User::FIRST)..=(id, User::LAST)).map(|(_, user)| *user)
     }
 
+    /// Who mentions a member of a constraint, in order.
+    pub fn member_users(&self, id: ConstraintId) -> impl Iterator<Item = User> {
+        self.member_users.range((id, User::FIRST)..=(id, User::LAST)).map(|(_, user)| *user)
+    }
+
+    /// The constraints of which something mentions a member, each once, in order.
+    pub fn with_member_users(&self) -> BTreeSet<ConstraintId> {
+        self.member_users.iter().map(|(id, _)| *id).collect()
+    }
+
+    /// Whether something mentions a member of a constraint.
+    pub fn has_members(&self) -> bool {
+        !self.member_users.is_empty()
+    }
+
     /// A parameter was made, changed or deleted. One that was there before may come back with
     /// the value of another time; `is_new` says that it was not.
     pub fn note_parameter(
@@ -178,8 +183,7 @@ impl Dependencies {
             (Some((was, a)), Some((is, b))) => {
                 let is_like_before = a.is_live() == b.is_live() && was.is_same(is);
                 self.is_order_dirty |= (a.is_live() || b.is_live()) && !is_like_before;
-                let changes_a_ramp = !self.lists.ramps.is_empty() && !is_like_before;
-                self.are_lists_dirty |= a != b || changes_a_ramp;
+                self.are_lists_dirty |= a != b;
             }
             (Some((_, depends)), None) => self.is_order_dirty |= depends.is_live(),
             _ => {}
@@ -201,22 +205,24 @@ impl Dependencies {
         }
         let is_listed = |record: &Record| !record.drivers().is_empty() || is_motor(record);
         self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
+        // What it measures, and by how much it is missed, may be other numbers now.
+        self.is_stale |= self.has_members();
     }
 
     fn link(&mut self, formula: &Formula, user: User) {
-        formula.mentions(&mut |mention| {
-            if let Mention::Parameter(used) = mention {
-                self.users.insert((used, user));
-            }
+        formula.mentions(&mut |mention| match mention {
+            Mention::Parameter(used) => drop(self.users.insert((used, user))),
+            Mention::Member(used, _) => drop(self.member_users.insert((used, user))),
+            Mention::Point(_) => {}
         });
     }
 
     /// Before it is linked to what it mentions now.
     fn unlink(&mut self, formula: &Formula, user: User) {
-        formula.mentions(&mut |mention| {
-            if let Mention::Parameter(used) = mention {
-                self.users.remove(&(used, user));
-            }
+        formula.mentions(&mut |mention| match mention {
+            Mention::Parameter(used) => drop(self.users.remove(&(used, user))),
+            Mention::Member(used, _) => drop(self.member_users.remove(&(used, user))),
+            Mention::Point(_) => {}
         });
     }
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::dependencies::{LiveConstraints, Ramp, is_motor};
 use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
 use crate::constraint::{ConstraintKind as _, Field};
+use crate::terms::Member;
 
 /// Whether a motor turns: its speed is not 0, or may not be 0 at another time.
 fn is_turning(record: &Record) -> bool {
@@ -39,13 +40,17 @@ impl World {
                 } else if !std::mem::replace(&mut is_seen[id.idx()], true) {
                     stack.push((id, true));
                     let parameter = self.parameter(id).expect("a mentioned parameter lives");
+                    let mut used = BTreeSet::new();
+                    note_parameters(&parameter.formula, &mut used);
                     parameter.formula.mentions(&mut |mention| {
-                        if let Mention::Parameter(used) = mention
-                            && is_live(used)
-                        {
-                            stack.push((used, false));
+                        // By how much it is missed depends on what drives it.
+                        if let Mention::Member(id, Member::Residual) = mention {
+                            let record = self.constraint(id).expect("a used constraint lives");
+                            let drivers = record.drivers().iter();
+                            drivers.for_each(|(_, formula)| note_parameters(formula, &mut used));
                         }
                     });
+                    stack.extend(used.into_iter().filter(|id| is_live(*id)).map(|id| (id, false)));
                 }
             }
         }
@@ -66,14 +71,13 @@ impl World {
                     None => lists.motors.push(id),
                 }
             }
-            let formulas = record.drivers().iter().map(|(_, formula)| self.depends(formula));
-            let depends = formulas.fold(Depends::default(), Depends::or);
-            if depends.is_live() {
+            if record.live().iter().any(|(_, formula)| self.depends(formula).is_live()) {
                 lists.driven.push(id);
             }
-            if depends.on_points {
-                lists.measured.push(id);
-                lists.is_mutual |= record.drivers().iter().any(|(_, f)| self.follows_motion(f));
+            let is_turned =
+                |formula: &Formula| self.depends(formula).on_angles || formula.counts_turns();
+            if record.live().iter().any(|(_, formula)| is_turned(formula)) {
+                lists.turned.push(id);
             }
         }
         self.dependencies.set_lists(lists);
@@ -105,6 +109,7 @@ impl World {
                 Mention::Parameter(id) => {
                     self.parameter(id).is_some_and(|p| self.follows_motion(&p.formula))
                 }
+                Mention::Member(..) => false,
             };
         });
         follows

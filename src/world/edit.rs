@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::batch::{Batch, BatchRecords};
 use super::{
-    Clock, ConstraintId, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord, Record, Trace,
+    Clock, ConstraintId, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord, Record,
+    Trace, TurnCount, Turning,
 };
 use crate::constraint::Point;
 
@@ -42,6 +43,8 @@ pub enum Edit {
     StartState(ConstraintId, Option<Box<[f64]>>),
     /// Sets all states that `reset` brings back.
     StartStates(Box<BTreeMap<ConstraintId, Vec<f64>>>),
+    /// Begins to count how far something has turned, sets the count, or ends it.
+    TurnCount(Box<(Turning, Option<TurnCount>)>),
     /// Sets all that running changes.
     Motion(Box<Motion>),
 }
@@ -65,6 +68,7 @@ impl Edit {
             | Self::Start(..)
             | Self::StartState(..)
             | Self::StartStates(_)
+            | Self::TurnCount(_)
             | Self::Motion(_) => false,
         }
     }

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Environment, ParameterId, PointId, Value, World};
-use crate::constraint::{Jet, Real, Vec2, Vector};
+use super::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
+use crate::constraint::{ConstraintKind as _, Field, Jet, Real, Vec2, Vector};
 use crate::diag::Diagnostic;
+use crate::terms::Member;
 
 /// Velocities and accelerations of all points, by handle.
 #[derive(Debug, Clone, Default)]
@@ -66,6 +67,14 @@ impl Environment<f64> for Here<'_> {
         self.world.clock.time()
     }
 
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
+    }
+
+    fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
+        self.world.member(id, member)
+    }
+
     fn rates(&self, id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
         let rates = self.rates?;
         let at = |rates: &[Vector]| rates.get(id.idx()).copied().unwrap_or_default();
@@ -120,6 +129,14 @@ impl Environment<f64> for Within<'_> {
         self.time
     }
 
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
+    }
+
+    fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
+        self.world.member(id, member)
+    }
+
     fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
         None
     }
@@ -130,20 +147,53 @@ pub(super) struct Moving<'a> {
     world: &'a World,
     rates: &'a Rates,
     values: BTreeMap<ParameterId, Result<Value<Jet>, Diagnostic>>,
+    /// The angles of motors; to first order where they are not listed.
+    angles: BTreeMap<ConstraintId, Jet>,
 }
 
 impl<'a> Moving<'a> {
     /// The world as it stands, live parameters being up to date, with the rates of its points.
     pub fn new(world: &'a World, rates: &'a Rates) -> Self {
-        let mut moving = Self { world, rates, values: BTreeMap::new() };
+        let first_order = Self::with_angles(world, rates, BTreeMap::new());
+        if !world.dependencies.has_members() {
+            return first_order;
+        }
+        // A speed changes with what the angles do to first order, its own motor's included.
+        let used = world.dependencies.with_member_users().into_iter();
+        let motors = used.filter(|id| world.has_member(*id, Member::Angle));
+        let angles = motors.map(|id| (id, first_order.angle(id)));
+        Self::with_angles(world, rates, angles.collect())
+    }
+
+    fn with_angles(
+        world: &'a World,
+        rates: &'a Rates,
+        angles: BTreeMap<ConstraintId, Jet>,
+    ) -> Self {
+        let mut moving = Self { world, rates, values: BTreeMap::new(), angles };
         for &id in world.dependencies.order() {
             let parameter = world.parameter(id).expect("a listed parameter lives");
-            if !parameter.depends.on_rates {
+            if !parameter.depends.on_rates && !parameter.depends.on_constraints {
                 let value = parameter.formula.evaluate(&moving);
                 moving.values.insert(id, value);
             }
         }
         moving
+    }
+
+    /// The angle of a motor with two derivatives, of a world that has one.
+    fn angle(&self, id: ConstraintId) -> Jet {
+        let record = self.world.constraint(id).expect("a mentioned constraint lives");
+        let rate = |field| {
+            let now = Jet::constant(record.constraint.get(field).unwrap_or_default());
+            let value = record.driver(field).map(|formula| formula.evaluate(self));
+            // One that has no value now has said so where it drives.
+            value.and_then(Result::ok).map_or(now, Value::number)
+        };
+        let (speed, phase) = (rate(Field::Speed), rate(Field::Phase));
+        let turning = if record.is_on { speed } else { Jet::default() };
+        let total = self.world.motor_angle(id);
+        Jet::new(total, turning.v + phase.d, turning.d + phase.dd)
     }
 }
 
@@ -169,6 +219,19 @@ impl Environment<Jet> for Moving<'_> {
 
     fn time(&self) -> Jet {
         Jet::new(self.world.clock.time(), 1.0, 0.0)
+    }
+
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.world.expected_turn(turning)
+    }
+
+    fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {
+        debug_assert_eq!(member, Member::Angle, "the others drive nothing");
+        Ok(self.angles.get(&id).copied().unwrap_or_else(|| {
+            let record = self.world.constraint(id).expect("a mentioned constraint lives");
+            let speed = record.constraint.get(Field::Speed).filter(|_| record.is_on);
+            Jet::new(self.world.motor_angle(id), speed.unwrap_or_default(), 0.0)
+        }))
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<Jet>, Vec2<Jet>)> {

@@ -5,7 +5,7 @@ use super::{
     ConstraintId, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User, Value,
     World,
 };
-use crate::constraint::{ConstraintKind, Field, Jet, Real};
+use crate::constraint::{ConstraintKind as _, Field, Jet, Real};
 use crate::diag::Diagnostic;
 
 impl World {
@@ -46,6 +46,9 @@ impl World {
         }
         self.refresh_parameters();
         let (parameters, constraints) = self.affected(id);
+        if depends.on_constraints && !constraints.is_empty() {
+            return Err(self.follows_from_a_constraint(id));
+        }
         for id in parameters {
             let mut record = self.parameter(id).expect("a listed parameter lives").clone();
             record.depends = self.depends(&record.formula);
@@ -58,10 +61,31 @@ impl World {
         }
         for id in constraints {
             let mut record = self.constraint(id).expect("a listed constraint lives").clone();
-            self.drive(&mut record)?;
+            self.bind(&mut record);
+            record.drive(&Here::new(self, None))?;
+            record.flaw().map_or(Ok(()), Err)?;
             undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
         }
         Ok(())
+    }
+
+    /// Makes a parameter that was there before, whether or not it has a value now; gives the edit
+    /// that takes it back.
+    pub fn restore_parameter(&mut self, id: ParameterId, name: NameText, formula: Formula) -> Edit {
+        let depends = self.depends(&formula);
+        let value = (!depends.on_rates).then(|| self.evaluate(&formula, None).ok()).flatten();
+        // Why it has none is noted once it is asked for.
+        self.dependencies.note_change();
+        self.apply(Edit::Parameter(id, Some(Box::new(Parameter { name, formula, value, depends }))))
+    }
+
+    /// Why a parameter cannot drive a constraint.
+    fn follows_from_a_constraint(&self, id: ParameterId) -> Diagnostic {
+        let parameter = self.parameter(id).expect("a named parameter lives");
+        let text = format!("`{}` follows from a constraint", parameter.name);
+        Diagnostic::error(text)
+            .at(parameter.formula.span(), "what a constraint comes to cannot drive one")
+            .help("use it in `print`, `assert`, or a parameter that these use")
     }
 
     /// Parameters that depend on one, each after those it mentions, and the constraints.
@@ -91,16 +115,6 @@ impl World {
         constraints.sort_unstable();
         constraints.dedup();
         (finished, constraints)
-    }
-
-    /// Puts the present values of its live expressions into a constraint.
-    fn drive(&self, record: &mut Record) -> Result<(), Diagnostic> {
-        for k in 0..record.drivers().len() {
-            let (field, ref formula) = record.drivers()[k];
-            let value = formula.evaluate(&Here::new(self, None))?;
-            record.constraint.set(field, coordinate(field, value));
-        }
-        record.flaw().map_or(Ok(()), Err)
     }
 
     /// Evaluates live parameters and driven constraints anew, for the time and the pose as
@@ -149,55 +163,41 @@ impl World {
         }
     }
 
-    /// Gives the largest change of a value of the constraint.
-    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<f64, Diagnostic> {
-        let mut change = 0.0_f64;
-        let n_drivers = self.constraint(id).expect("a listed constraint lives").drivers().len();
-        for k in 0..n_drivers {
-            let (field, formula) = &self.constraint(id).expect("it lives").drivers()[k];
+    /// Evaluates anew what the angles of motors drive, once these have turned.
+    ///
+    /// # Errors
+    /// Where an expression has no value at these angles.
+    pub(super) fn refresh_turned(&mut self) -> Result<(), Diagnostic> {
+        if self.dependencies.turned().is_empty() {
+            return Ok(());
+        }
+        self.dependencies.note_change();
+        self.refresh_parameters();
+        for k in 0..self.dependencies.turned().len() {
+            self.refresh_constraint(self.dependencies.turned()[k])?;
+        }
+        Ok(())
+    }
+
+    fn refresh_constraint(&mut self, id: ConstraintId) -> Result<(), Diagnostic> {
+        let mut is_changed = false;
+        let n_live = self.constraint(id).expect("a listed constraint lives").live().len();
+        for k in 0..n_live {
+            let (field, formula) = &self.constraint(id).expect("it lives").live()[k];
             let field = *field;
-            let value = coordinate(field, formula.evaluate(&Here::new(self, None))?);
+            let value = formula.evaluate(&Here::new(self, None))?;
             let constraint = self.constraint_state_mut(id);
-            if let Some(old) = constraint.get(field) {
-                change = change.max((value - old).abs());
-            }
+            let value = given(field, value);
+            is_changed |= constraint.get(field).is_some_and(|old| value != old);
             constraint.set(field, value);
         }
-        if change > 0.0 {
+        if is_changed {
             self.touched.values.push(id);
             if let Some(flaw) = self.constraint(id).expect("it lives").flaw() {
                 return Err(flaw);
             }
         }
-        Ok(change)
-    }
-
-    /// Whether some constraint's value is measured on points that the solver moves, so that a
-    /// frame has to be solved until both agree.
-    pub fn is_mutual(&mut self) -> bool {
-        self.sort_constraints();
-        self.dependencies.is_mutual()
-    }
-
-    /// Whether some constraint's value is measured on points, of whatever kind.
-    pub fn is_measured(&mut self) -> bool {
-        self.sort_constraints();
-        !self.dependencies.measured().is_empty()
-    }
-
-    /// Evaluates anew what is measured on the pose; gives the largest change of a value.
-    ///
-    /// # Errors
-    /// Where an expression has no value in this pose.
-    pub fn refresh_measured(&mut self) -> Result<f64, Diagnostic> {
-        self.dependencies.note_change();
-        self.refresh_parameters();
-        self.sort_constraints();
-        let mut change = 0.0_f64;
-        for k in 0..self.dependencies.measured().len() {
-            change = change.max(self.refresh_constraint(self.dependencies.measured()[k])?);
-        }
-        Ok(change)
+        Ok(())
     }
 
     /// The values that time and points drive, with their derivatives in time, given the
@@ -215,19 +215,33 @@ impl World {
         let mut all = Vec::new();
         for &id in self.dependencies.driven() {
             let record = self.constraint(id).expect("a listed constraint lives");
-            for (field, formula) in record.drivers() {
-                all.push((id, *field, coordinate(*field, formula.evaluate(&moving)?)));
+            for (field, formula) in record.live() {
+                let value = formula.evaluate(&moving)?;
+                all.push((id, *field, given(*field, value)));
             }
         }
         Ok(all)
     }
 }
 
-/// The number that drives a field: the value, or the coordinate of it that the field is.
-fn coordinate<T: Real>(field: Field, value: Value<T>) -> T {
+impl Record {
+    /// Puts the present values of its live expressions into the constraint.
+    pub(super) fn drive(&mut self, here: &Here) -> Result<(), Diagnostic> {
+        for k in 0..self.live().len() {
+            let (field, ref formula) = self.live()[k];
+            let value = formula.evaluate(here)?;
+            let value = given(field, value);
+            self.constraint.set(field, value);
+        }
+        Ok(())
+    }
+}
+
+/// The number that a value gives to a field: the value, or the coordinate of it that the field is.
+fn given<T: Real>(field: Field, value: Value<T>) -> T {
     match (field, value) {
-        (Field::X, Value::Vector(v)) => v.x,
-        (Field::Y, Value::Vector(v)) => v.y,
+        (Field::X | Field::Value, Value::Vector(v)) => v.x,
+        (Field::Y | Field::ValueY, Value::Vector(v)) => v.y,
         (_, value) => value.number(),
     }
 }

@@ -1,12 +1,15 @@
 //! Expressions bound to what they name: live formulas over points, parameters and time.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::arithmetic::{call, finite, operate};
-use super::{ParameterId, PointId, Value};
+use super::rate_function::{MovingPoint, rate};
+use super::turning::whole_turns;
+use super::{ConstraintId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::terms::{Function, Operator, Shape};
+use crate::terms::{Function, Member, Operator, Shape};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -34,6 +37,8 @@ pub enum Node {
     Parameter(ParameterId),
     /// The position of a point.
     Point(PointId),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
     /// The time of the clock.
     Time,
     /// The negative.
@@ -50,7 +55,7 @@ pub enum Node {
 
 /// What can change the value of a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[allow(clippy::struct_excessive_bools)] // Four independent facts, joined by "or".
+#[allow(clippy::struct_excessive_bools)] // Independent facts, joined by "or".
 pub struct Depends {
     /// It mentions time, itself or through a parameter.
     pub on_time: bool,
@@ -58,6 +63,10 @@ pub struct Depends {
     pub on_points: bool,
     /// It mentions a velocity or an acceleration.
     pub on_rates: bool,
+    /// It mentions the angle of a motor.
+    pub on_angles: bool,
+    /// It mentions what a constraint measures, or by how much it is missed.
+    pub on_constraints: bool,
     /// It mentions a parameter.
     pub on_parameters: bool,
 }
@@ -65,7 +74,7 @@ pub struct Depends {
 impl Depends {
     /// Whether anything but the user's own edit of a parameter can change it.
     pub const fn is_live(self) -> bool {
-        self.on_time || self.on_points || self.on_rates
+        self.on_time || self.on_points || self.on_rates || self.on_angles || self.on_constraints
     }
 
     /// Whether nothing can change it.
@@ -80,6 +89,8 @@ impl Depends {
             on_time: self.on_time || o.on_time,
             on_points: self.on_points || o.on_points,
             on_rates: self.on_rates || o.on_rates,
+            on_angles: self.on_angles || o.on_angles,
+            on_constraints: self.on_constraints || o.on_constraints,
             on_parameters: self.on_parameters || o.on_parameters,
         }
     }
@@ -96,6 +107,13 @@ pub trait Environment<T: Real> {
     fn position(&self, id: PointId) -> Vec2<T>;
     /// The time.
     fn time(&self) -> T;
+    /// The angle with whole turns that a direction of now is nearest to.
+    fn expected_turn(&self, turning: Turning) -> f64;
+    /// The value of a member of a constraint.
+    ///
+    /// # Errors
+    /// Where a live value of the constraint has none.
+    fn member(&self, id: ConstraintId, member: Member) -> Result<T, Diagnostic>;
     /// Velocity and acceleration of a point; none where they cannot be had.
     fn rates(&self, id: PointId) -> Option<(Vec2<T>, Vec2<T>)>;
 }
@@ -136,12 +154,22 @@ impl Formula {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// Calls `visit` for each point and parameter it mentions.
+    /// What gives the opposite of what it gives.
+    #[must_use]
+    pub fn negative(&self) -> Self {
+        match self.node() {
+            Node::Negate(inner) => inner.clone(),
+            _ => Self::new(Node::Negate(self.clone()), self.shape(), self.depends(), self.span()),
+        }
+    }
+
+    /// Calls `visit` for each point, parameter and member it mentions.
     pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
         match self.node() {
             Node::Number(_) | Node::Time => {}
             Node::Parameter(id) => visit(Mention::Parameter(*id)),
             Node::Point(id) => visit(Mention::Point(*id)),
+            Node::Member(id, member) => visit(Mention::Member(*id, *member)),
             Node::Negate(a) | Node::X(a) | Node::Y(a) => a.mentions(visit),
             Node::Vector(a, b) | Node::Binary(_, a, b) => {
                 a.mentions(visit);
@@ -163,6 +191,7 @@ impl Formula {
             Node::Time => return Ok(Number(env.time())),
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
+            Node::Member(id, member) => Number(env.member(*id, *member)?),
             Node::Vector(x, y) => {
                 Vector(Vec2 { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
             }
@@ -176,8 +205,11 @@ impl Formula {
                 let (left, right) = (a.evaluate(env)?, b.evaluate(env)?);
                 return operate(*operator, left, right, self.span(), b.span());
             }
-            Node::Call(function @ (Function::Velocity | Function::Acceleration), arguments) => {
-                return self.rate(*function, &arguments[0], env);
+            Node::Call(function, arguments) if function.is_rate() => {
+                return self.rate(*function, arguments, env);
+            }
+            Node::Call(function, arguments) if function.counts_turns() => {
+                return self.turn(*function, arguments, env);
             }
             Node::Call(function, arguments) => {
                 // Few arguments but for `min` and `max`: no allocation then.
@@ -200,18 +232,52 @@ impl Formula {
     fn rate<T: Real>(
         &self,
         function: Function,
-        argument: &Self,
+        arguments: &[Self],
         env: &impl Environment<T>,
     ) -> Result<Value<T>, Diagnostic> {
-        let Node::Point(id) = argument.node() else {
-            unreachable!("a rate is bound to the name of a point")
-        };
-        let Some((velocity, acceleration)) = env.rates(*id) else {
+        let moving = arguments.iter().map(|argument| {
+            let id = argument.point();
+            let (velocity, acceleration) = env.rates(id)?;
+            Some(MovingPoint { at: env.position(id), velocity, acceleration })
+        });
+        let Some(moving) = moving.collect::<Option<Vec<_>>>() else {
             return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
                 .at(self.span(), "only where a value is looked at")
                 .help("use it in `print`, `assert`, or a parameter that these use"));
         };
-        Ok(Value::Vector(if function == Function::Velocity { velocity } else { acceleration }))
+        rate(function, &moving, self.span())
+    }
+
+    fn turn<T: Real>(
+        &self,
+        function: Function,
+        arguments: &[Self],
+        env: &impl Environment<T>,
+    ) -> Result<Value<T>, Diagnostic> {
+        let points: Vec<PointId> = arguments.iter().map(Self::point).collect();
+        let places: Vec<_> = points.iter().map(|&id| Value::Vector(env.position(id))).collect();
+        let angle = call(function, &places, self.span())?.number();
+        let turning = Turning::of(&points).expect("it is bound to two points, or four");
+        let turns = whole_turns(env.expected_turn(turning), angle.value());
+        finite(Value::Number(angle + T::constant(turns * TAU)), self.span())
+    }
+
+    /// Whether it is a count of turns.
+    pub fn counts_turns(&self) -> bool {
+        matches!(self.node(), Node::Call(function, _) if function.counts_turns())
+    }
+
+    /// The point, if that is all it is.
+    pub fn as_point(&self) -> Option<PointId> {
+        match self.node() {
+            Node::Point(id) => Some(*id),
+            _ => None,
+        }
+    }
+
+    /// The point, of an argument that is bound to the name of one.
+    fn point(&self) -> PointId {
+        self.as_point().expect("it is bound to the name of a point")
     }
 }
 
@@ -222,4 +288,6 @@ pub enum Mention {
     Point(PointId),
     /// A parameter.
     Parameter(ParameterId),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
 }

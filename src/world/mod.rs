@@ -22,12 +22,14 @@ mod users;
 
 // Expressions, their values, and what they depend on.
 mod arithmetic;
+mod compile;
 mod dependencies;
 mod dependency_order;
 mod environments;
 mod evaluate;
 mod formula;
-mod function;
+mod member;
+mod rate_function;
 mod value;
 
 // Edits, and time going on.
@@ -37,6 +39,8 @@ mod edit;
 mod motion;
 mod quadrature;
 mod same;
+mod turn_count;
+mod turning;
 mod unchanged;
 
 pub(crate) use arithmetic::{call, operate};
@@ -58,5 +62,6 @@ pub use state::World;
 #[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};
+pub use turning::{TurnCount, Turning};
 pub use user::User;
 pub use value::Value;

@@ -8,6 +8,7 @@ use super::environments::Within;
 use super::quadrature::mean;
 use super::same::{States, are_same_places, are_same_states};
 use super::trace::Tail;
+use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
 use super::{Clock, ConstraintId, Ghost, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Point};
 use crate::diag::Diagnostic;
@@ -20,6 +21,7 @@ pub struct Motion {
     start: Arc<Vec<Point>>,
     start_states: Arc<States>,
     clock: Clock,
+    turn_counts: Arc<TurnCounts>,
     states: Arc<States>,
     /// Constraints with live values, which a frame sets: whole.
     driven: Vec<(ConstraintId, Constraint)>,
@@ -54,6 +56,7 @@ impl World {
             start,
             start_states: Arc::new(self.start_states.clone()),
             clock: self.clock,
+            turn_counts: Arc::new(self.turn_counts.clone()),
             states: Arc::new(self.states()),
             driven: self.driven(),
             traces,
@@ -79,6 +82,7 @@ impl World {
             && are_same_places(&self.points.start, &motion.start)
             && are_same_states(&self.start_states, &motion.start_states)
             && are_same_states(&self.states(), &motion.states)
+            && are_same_counts(&self.turn_counts, &motion.turn_counts)
             && self.driven() == motion.driven
             && self.traces.len() == motion.traces.len()
             && traces.into_iter().all(|(trace, tail)| tail.is_all_of(&trace.samples))
@@ -92,7 +96,7 @@ impl World {
 
     /// All constraints with live values, whole.
     fn driven(&self) -> Vec<(ConstraintId, Constraint)> {
-        let driven = self.constraints().filter(|(_, r)| !r.drivers().is_empty());
+        let driven = self.constraints().filter(|(_, r)| !r.live().is_empty());
         driven.map(|(id, r)| (id, r.constraint.clone())).collect()
     }
 
@@ -116,11 +120,13 @@ impl World {
             start: exchange(&mut self.points.start, motion.start),
             start_states: exchange(&mut self.start_states, motion.start_states),
             clock: std::mem::replace(&mut self.clock, motion.clock),
+            turn_counts: exchange(&mut self.turn_counts, motion.turn_counts),
             states: Arc::new(states),
             driven,
             traces,
             ghosts: motion.ghosts.swap(&mut self.ghosts),
         };
+        self.turns_ahead = TurnsAhead::default();
         self.touched.all = true;
         self.dependencies.note_change();
         old
@@ -143,6 +149,7 @@ impl World {
         if self.clock.frame > 0 {
             motion.at = motion.start.clone();
             motion.states = motion.start_states.clone();
+            motion.turn_counts = Arc::new(self.turn_counts_at_start());
         }
         motion.clock = self.clock.at_start();
         motion.traces.iter_mut().for_each(|tail| *tail = Tail::cleared());
@@ -159,7 +166,9 @@ impl World {
         if self.clock.frame == 0 {
             self.points.start.clone_from(&self.points.at);
             self.start_states = self.states();
+            self.note_first_turns();
         }
+        let before = self.angles_before();
         self.clock.tick();
         self.refresh()?;
         let dt = self.clock.dt;
@@ -172,7 +181,8 @@ impl World {
         if !self.dependencies.ramps().is_empty() {
             self.advance_ramps()?;
         }
-        Ok(())
+        self.note_turns(&before);
+        self.refresh_turned()
     }
 
     /// Turns the motors whose speed changes within the frame that the clock has just made: by the
@@ -189,7 +199,7 @@ impl World {
                 Ok(speed.evaluate(&within)?.number())
             })?;
             let constraint = self.constraint_state_mut(motor);
-            if let Constraint::Motor(motor) = constraint {
+            if let Constraint::Motor(motor) = constraint.stated_mut() {
                 motor.set_mean_speed(mean_speed);
             }
             if constraint.advance(dt) {
@@ -206,6 +216,16 @@ impl World {
             if frame.is_multiple_of(trace.every) {
                 trace.samples.push(Sample { at: self.points.at[trace.point.idx()], missed });
             }
+        }
+    }
+
+    /// The angle with whole turns that `reset` brings back to a motor; none if it has none.
+    pub(super) fn motor_angle_at_start(&self, id: ConstraintId) -> Option<f64> {
+        let mut constraint = self.constraint(id)?.constraint.clone();
+        restore_whole(&mut constraint, self.start_states.get(&id)?, false);
+        match constraint {
+            Constraint::Motor(motor) => Some(motor.total()),
+            _ => None,
         }
     }
 

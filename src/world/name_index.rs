@@ -120,18 +120,30 @@ impl NameIndex {
         }
         self.slots[hole] = Slot::EMPTY;
         for dot in dots(name) {
-            if let Some(members) = self.instances.get_mut(&name[..dot]) {
+            let instance = &name[..dot];
+            if let Some(members) = self.instances.get_mut(instance) {
                 members.remove(&entity);
                 if members.is_empty() {
-                    self.instances.remove(&name[..dot]);
+                    self.instances.remove(instance);
+                    self.free_number(instance);
                 }
             }
         }
+        self.free_number(name);
+    }
+
+    /// A name is free again: whoever numbers names of its stem is to try its number. Where the
+    /// stem ends cannot be told from the name, `arm21` may be the first `arm2` or the twenty-first
+    /// `arm`.
+    fn free_number(&mut self, name: &str) {
+        if self.numbered.is_empty() {
+            return;
+        }
         let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-        if stem.len() < name.len()
-            && let Some(hint) = self.numbered.get_mut(stem)
-        {
-            *hint = name[stem.len()..].parse().map_or(*hint, |number: u32| number.min(*hint));
+        for end in stem.len()..name.len() {
+            if let Some(hint) = self.numbered.get_mut(&name[..end]) {
+                *hint = name[end..].parse().map_or(*hint, |number: u32| number.min(*hint));
+            }
         }
     }
 }

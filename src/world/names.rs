@@ -100,6 +100,28 @@ mod tests {
     }
 
     #[test]
+    fn a_number_that_is_free_again_is_given_again() {
+        // As it may be taken: by the thing itself, by all members of an instance, by a member of
+        // one; for stems that end in digits too.
+        for (stem, member) in [("arm", ""), ("arm", ".X"), ("arm2", ""), ("arm2", ".in1.X")] {
+            let mut world = World::new();
+            let mut ids = Vec::new();
+            for k in 1..=3 {
+                let name = world.numbered_name(stem);
+                assert_eq!(name, format!("{stem}{k}"));
+                ids.push(add(&mut world, &format!("{name}{member}")));
+            }
+            world.apply(Edit::Point(ids[1], None));
+            assert_eq!(world.numbered_name(stem), format!("{stem}2"), "{member}");
+            let undo = world.apply(Edit::Point(ids[0], None));
+            world.apply(undo);
+            assert_eq!(world.numbered_name(stem), format!("{stem}2"), "{member}");
+            world.apply(Edit::Point(ids[0], None));
+            assert_eq!(world.numbered_name(stem), format!("{stem}1"), "{member}");
+        }
+    }
+
+    #[test]
     fn an_instance_lives_as_long_as_its_members() {
         let mut world = World::new();
         let id = add(&mut world, "left.P");

@@ -23,19 +23,39 @@ pub type Drivers = Vec<(Field, Formula)>;
 #[derive(Debug, Clone, Default)]
 struct Extra {
     drivers: Drivers,
+    /// Where values are measured on the pose: the expressions behind the others, and behind what
+    /// those that are measured are given from outside.
+    live: Option<Drivers>,
     rho: Option<f64>,
 }
 
 impl Record {
     /// A constraint that is switched on, driven by these expressions.
-    pub fn new(name: NameText, constraint: Constraint, drivers: Drivers) -> Self {
-        let extra = (!drivers.is_empty()).then(|| Box::new(Extra { drivers, rho: None }));
+    pub fn new(name: NameText, constraint: Constraint, mut drivers: Drivers) -> Self {
+        in_order(&mut drivers);
+        let extra = (!drivers.is_empty()).then(|| Box::new(Extra { drivers, ..Extra::default() }));
         Self { name, constraint, is_on: true, extra }
     }
 
-    /// The live expressions behind some of its values.
+    /// The live expressions behind some of its values, in the order of the values.
     pub fn drivers(&self) -> &[(Field, Formula)] {
         self.extra.as_ref().map_or(&[], |extra| &extra.drivers)
+    }
+
+    /// The expressions that are evaluated before the constraints are solved. What is measured on the
+    /// pose is none of them: it is solved with the pose.
+    pub fn live(&self) -> &[(Field, Formula)] {
+        let extra = self.extra.as_ref();
+        extra.map_or(&[], |extra| extra.live.as_ref().unwrap_or(&extra.drivers))
+    }
+
+    /// Puts a constraint in the place of the one there is, with the expressions that are evaluated
+    /// for it where those are not all that its statement gives.
+    pub(super) fn bind(&mut self, constraint: Constraint, live: Option<Drivers>) {
+        self.constraint = constraint;
+        if let Some(extra) = &mut self.extra {
+            extra.live = live;
+        }
     }
 
     /// Puts other expressions in the place of those behind these values.
@@ -44,6 +64,7 @@ impl Record {
             let drivers = &mut self.extra.get_or_insert_default().drivers;
             drivers.retain(|(field, _)| !fields.contains(field));
             drivers.extend(new);
+            in_order(drivers);
         }
     }
 
@@ -88,6 +109,12 @@ impl Record {
             None => problem,
         })
     }
+}
+
+/// Whatever the order in which they were stated: a constraint that is made again has them in the
+/// same one.
+fn in_order(drivers: &mut Drivers) {
+    drivers.sort_by_key(|(field, _)| *field);
 }
 
 /// A named value.

@@ -6,6 +6,7 @@ use super::dependencies::Dependencies;
 use super::name_index::NameIndex;
 use super::point_users::PointUsers;
 use super::records::Table;
+use super::turning::{TurnCounts, TurnsAhead};
 use super::{
     Clock, ConstraintId, Entity, Ghost, NameText, Parameter, ParameterId, PointId, Points, Record,
     Touched, Trace,
@@ -23,6 +24,9 @@ pub struct World {
     pub(super) clock: Clock,
     /// The state of motors and wheels when the clock left 0, or at birth if made later.
     pub(super) start_states: BTreeMap<ConstraintId, Vec<f64>>,
+    /// How far directions have turned, where that is asked for.
+    pub(super) turn_counts: TurnCounts,
+    pub(super) turns_ahead: TurnsAhead,
     pub(super) traces: Vec<Trace>,
     pub(super) ghosts: Vec<Ghost>,
     pub(super) dependencies: Dependencies,

@@ -11,7 +11,7 @@ impl World {
                 self.point_users.of(id, &self.constraints, &self.parameters).collect()
             }
             Entity::Parameter(id) => self.dependencies.users(id).collect(),
-            Entity::Constraint(_) => Vec::new(),
+            Entity::Constraint(id) => self.dependencies.member_users(id).collect(),
         }
     }
 

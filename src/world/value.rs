@@ -13,6 +13,15 @@ pub enum Value<T = f64> {
 }
 
 impl<T: Real> Value<T> {
+    /// Nothing of this shape.
+    pub fn zero(shape: Shape) -> Self {
+        let zero = T::constant(0.0);
+        match shape {
+            Shape::Number => Self::Number(zero),
+            Shape::Vector => Self::Vector(Vec2 { x: zero, y: zero }),
+        }
+    }
+
     /// What it is.
     pub const fn shape(&self) -> Shape {
         match self {

@@ -42,6 +42,29 @@ fn a_session_goes_on_on_another_thread_to_the_same_bits() {
 }
 
 #[test]
+fn without_a_clock_nothing_is_said_of_time() {
+    let mut session = Session::new();
+    session.run(FOUR_BAR).unwrap();
+    let script = session.to_script();
+    for statement in
+        ["step 2 in 1ms", "run 0.1 in 1ms", "solve in 1ms", "accuracy", "accuracy in 1ms"]
+    {
+        let problem = session.run(statement).expect_err(statement);
+        assert_eq!(&*problem.message, "there is no clock here", "{statement}");
+        assert_eq!(session.to_script(), script, "{statement}");
+    }
+    let told = session.run("step 20").unwrap().told;
+    let receipt = told.last().unwrap().to_string();
+    assert!(receipt.contains("iterations a frame, largest residual"), "{receipt}");
+    assert_eq!(session.last_run().unwrap().seconds, None);
+
+    let lines = session.run("effects").unwrap().lines;
+    assert_eq!(lines.last().unwrap(), "no frame is timed: there is no clock here");
+    let clock: Vec<&str> = lines[1].split_whitespace().collect();
+    assert_eq!(clock, ["clock", "on", "24", "B", "-", "-", "crank"]);
+}
+
+#[test]
 fn an_answer_holds_what_was_said_and_written() {
     let mut session = Session::new();
     let problem = session.run(&format!("{FOUR_BAR} step 2; print B == B")).unwrap_err();

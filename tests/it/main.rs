@@ -7,6 +7,7 @@
 mod architecture;
 mod circles;
 mod examples;
+mod expressions;
 mod front_door;
 mod golden;
 mod habits;

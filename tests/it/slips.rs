@@ -57,3 +57,42 @@ fn likely_slips_are_said_once_with_what_to_type() {
         }
     }
 }
+
+#[test]
+fn a_change_is_looked_at_as_what_is_made() {
+    for (made, change, expected) in [
+        ("orientation A B, A C = 1", "change it = 90", Some("`90deg`")),
+        ("orientation A B, A C = 1", "change it in -45..-42", Some("`-45deg`")),
+        ("motor A B", "change it phase 90", Some("`90deg`")),
+        ("distance C to A B = 2", "change it = -1", Some("did you mean `1`")),
+        ("distance C to A B", "change it to B A = 2", Some("did you mean `-2`")),
+        ("orientation A B, A C = 1", "change it = 90deg", None),
+        ("motor A B phase 90", "change it speed 90", None),
+        ("distance C to A B = -1", "change it to B A", None),
+        ("length B C = 2", "change it = 90", None),
+    ] {
+        let mut talking = Talking::after(POINTS);
+        talking.run(&format!("it: {made}"));
+        talking.talk.told();
+        talking.run(change);
+        let told = talking.talk.told();
+        match expected {
+            None => assert!(told.is_empty(), "{change}: {told:?}"),
+            Some(text) => assert!(told[0].contains(text), "{change}: {told:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_slip_in_a_loop_is_said_once_and_two_are_said_twice() {
+    let mut talking = Talking::after(POINTS);
+    talking.run("for i in 1..5 { point P[i] = (i, 2); o[i]: orientation A B, A P[i] = 90 }");
+    assert_eq!(talking.talk.told().len(), 1);
+    talking
+        .run("for i in 1..5 { change o[i] = 90; for k in 1..3 { orientation A C, A P[i] = 45 } }");
+    assert_eq!(talking.talk.told().len(), 2);
+    talking.run("define arm(P) { orientation A B, A P = 90 }; for i in 1..5 { use arm(P[i]) }");
+    assert_eq!(talking.talk.told().len(), 1);
+    talking.run("change o[1] = 90");
+    assert_eq!(talking.talk.told().len(), 1, "another statement is another slip");
+}

@@ -83,8 +83,8 @@ impl Host for Listener {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
-        self.begun.elapsed().as_secs_f64()
+    fn seconds(&self) -> Option<f64> {
+        Some(self.begun.elapsed().as_secs_f64())
     }
 }
 

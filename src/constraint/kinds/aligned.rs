@@ -44,7 +44,7 @@ impl AxisDirection {
 }
 
 impl Aligned {
-    fn row(&self, x: &[Point]) -> Row {
+    fn row(&self, x: &[Point]) -> Row<'static> {
         let [a, b] = self.points;
         let normal = self.direction.normal();
         Row::new(self.residual(x)).with(a, -normal).with(b, normal)

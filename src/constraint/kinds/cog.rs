@@ -147,7 +147,7 @@ impl Cog {
         self.mesh(self.angles(spokes)) + (self.wound - self.k)
     }
 
-    fn row(&self, spokes: &Spokes<Vector>) -> Row {
+    fn row(&self, spokes: &Spokes<Vector>) -> Row<'static> {
         let [a, b, c, d] = self.points;
         let [v12, v13, v34] = spokes.0;
         let (p1, p2) = (turning(v12), turning(v34) * self.ratio());
@@ -321,8 +321,11 @@ impl Stateful for Cog {
         }
     }
 
+    /// Wheels of which one has no direction mesh as before.
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::geared(self.points, self.gearing, self.contact, x);
+        if self.spokes(x).is_some() {
+            *self = Self::geared(self.points, self.gearing, self.contact, x);
+        }
     }
 
     fn advance(&mut self, _dt: f64) -> bool {
@@ -416,9 +419,9 @@ mod tests {
         };
         let cog = Cog::new([0, 1, 2, 3], -1.0, &x(0.0));
         assert!(cog.residual(&x(0.7)).abs() < 1e-15);
-        let mut rows = Vec::new();
-        cog.jacobian(&x(0.7), &mut |row| rows.push(row));
-        assert!(rows[0].is_active && rows[0].norm_squared(&[1.0; 4]) > 0.0);
+        cog.jacobian(&x(0.7), &mut |row| {
+            assert!(row.is_active && row.norm_squared(&[1.0; 4]) > 0.0);
+        });
     }
 
     /// The angle of the second wheel of a belt from how its material lies along both runs, which

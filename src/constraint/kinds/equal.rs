@@ -58,7 +58,7 @@ impl Equal {
         Some(if p == a || p == b { (f, s.e12 * sign) } else { (f / self.ratio, s.e34 * sign) })
     }
 
-    fn row(&self, s: &Segments) -> Row {
+    fn row(&self, s: &Segments) -> Row<'static> {
         let [a, b, c, d] = self.points;
         let f = self.excess(s);
         if f == 0.0 && !self.bounds.is_equality() {

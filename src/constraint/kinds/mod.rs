@@ -10,7 +10,9 @@ mod equal;
 mod equivalence;
 mod glider;
 mod hinge;
+mod hold;
 mod length;
+mod measured;
 mod motor;
 mod orientation;
 mod rack;
@@ -27,12 +29,16 @@ pub use equal::Equal;
 pub use equivalence::Equivalence;
 pub use glider::Glider;
 pub use hinge::Hinge;
+pub use hold::Hold;
 pub use length::Length;
+pub use measured::Measured;
 pub use motor::{Heading, Motor};
 pub use orientation::{Orientation, Period};
 pub use rack::Rack;
 pub use rigid::Rigid;
 pub use symmetric::Symmetric;
+
+use std::borrow::Cow;
 
 use super::{
     ConstraintKind, Declared, Field, Given, Point, PointIdx, Real, Refusal, Row, Stateful, Traits,
@@ -42,7 +48,10 @@ use super::{
 /// Hands a call on to whatever kind a constraint is of.
 macro_rules! each {
     ($self:ident [$($Name:ident)*] $c:ident => $call:expr) => {
-        match $self { $(Self::$Name($c) => $call,)* }
+        match $self {
+            $(Self::$Name($c) => $call,)*
+            Self::Measured($c) => $call,
+        }
     };
 }
 
@@ -55,6 +64,8 @@ macro_rules! define {
                 #[doc = concat!("See [`", stringify!($Name), "`](super::", stringify!($Name), ").")]
                 $Name($Held),
             )*
+            /// One of these kinds, with values that are measured on the pose.
+            Measured(Box<Measured>),
         }
 
         /// The kinds of constraint; their order is the order of evaluation.
@@ -98,6 +109,12 @@ macro_rules! define {
                 }
             }
         )*
+
+        impl From<Measured> for Constraint {
+            fn from(c: Measured) -> Self {
+                Self::Measured(c.into())
+            }
+        }
 
         impl ConstraintKind for Constraint {
             fn points(&self) -> &[PointIdx] {
@@ -156,6 +173,7 @@ macro_rules! define {
             pub const fn kind(&self) -> Kind {
                 match self {
                     $(Self::$Name(_) => Kind::$Name,)*
+                    Self::Measured(c) => c.base().kind(),
                 }
             }
 
@@ -193,13 +211,6 @@ macro_rules! define {
             pub fn accept(&mut self, x: &[Point]) {
                 each!(self [$($Name)*] c => c.accept(x))
             }
-
-            /// Renumbers its points.
-            pub fn map_points(&mut self, mut renumber: impl FnMut(PointIdx) -> PointIdx) {
-                for p in self.points_mut() {
-                    *p = renumber(*p);
-                }
-            }
         }
     };
 }
@@ -223,6 +234,66 @@ define! {
     Rack (Rack),
     Aligned (Aligned),
     Symmetric (Symmetric),
+    Hold (Hold),
+}
+
+impl Constraint {
+    /// The constraint as it is stated, whether or not its values are measured on the pose; what is
+    /// measured is as it was when it was made.
+    pub const fn stated(&self) -> &Self {
+        match self {
+            Self::Measured(c) => c.base(),
+            _ => self,
+        }
+    }
+
+    /// The same, to be carried on.
+    pub const fn stated_mut(&mut self) -> &mut Self {
+        match self {
+            Self::Measured(c) => c.base_mut(),
+            _ => self,
+        }
+    }
+
+    /// The constraint as it is stated, with its values as they are at a pose.
+    pub fn at(&self, x: &[Point]) -> Cow<'_, Self> {
+        match self {
+            Self::Measured(c) => Cow::Owned(c.at(x)),
+            _ => Cow::Borrowed(self),
+        }
+    }
+
+    /// Whether a value is measured on the pose.
+    pub fn measures(&self, field: Field) -> bool {
+        matches!(self, Self::Measured(c) if c.is_measured(field))
+    }
+
+    /// The values it has.
+    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
+        let n_inputs = match self {
+            Self::Measured(c) => c.n_inputs() as u16,
+            _ => 0,
+        };
+        Field::ALL.into_iter().chain((0..n_inputs).map(Field::Input))
+    }
+
+    /// Renumbers its points.
+    pub fn map_points(&mut self, mut renumber: impl FnMut(PointIdx) -> PointIdx) {
+        for p in self.points_mut() {
+            *p = renumber(*p);
+        }
+        if let Self::Measured(c) = self {
+            c.share_points();
+        }
+    }
+
+    /// Gives it other points, as many as it has.
+    pub fn set_points(&mut self, points: &[PointIdx]) {
+        self.points_mut().copy_from_slice(points);
+        if let Self::Measured(c) = self {
+            c.share_points();
+        }
+    }
 }
 
 #[cfg(test)]

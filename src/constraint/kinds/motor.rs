@@ -169,7 +169,7 @@ impl Motor {
     }
 
     /// The rows of a motor between two links.
-    fn rows(&self, points: [PointIdx; 4], x: &[Point]) -> Option<[Row; 2]> {
+    fn rows(&self, points: [PointIdx; 4], x: &[Point]) -> Option<[Row<'static>; 2]> {
         Some(CarriedCrank::new(points, self.angle(), x)?.rows(self.drive.radius))
     }
 }

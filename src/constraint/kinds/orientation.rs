@@ -84,7 +84,7 @@ impl Orientation {
         (has_direction(x1, x2) && has_direction(x3, x4)).then_some((x2 - x1, x4 - x3))
     }
 
-    fn row(&self, f: f64, v12: Vector, v34: Vector) -> Row {
+    fn row(&self, f: f64, v12: Vector, v34: Vector) -> Row<'static> {
         let [a, b, c, d] = self.points;
         let (p12, p34) = (turning(v12), turning(v34));
         Row::new(f).with(a, p12).with(b, -p12).with(c, -p34).with(d, p34)

@@ -119,7 +119,7 @@ impl Rack {
         s + self.radius * theta + (self.wound() - self.k)
     }
 
-    fn row(&self, arms: &Arms) -> Row {
+    fn row(&self, arms: &Arms) -> Row<'static> {
         let [o, a, p, q] = self.points;
         let length = arms.line.norm();
         let e = arms.line / length;
@@ -135,20 +135,21 @@ impl Declared for Rack {
 
     fn declare(given: &Given) -> Result<Self, Refusal> {
         let points = given.pairs()?;
-        let [o, a, ..] = points.map(|p| given.at(p));
+        let [o, a, p, q] = points.map(|p| given.at(p));
         let radius = given.value(Field::Radius);
-        if o == a {
-            let is_said = radius.is_some();
-            return Err(Refusal {
-                message: "the rim point lies on the centre",
-                at: Culprit::Statement,
-                label: if is_said {
-                    "it does not show how the wheel turns"
-                } else {
-                    "a wheel of radius 0 does not roll"
-                },
-                help: None,
-            });
+        let label = if radius.is_some() {
+            "it does not show how the wheel turns"
+        } else {
+            "a wheel of radius 0 does not roll"
+        };
+        let without_direction = [
+            (o == a, "the rim point lies on the centre", label),
+            (p == q, "the points of the line lie on each other", "no line to roll along"),
+        ];
+        for (is_so, message, label) in without_direction {
+            if is_so && !given.is_restored {
+                return Err(Refusal { message, at: Culprit::Statement, label, help: None });
+            }
         }
         Ok(Self::rolling(points, radius, given.x))
     }
@@ -278,8 +279,11 @@ impl Stateful for Rack {
         }
     }
 
+    /// A wheel or a line without a direction rolls as before.
     fn pick_up(&mut self, x: &[Point]) {
-        *self = Self::rolling(self.points, self.get(Field::Radius), x);
+        if self.arms(x).is_some() {
+            *self = Self::rolling(self.points, self.get(Field::Radius), x);
+        }
     }
 
     fn advance(&mut self, _dt: f64) -> bool {
@@ -338,6 +342,9 @@ mod tests {
     fn a_change_of_radius_is_no_jump() {
         let mut rack = Rack::with_radius([0, 1, 2, 3], 2.0, &rolled(0.0));
         (0..50).for_each(|i| rack.accept(&rolled(f64::from(i))));
+        let before = rack.clone();
+        assert!(rack.set(Field::Radius, 2.0));
+        assert_eq!(rack, before, "the radius it has is no change");
         assert!(rack.set(Field::Radius, 7.0));
         assert!(rack.residual(&rolled(49.0)).abs() < 1e-12);
     }

@@ -20,7 +20,7 @@ pub struct Symmetric {
 }
 
 impl Symmetric {
-    fn rows(&self, x: &[Point]) -> Option<[Row; 2]> {
+    fn rows(&self, x: &[Point]) -> Option<[Row<'static>; 2]> {
         let [a, b, p, q] = self.points.map(|p| x[p as usize]);
         if !has_direction(p, q) {
             return None;

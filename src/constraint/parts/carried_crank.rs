@@ -32,7 +32,7 @@ impl CarriedCrank {
     }
 
     /// The rows of the values `along - radius` and `across`, which do not depend on the axes.
-    pub fn rows(&self, radius: f64) -> [Row; 2] {
+    pub fn rows(&self, radius: f64) -> [Row<'static>; 2] {
         let [o, p, s, e] = self.points;
         let row = |f: f64, axis: Vector, slope: f64| {
             let swing = self.turning * slope;

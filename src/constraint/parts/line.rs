@@ -31,7 +31,7 @@ impl Foot {
     }
 
     /// The linearised equation between the signed distance and a value it exceeds by `f`.
-    pub fn row(&self, f: f64, [p, a, b]: [PointIdx; 3]) -> Row {
+    pub fn row(&self, f: f64, [p, a, b]: [PointIdx; 3]) -> Row<'static> {
         // On the line whatever happens; mu - 1 would be rounding and not 0.
         if p == a || p == b {
             return Row::new(f).with(a, Vector::ZERO).with(b, Vector::ZERO);

@@ -3,11 +3,13 @@
 pub mod bounds;
 pub mod carried_crank;
 pub mod content;
+pub mod function;
 pub mod gearing;
 pub mod geometry;
 pub mod jet;
 pub mod line;
 pub mod linear;
+pub mod program;
 pub mod row;
 pub mod turns;
 pub mod two_rows;

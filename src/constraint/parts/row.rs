@@ -5,17 +5,22 @@ use super::geometry::Vector;
 /// Index of a point in the columns a constraint is evaluated on.
 pub type PointIdx = u32;
 
-/// A scalar equation `f = 0`, linearised: value and gradient at no more than four points.
+/// A scalar equation `f = 0`, linearised: value and gradient at the points it holds.
+///
+/// Four of them have their place in the row itself, which is all that most kinds need; those of
+/// an equation between more stand behind it.
 #[derive(Debug, Clone, Copy)]
-pub struct Row {
+pub struct Row<'a> {
     /// The value of `f`, in the unit of its constraint (length, or radians).
     pub f: f64,
     /// How many of `points` and `gradient` are in use.
     pub n_points: usize,
-    /// The points, each once.
+    /// The first points, each once.
     pub points: [PointIdx; 4],
     /// The derivative of `f` by each of these points.
     pub gradient: [Vector; 4],
+    /// Further points, each once, with the derivatives by them.
+    pub further: &'a [(PointIdx, Vector)],
     /// False where an inequality is satisfied: the row asks for nothing then.
     pub is_active: bool,
     /// The length of the segment whose direction is the gradient (length rows), else 0.
@@ -23,7 +28,7 @@ pub struct Row {
     pub span: f64,
 }
 
-impl Row {
+impl<'a> Row<'a> {
     /// An equation with value `f` and no points yet.
     #[inline]
     pub fn new(f: f64) -> Self {
@@ -32,6 +37,7 @@ impl Row {
             n_points: 0,
             points: [0; 4],
             gradient: [Vector::ZERO; 4],
+            further: &[],
             is_active: true,
             span: 0.0,
         }
@@ -43,6 +49,14 @@ impl Row {
         let mut row = points.iter().fold(Self::new(0.0), |row, &p| row.with(p, Vector::ZERO));
         row.is_active = false;
         row
+    }
+
+    /// An equation between any number of points, each of them once.
+    #[must_use]
+    pub fn of_terms(f: f64, terms: &'a [(PointIdx, Vector)]) -> Self {
+        let (first, further) = terms.split_at(terms.len().min(4));
+        let row = first.iter().fold(Self::new(f), |row, &(p, g)| row.with(p, g));
+        Self { further, ..row }
     }
 
     /// Adds the derivative by a point; a point that occurs twice is merged.
@@ -73,7 +87,8 @@ impl Row {
     /// The points with their derivatives.
     #[inline]
     pub fn terms(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
-        (0..self.n_points).map(|k| (self.points[k], self.gradient[k]))
+        let first = (0..self.n_points).map(|k| (self.points[k], self.gradient[k]));
+        first.chain(self.further.iter().copied())
     }
 
     /// The squared norm of the gradient in the metric of the weights; 0 if nothing can move.

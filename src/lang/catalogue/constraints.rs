@@ -24,6 +24,8 @@ pub enum Slot {
     Points(usize),
     /// All the points there are.
     AllPoints,
+    /// An expression that is held.
+    Measure,
     /// Two points of a line; that which angles are measured from may be left out.
     Line(Role),
     /// What holds for the measured value: without one the present value is kept, or this one.
@@ -131,7 +133,7 @@ macro_rules! constraints {
     };
 }
 
-use Slot::{AllPoints, Flag, Gearing, Line, Optional, Place, Points, Relation, Value};
+use Slot::{AllPoints, Flag, Gearing, Line, Measure, Optional, Place, Points, Relation, Value};
 
 /// What is said of one that is points and nothing else.
 const NOTHING: &str = "this constraint has no part that can be changed";
@@ -320,5 +322,18 @@ constraints! {
              The distance is not held: a belt has a tensioner.",
         example: "belt O1 A, O2 B ratio 2\n\
              belt O1 A, O2 B teeth 20, 40 crossed",
+    }
+    Hold hold {
+        slots: [Measure, Relation { default: None }],
+        takes: "this takes `= value`, `<= value`, `>= value` or `in a..b`",
+        usage: "hold EXPRESSION RELATION",
+        summary: "an equation or inequality between whatever can be measured",
+        help: "The expressions are numbers, or with `=` vectors. Both sides give way: all points that they \
+             measure may move, but for frozen ones.\n\
+             `change h = 5` puts something else on the right side.",
+        example: "rope: hold distance(A, B) + 2 * distance(B, C) = 9\n\
+             hold A.x = 4\n\
+             hold P = midpoint(A, B)\n\
+             hold angle(A, B) in -30deg..30deg",
     }
 }

@@ -113,7 +113,7 @@ pub fn about(word: &str) -> Option<&'static Entry> {
     }
     entry(match word {
         "frozen" => "point",
-        "to" | "over" => "drag",
+        "to" | "through" | "over" => "drag",
         "all" => "freeze",
         "in" => "relations",
         "cascade" => "delete",

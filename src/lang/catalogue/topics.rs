@@ -41,14 +41,31 @@ pub(super) const TOPICS: &[Entry] = &[
         example: "print -2^2, (A + B).x",
     },
     Entry {
+        keyword: "members",
+        section: Section::Topics,
+        usage: "crank.angle, coupler.value, coupler.residual",
+        summary: "what a thing says of itself",
+        help: "`.angle` is that of a motor with its phase; it goes on past half a turn. `.value` is what a\n\
+             constraint measures now, whatever is asked of it; `.residual` is by how much it is missed,\n\
+             with its sign. What is declared under such a name comes first.\n\
+             A constraint may follow an angle; what follows from the constraints cannot drive one.",
+        example: "length A B = 3 + sin(2 * crank.angle)\n\
+             print coupler.value, coupler.residual",
+    },
+    Entry {
         keyword: "functions",
         section: Section::Topics,
         usage: "sin(a), distance(P, Q), ...",
         summary: "what an expression can call",
         help: "Numbers: `sin cos tan asin acos atan atan2 sqrt abs sign min max hypot floor ceil round\n\
-             exp ln mod`. Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
+             exp ln mod`, `clamp(x, lo, hi)`, `triangle(x)` (0 at even, 1 at odd x).\n\
+             Vectors: `norm dot cross rotate(v, phi) polar(r, phi) midpoint(P, Q)`.\n\
              Measures: `distance(P, Q)`, `distance(P, A, B)` from P to the line AB, `angle(P, Q)`,\n\
-             `angle(A, B, C, D)`, `velocity(P)`, `acceleration(P)`.",
+             `angle(A, B, C, D)`; `turn(A, B)` and `turn(A, B, C, D)` are the same angles with their whole\n\
+             turns, counted from the first statement that asks.\n\
+             Rates, only where a value is looked at: `velocity(P)`, `acceleration(P)`, `omega(A, B)` and\n\
+             `alpha(A, B)` of the direction AB, `curvature(P)` of P's path, and `ic(A, B, C, D)`, the instant\n\
+             centre of the bodies that hold the lines AB and CD.",
         example: "print distance(A, C), angle(A, B, C, D)",
     },
     Entry {

@@ -6,7 +6,7 @@ use super::Verb;
 use crate::diag::Diagnostic;
 use crate::lang::catalogue::{Entry, Section};
 use crate::lang::constraint::Relation;
-use crate::lang::expr::{Expr, Ident, Name};
+use crate::lang::expr::{Expr, Ident, Name, Unit};
 use crate::lang::grammar::Rule;
 use crate::lang::lower::{Cursor, refusal};
 use crate::lang::parts::{Promise, Text};
@@ -83,6 +83,8 @@ impl ListWhat {
 pub enum PrintItem {
     /// A number or a vector.
     Value(Expr),
+    /// `angle(A, B) in deg`: a number, by how many of the unit it is.
+    InUnit(Expr, Unit),
     /// A text, as it is.
     Text(Text),
 }
@@ -117,12 +119,14 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "print",
             section: Section::Looking,
-            usage: "print ITEM, ...",
+            usage: "print ITEM [in UNIT], ...",
             summary: "write values and strings on one line",
             help: "Numbers in the shortest form that reads back to the same bits, vectors as `(x, y)`,\n\
-                 a space between two items.",
+                 a space between two items. `in deg`, `in rad`, `in rev`, `in rpm`, `in s` or `in ms` behind a\n\
+                 number writes how many of these it is.",
             example: r#"print C, distance(A, C), time
-    print "x is", C.x"#,
+    print "x is", C.x
+    print angle(A, C) in deg, "degrees""#,
         },
     },
     Verb {
@@ -289,10 +293,19 @@ fn print_items(c: &mut Cursor) -> Result<Vec<PrintItem>, Diagnostic> {
         items.push(if rule == Rule::string {
             PrintItem::Text(c.text()?)
         } else {
-            PrintItem::Value(c.expr()?)
+            let value = c.expr()?;
+            match c.unit_if_any() {
+                None => PrintItem::Value(value),
+                Some(unit) => PrintItem::InUnit(value, named_unit(&unit)?),
+            }
         });
     }
     Ok(items)
+}
+
+fn named_unit(word: &Ident) -> Result<Unit, Diagnostic> {
+    let unit = Unit::ALL.into_iter().find(|unit| unit.suffix() == &*word.text);
+    unit.ok_or_else(|| refusal::unknown_unit(word))
 }
 
 fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {
@@ -305,6 +318,7 @@ impl Display for PrintItem {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Value(value) => write!(f, "{value}"),
+            Self::InUnit(value, unit) => write!(f, "{value} in {}", unit.suffix()),
             Self::Text(text) => write!(f, "{text}"),
         }
     }

@@ -33,7 +33,14 @@ pub enum Making {
     Drag {
         /// The points and where each goes.
         targets: Vec<DragTarget>,
-        /// The number of frames it takes.
+        /// The number of frames it takes; none but 0 where the clock stands still.
+        over: Option<Expr>,
+    },
+    /// `pull A to (8, 0) over 40`: as near as the constraints allow.
+    Pull {
+        /// The points and where each is pulled.
+        targets: Vec<DragTarget>,
+        /// The number of frames it takes; none but 0 where the clock stands still.
         over: Option<Expr>,
     },
 }
@@ -58,13 +65,13 @@ pub struct PointDecl {
     pub frozen: bool,
 }
 
-/// `A to (3, 4)` in a `drag`.
+/// `A to (3, 4)` or `A through (1, 0), (2, 2)` in a `drag`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DragTarget {
     /// The point.
     pub point: Name,
-    /// Where it ends.
-    pub to: Expr,
+    /// Where its way leads through, the end last; at least one.
+    pub places: Vec<Expr>,
 }
 
 /// Each with the rule that reads it.
@@ -134,11 +141,29 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "drag",
             section: Section::Points,
-            usage: "drag NAME to POSITION, ... [over FRAMES]",
+            usage: "drag NAME to POSITION | through POSITIONS, ... [over FRAMES]",
             summary: "draw points along straight lines, simulating",
-            help: "A point that is not frozen is frozen for the drag and thawed after it.",
+            help: "A point that is not frozen is frozen for the drag and thawed after it. The pieces of a path\n\
+                 get frames by their length. `over 0` lets the clock stand still.",
             example: "drag A to (3, 4) over 60\n\
-                 drag A to (3, 4), B to (0, 1) over 60",
+                 drag A to (3, 4), B to (0, 1) over 60\n\
+                 drag A through (1, 0), (1, 2), (2, 2) over 40\n\
+                 drag A to (3, 4) over 0",
+        },
+    },
+    Verb {
+        rule: Rule::pull,
+        entry: Entry {
+            keyword: "pull",
+            section: Section::Points,
+            usage: "pull NAME to POSITION | through POSITIONS, ... [over FRAMES]",
+            summary: "draw points as near to places as the constraints allow",
+            help: "Nothing is torn: each frame ends on the pose nearest to the hand among those that meet all\n\
+                 constraints. Let go, a point stays where it is. Motors turn on; `over 0` lets the clock\n\
+                 stand still.",
+            example: "pull A to (8, 0) over 40\n\
+                 pull A through (1, 0), (1, 2), B to (0, 1) over 40\n\
+                 pull A to (8, 0) over 0",
         },
     },
 ];
@@ -156,6 +181,10 @@ impl Making {
                 let targets = each(c, Rule::drag_target, drag_target)?;
                 Self::Drag { targets, over: c.expr_if_any()? }
             }
+            Rule::pull => {
+                let targets = each(c, Rule::drag_target, drag_target)?;
+                Self::Pull { targets, over: c.expr_if_any()? }
+            }
             _ => return Ok(None),
         }))
     }
@@ -171,6 +200,9 @@ impl Making {
             Self::Drag { targets, over } => {
                 write!(f, "drag {}{}", commas(targets), Clause(" over ", over))
             }
+            Self::Pull { targets, over } => {
+                write!(f, "pull {}{}", commas(targets), Clause(" over ", over))
+            }
         }
     }
 }
@@ -185,7 +217,7 @@ fn point_decl(c: &mut Cursor) -> Result<PointDecl, Diagnostic> {
 }
 
 fn drag_target(c: &mut Cursor) -> Result<DragTarget, Diagnostic> {
-    Ok(DragTarget { point: c.name()?, to: c.expr()? })
+    Ok(DragTarget { point: c.name()?, places: c.exprs()? })
 }
 
 impl Display for Binding {
@@ -203,6 +235,7 @@ impl Display for PointDecl {
 
 impl Display for DragTarget {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        write!(f, "{} to {}", self.point, self.to)
+        let word = if self.places.len() == 1 { "to" } else { "through" };
+        write!(f, "{} {word} {}", self.point, commas(&self.places))
     }
 }

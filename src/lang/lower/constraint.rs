@@ -38,6 +38,7 @@ pub(in crate::lang) fn parts<'a>(
                 let pair = c.pair()?;
                 parts.push(Part::Points(vec![pair.from, pair.to]));
             }
+            Rule::expr => parts.push(Part::Measure(c.expr()?)),
             _ => {
                 let spot = c.spot(rule);
                 if let Some(first) = seen.iter().find(|known| known.rule == rule) {

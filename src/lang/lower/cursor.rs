@@ -121,6 +121,13 @@ impl<'a> Cursor<'a> {
         self.ident_of(&pair)
     }
 
+    /// The word of a unit, if a clause with one is what follows.
+    pub fn unit_if_any(&mut self) -> Option<Ident> {
+        let clause = self.take(Rule::in_unit)?;
+        let pair = self.within(clause).must(Rule::unit);
+        Some(self.ident_of(&pair))
+    }
+
     pub fn ident_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::ident)?;
         Some(self.ident_of(&pair))
@@ -326,6 +333,7 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_to
             | Rule::kw_about
             | Rule::kw_from
+            | Rule::kw_through
             | Rule::kw_over
             | Rule::kw_on
             | Rule::kw_at

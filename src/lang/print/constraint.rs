@@ -24,6 +24,7 @@ impl Display for Part {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Points(names) => write!(f, "{}", Names { names, stop: "" }),
+            Self::Measure(value) => write!(f, "{value}"),
             Self::Line(role, points) => write!(f, "{} {points}", role.word()),
             Self::Relation(relation) => write!(f, "{relation}"),
             Self::Value(role, value) => write!(f, "{} {value}", role.word()),

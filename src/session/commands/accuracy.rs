@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::diag::{Diagnostic, Span, format_rounded, format_seconds};
 use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
+use crate::session::host::NO_CLOCK;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::study::{
     Advice, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture,
@@ -59,10 +60,14 @@ impl Execution<'_> {
         if self.state.world.constraints().all(|(_, record)| !record.is_on) {
             return Err(self.nothing_to_solve(span));
         }
+        if self.host.seconds().is_none() {
+            return Err(Diagnostic::error(NO_CLOCK)
+                .at(span, "`accuracy` measures what accuracy costs in time"));
+        }
         let motion = self.repeatable_motion(n_frames);
         let host = &self.host;
         let host = StudyHost {
-            now: &|| host.seconds(),
+            now: &|| host.seconds().unwrap_or_default(),
             stop: &|| host.is_interrupted(),
             progress: &|share| host.progress(share),
             seconds: SECONDS,

@@ -38,6 +38,8 @@ impl Execution<'_> {
         parts: &[Part],
     ) -> Result<(), Diagnostic> {
         let mut record = self.state.world.constraint(id).expect("a named constraint lives").clone();
+        let as_stated = record.constraint.at(self.state.world.points().column()).into_owned();
+        record.constraint = as_stated;
         // What stands behind a line says something of that line.
         let (lines, others): (Vec<_>, Vec<_>) =
             parts.iter().partition(|part| matches!(part, Part::Line(..)));
@@ -45,15 +47,31 @@ impl Execution<'_> {
         for part in lines.into_iter().chain(others) {
             is_made_anew |= self.resolve().change_part(&mut record, name, part)?;
         }
-        let is_captured = !record.constraint.captured().is_empty();
-        if is_made_anew && is_captured && self.state.world.clock().frame > 0 {
-            let start = self.state.world.points().start_column();
-            if let Ok(at_start) = declare_again(&record.constraint, start, |_| {}) {
-                self.edit(self.state.world.begin_with(id, &at_start));
-            }
+        self.state.world.bind(&mut record);
+        // What has no value now is given the one that it had last.
+        if !self.state.is_restoring {
+            refuse_flaw(&record.constraint, parts, name.span)?;
+            self.note_slips(record.constraint.stated(), parts, record.drivers());
         }
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        if is_made_anew {
+            self.begin_at_start(id);
+        }
         Ok(())
+    }
+
+    /// Has `reset` bring back what is made anew while the clock runs as if it had been made of the
+    /// pose that is brought back too.
+    pub(super) fn begin_at_start(&mut self, id: ConstraintId) {
+        let world = &self.state.world;
+        let Some(Record { constraint, .. }) = world.constraint(id) else { return };
+        if world.clock().frame > 0
+            && constraint.state().is_some()
+            && !constraint.captured().is_empty()
+            && let Ok(at_start) = declare_again(constraint, world.points().start_column(), |_| {})
+        {
+            self.edit(world.begin_with(id, &at_start));
+        }
     }
 }
 
@@ -79,7 +97,11 @@ impl Resolver<'_> {
         let mut values = Vec::new();
         let mut is_made_anew = true;
         match part {
-            Part::Points(_) => {}
+            Part::Points(_) | Part::Measure(_) => {}
+            Part::Relation(relation) if record.constraint.get(Field::ValueY).is_some() => {
+                let at = self.held_target(relation, &mut drivers)?;
+                values.extend([(Field::X, at.x), (Field::Y, at.y)]);
+            }
             Part::Relation(relation) => {
                 let Bounds { lo, hi } = self.bounds(relation, &mut drivers)?;
                 values.extend([(Field::Lo, lo), (Field::Hi, hi)]);
@@ -136,7 +158,6 @@ impl Resolver<'_> {
             // A ratio takes the place of numbers of teeth, and these that of a ratio.
             changed = Field::ALL.into_iter().filter(|field| field.is_of_gearing()).collect();
         }
-        refuse_flaw(&record.constraint, std::slice::from_ref(part), name.span)?;
         record.replace_drivers(&changed, drivers);
         Ok(is_made_anew)
     }

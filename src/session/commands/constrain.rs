@@ -5,7 +5,7 @@ use crate::constraint::{
 };
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::lang::ast::{
-    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation, Role,
+    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation,
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
@@ -15,10 +15,6 @@ use crate::solve::CogForm;
 use crate::terms::Shape;
 use crate::world::{Drivers, Edit, Record, Value};
 
-/// The parts of a statement that have a value, in the order in which `restore` brings back those
-/// that are live.
-const VALUES: [Role; 5] = [Role::At, Role::Radius, Role::Phase, Role::Speed, Role::Ratio];
-
 impl Execution<'_> {
     pub(crate) fn constrain(
         &mut self,
@@ -27,14 +23,22 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let stated = &declaration.constraint;
         let (constraint, drivers) = self.resolve().build(stated, span)?;
-        self.note_slips(&constraint, &stated.parts, &drivers);
+        if !self.state.is_restoring {
+            self.note_slips(&constraint, &stated.parts, &drivers);
+        }
         let name = match &declaration.label {
             Some(label) => self.resolve().declare(label)?,
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
         };
-        let record = Record::new(name, constraint, drivers);
+        let mut record = Record::new(name, constraint, drivers);
+        self.state.world.bind(&mut record);
+        refuse_idle(&record.constraint, span)?;
+        if !self.state.is_restoring {
+            refuse_flaw(&record.constraint, &stated.parts, span)?;
+        }
         let id = self.state.world.next_constraint();
         self.edit(Edit::Constraint(id, Some(Box::new(record))));
+        self.begin_at_start(id);
         Ok(())
     }
 }
@@ -47,7 +51,8 @@ impl Resolver<'_> {
     ) -> Result<(Constraint, Drivers), Diagnostic> {
         let pattern = word.pattern();
         let mut drivers = Drivers::new();
-        let said = self.say(pattern, parts, &mut drivers)?;
+        let mut said = self.say(pattern, parts, &mut drivers)?;
+        said.is_restored = self.state.is_restoring;
         let word = pattern.entry.keyword;
         let kind = Kind::stated_by(word).expect("each word states a kind");
         let kind = match (kind, self.state.preferences.solve.cog) {
@@ -58,7 +63,6 @@ impl Resolver<'_> {
         let constraint = said
             .declare(kind, word, self.state.world.points().column())
             .map_err(|refusal| refused(&refusal, parts, span))?;
-        refuse_flaw(&constraint, parts, span)?;
         Ok((constraint, drivers))
     }
 
@@ -69,6 +73,14 @@ impl Resolver<'_> {
         drivers: &mut Drivers,
     ) -> Result<Said, Diagnostic> {
         let mut said = Said::default();
+        let held = parts.iter().find_map(|part| match part {
+            Part::Measure(expr) => Some(expr),
+            _ => None,
+        });
+        let mut shape = Shape::Number;
+        if let Some(held) = held {
+            shape = self.say_held(held, &mut said.values, drivers)?;
+        }
         for part in parts {
             match part {
                 Part::Points(names) => {
@@ -76,23 +88,17 @@ impl Resolver<'_> {
                     said.groups.push(points.collect::<Result<_, _>>()?);
                 }
                 Part::Line(_, pair) => said.groups.push(self.ends(pair)?.to_vec()),
+                Part::Relation(relation) if shape == Shape::Vector => {
+                    let at = self.held_target(relation, drivers)?;
+                    said.values.extend([(Field::X, at.x), (Field::Y, at.y)]);
+                }
                 Part::Relation(relation) => said.bounds = Some(self.bounds(relation, drivers)?),
                 Part::Flag(role) => said.flags.push(flag_of(*role)),
-                Part::Value(..) | Part::Values(..) => {}
-            }
-        }
-        let values = parts.iter().filter_map(|part| match part {
-            Part::Value(role, value) => Some((VALUES.iter().position(|v| v == role), part, value)),
-            _ => None,
-        });
-        let mut values: Vec<_> = values.collect();
-        values.sort_by_key(|(rank, ..)| *rank);
-        for (_, part, value) in values {
-            self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
-        }
-        for part in parts {
-            if let Part::Values(_, teeth) = part {
-                said.values.extend(self.teeth(teeth, drivers)?);
+                Part::Value(_, value) => {
+                    self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
+                }
+                Part::Values(_, teeth) => said.values.extend(self.teeth(teeth, drivers)?),
+                Part::Measure(_) => {}
             }
         }
         Ok(said)
@@ -134,6 +140,39 @@ impl Resolver<'_> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// What is held, live if it can change; gives whether it is a number or a vector.
+    fn say_held(
+        &mut self,
+        held: &Expr,
+        values: &mut Vec<(Field, f64)>,
+        drivers: &mut Drivers,
+    ) -> Result<Shape, Diagnostic> {
+        let (value, formula) = self.measure(held)?;
+        let fields = match value {
+            Value::Number(n) => vec![(Field::Value, n)],
+            Value::Vector(v) => vec![(Field::Value, v.x), (Field::ValueY, v.y)],
+        };
+        if let Some(formula) = formula {
+            drivers.extend(fields.iter().map(|(field, _)| (*field, formula.clone())));
+        }
+        values.extend(fields);
+        Ok(value.shape())
+    }
+
+    /// What a vector that is held has to be.
+    pub(super) fn held_target(
+        &mut self,
+        relation: &Relation,
+        drivers: &mut Drivers,
+    ) -> Result<Point, Diagnostic> {
+        match relation {
+            Relation::Equal(value) => self.target(value, drivers),
+            relation => Err(Diagnostic::error("vectors have no order")
+                .at(upper(relation).span, "only `=` can be held between vectors")
+                .help("hold a coordinate of it: `hold A.x <= 4`")),
+        }
     }
 
     fn idx(&mut self, name: &Name) -> Result<PointIdx, Diagnostic> {
@@ -228,6 +267,16 @@ pub(super) fn refusal_at(refusal: &Refusal, at: Span) -> Diagnostic {
         Some(help) => problem.help(help),
         None => problem,
     }
+}
+
+/// Refuses what is held although no point has a part in it.
+fn refuse_idle(constraint: &Constraint, statement: Span) -> Result<(), Diagnostic> {
+    if constraint.points().is_empty() {
+        return Err(Diagnostic::error("no point has a part in this, so nothing can hold it")
+            .at(statement, "it does not measure the pose")
+            .help("`assert` looks whether something is so"));
+    }
+    Ok(())
 }
 
 /// Why an angle cannot have a range like this.

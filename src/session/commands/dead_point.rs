@@ -7,7 +7,7 @@ use crate::session::execution::Execution;
 use crate::session::preferences::AtDeadPoint;
 use crate::session::undo::recorder::{Recorder, Reel};
 use crate::solve::{Halt, Memory, Method};
-use crate::world::{ConstraintId, Edit, Entity, Motion};
+use crate::world::{ConstraintId, Edit, Entity, Formula, Motion};
 
 /// A way back to the beginning of a frame, while frames may have to be taken back: all that
 /// frames change, as it was before one of them. From there the frames since are done again, to
@@ -91,14 +91,6 @@ impl Execution<'_> {
                 Next::Stop
             }
             AtDeadPoint::Reverse if has_way_back => {
-                if let Some((id, ..)) = met.iter().find(|(id, ..)| !self.can_reverse(*id)) {
-                    let name = self.state.world.name_of(Entity::Constraint(*id));
-                    self.note(format!(
-                        "{told} in frame {frame}; the speed of {name} is an expression and \
-                         cannot be reversed"
-                    ));
-                    return Next::On;
-                }
                 self.note(format!("{told} in frame {frame}; it turns back"));
                 Next::Again(met.into_iter().map(|(id, _)| id).collect())
             }
@@ -129,16 +121,14 @@ impl Execution<'_> {
         }
     }
 
-    /// Whether a motor's speed is a number, not an expression.
-    fn can_reverse(&self, id: ConstraintId) -> bool {
-        self.state.world.constraint(id).is_some_and(|record| record.driver(Field::Speed).is_none())
-    }
-
-    /// Makes a motor turn back.
+    /// Makes a motor turn back. A speed that is an expression is the negative of it from here on.
     pub(crate) fn reverse(&mut self, id: ConstraintId) {
         let Some(mut record) = self.state.world.constraint(id).cloned() else { return };
         if let Some(speed) = record.constraint.get(Field::Speed) {
             record.constraint.set(Field::Speed, -speed);
+            if let Some(formula) = record.driver(Field::Speed).map(Formula::negative) {
+                record.replace_drivers(&[Field::Speed], vec![(Field::Speed, formula)]);
+            }
             self.edit(Edit::Constraint(id, Some(Box::new(record))));
         }
     }

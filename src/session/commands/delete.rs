@@ -86,6 +86,11 @@ impl Execution<'_> {
                 while let Some(k) = self.state.world.traces().iter().position(|t| t.point == id) {
                     self.edit(Edit::Trace(k, None));
                 }
+                let counts = self.state.world.turn_counts();
+                let gone = counts.map(|(t, _)| t).filter(|t| t.points().contains(&id));
+                for turning in gone.collect::<Vec<_>>() {
+                    self.edit(Edit::TurnCount(Box::new((turning, None))));
+                }
                 self.edit(Edit::Point(id, None));
             }
         }
@@ -106,6 +111,7 @@ impl Execution<'_> {
         }
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
+        self.change(Change::Restoring(false));
         let definitions: Vec<_> = self.state.definitions.keys().cloned().collect();
         for name in definitions {
             self.change(Change::Definition(Box::new((name, None))));

@@ -461,6 +461,9 @@ struct Mend {
 /// Which values of a constraint a user can change to make up for a residual; none for what has
 /// no value.
 fn changeable(constraint: &Constraint) -> Option<impl Fn(f64) -> &'static [Field]> {
+    if constraint.measures(Field::Lo) || constraint.measures(Field::Hi) {
+        return None;
+    }
     let bounds = constraint.traits().bounds.filter(|_| pattern_of(constraint).has_relation())?;
     Some(move |change: f64| -> &'static [Field] {
         if bounds.is_equality() {

@@ -151,5 +151,6 @@ fn depends(state: &State, record: &Record) -> Depends {
 }
 
 fn is_timed(state: &State, record: &Record) -> bool {
-    record.constraint.traits().carried == Carried::ByClock || depends(state, record).on_time
+    let depends = depends(state, record);
+    record.constraint.traits().carried == Carried::ByClock || depends.on_time || depends.on_angles
 }

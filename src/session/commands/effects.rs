@@ -3,6 +3,7 @@
 use super::effect_table::{EFFECTS, Rehearsal, Work};
 use crate::diag::format_digits;
 use crate::session::execution::Execution;
+use crate::session::host::{Host, NO_CLOCK};
 use crate::session::state::State;
 use crate::session::undo::recorder::Recorder;
 use crate::solve::{Budget, Settings, Solver};
@@ -16,6 +17,8 @@ pub struct Effects {
     pub islands: (usize, usize),
     /// How many frames were timed, on a copy.
     pub n_frames: u64,
+    /// Why none was, if so.
+    pub why_none: &'static str,
     /// The wall time they took, looking at the clock left out, seconds.
     pub seconds: f64,
 }
@@ -45,7 +48,7 @@ const NAMES_TOLD: usize = 6;
 impl State {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
     /// live expressions have values.
-    pub fn effects_on(&self, now: &dyn Fn() -> f64) -> Effects {
+    pub fn effects_on(&self, host: &dyn Host) -> Effects {
         let rows = EFFECTS.iter().map(|effect| {
             let because = (effect.because)(self);
             EffectRow {
@@ -57,13 +60,14 @@ impl State {
             }
         });
         let rows = rows.collect();
-        let mut effects = Effects { rows, islands: (0, 0), n_frames: 0, seconds: 0.0 };
-        self.time_effects(&mut effects, now);
+        let why_none = "something has no value in the next ones";
+        let mut effects = Effects { rows, islands: (0, 0), n_frames: 0, why_none, seconds: 0.0 };
+        self.time_effects(&mut effects, host);
         effects
     }
 
     /// Lets a copy of the scene run on and times the parts of its frames.
-    fn time_effects(&self, effects: &mut Effects, now: &dyn Fn() -> f64) {
+    fn time_effects(&self, effects: &mut Effects, host: &dyn Host) {
         let mut copy = self.rehearsal();
         let settings = &self.preferences.solve;
         let are_on: Vec<bool> = effects.rows.iter().map(|row| row.is_on).collect();
@@ -73,7 +77,12 @@ impl State {
             let Some(visited) = copy.frame(settings, &are_on, &mut untimed) else { return };
             effects.islands = (copy.solver.n_islands().0, visited);
         }
-        let mut laps = Laps::new(now);
+        if host.seconds().is_none() {
+            effects.why_none = NO_CLOCK;
+            return;
+        }
+        let now = || host.seconds().unwrap_or_default();
+        let mut laps = Laps::new(&now);
         let begun = laps.at;
         while effects.n_frames < TIMED_FRAMES && laps.at - begun < TIMED_SECONDS {
             if copy.frame(settings, &are_on, &mut laps).is_none() {
@@ -162,10 +171,7 @@ impl Rehearsal {
             }
         }
         let budget = Budget::default();
-        let mut report = solver.frame(world, settings, &budget);
-        if world.is_mutual() {
-            solver.agree(world, settings, &budget, &mut report).ok()?;
-        }
+        let report = solver.frame(world, settings, &budget);
         laps.solving += laps.lap();
         for (k, effect) in EFFECTS.iter().enumerate() {
             if are_on[k]
@@ -181,7 +187,7 @@ impl Rehearsal {
 
 impl Execution<'_> {
     pub(crate) fn effects(&mut self) {
-        for line in self.state.effects_on(&|| self.host.seconds()).lines() {
+        for line in self.state.effects_on(self.host).lines() {
             self.host.print(&line);
         }
     }
@@ -192,6 +198,7 @@ impl Effects {
     pub fn lines(&self) -> Vec<String> {
         let per_frame = |seconds: f64| seconds / self.n_frames.max(1) as f64 * 1e6;
         let digits = |value: f64| format_digits(value, 3);
+        let is_timed = self.n_frames > 0;
         let head = ("effect", "", "memory", "us a frame", "share");
         let mut lines = vec![format!(
             "{:<20}{:<5}{:>10}{:>12}{:>8}  because of",
@@ -207,13 +214,18 @@ impl Effects {
                 }
             };
             let line = if row.is_on {
+                let (time, share) = match share {
+                    _ if !is_timed => ("-".to_owned(), "-".to_owned()),
+                    share if share > 0.0 && share < 0.01 => {
+                        (digits(per_frame(row.seconds)), "<0.01%".to_owned())
+                    }
+                    share => (digits(per_frame(row.seconds)), format!("{}%", digits(share))),
+                };
                 format!(
-                    "{:<20}{:<5}{:>10}{:>12}{:>7}%  {because}",
+                    "{:<20}{:<5}{:>10}{time:>12}{share:>8}  {because}",
                     row.name,
                     "on",
                     bytes(row.n_bytes),
-                    digits(per_frame(row.seconds)),
-                    if share > 0.0 && share < 0.01 { "<0.01".to_owned() } else { digits(share) },
                 )
             } else {
                 format!("{:<20}off", row.name)
@@ -223,7 +235,7 @@ impl Effects {
         let (total, awake) = self.islands;
         lines.push(format!("islands: {total}, {awake} awake, {} asleep", total - awake.min(total)));
         lines.push(match self.n_frames {
-            0 => "no frame is timed: something has no value in the next ones".to_owned(),
+            0 => format!("no frame is timed: {}", self.why_none),
             n => format!(
                 "a frame takes {} us, over {n} frames of a copy",
                 digits(per_frame(self.seconds))
@@ -256,7 +268,7 @@ mod tests {
             seconds,
         };
         let rows = [1e-9, 1.23e-5, 0.1234, 1.0].map(row).to_vec();
-        let effects = Effects { rows, islands: (1, 1), n_frames: 240, seconds: 1.0 };
+        let effects = Effects { rows, islands: (1, 1), n_frames: 240, why_none: "", seconds: 1.0 };
         for line in &effects.lines()[1..5] {
             assert_eq!(line.split_whitespace().count(), 7, "{line}");
         }

@@ -9,6 +9,7 @@ pub mod delete;
 pub mod diagnose;
 mod effect_table;
 pub mod effects;
+pub mod hands;
 pub mod motor_range;
 pub mod plot;
 pub mod points;

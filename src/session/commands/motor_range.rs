@@ -114,7 +114,7 @@ impl State {
     /// A constraint whose value is an expression over points that move, if there is one.
     fn measured(&self) -> Option<&str> {
         let measured = self.world.constraints().find(|(_, record)| {
-            let mut formulas = record.drivers().iter().map(|(_, formula)| formula);
+            let mut formulas = record.live().iter().map(|(_, formula)| formula);
             record.is_on && formulas.any(|formula| self.world.follows_motion(formula))
         });
         measured.map(|(_, record)| &*record.name)

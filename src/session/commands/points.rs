@@ -75,7 +75,13 @@ impl Execution<'_> {
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();
-        let result = self.state.world.set_parameter(id, name, formula, &mut undo);
+        let is_new = self.state.world.parameter(id).is_none();
+        let result = if self.state.is_restoring && is_new {
+            undo.push(self.state.world.restore_parameter(id, name, formula));
+            Ok(())
+        } else {
+            self.state.world.set_parameter(id, name, formula, &mut undo)
+        };
         for inverse in undo {
             self.history.keep(&self.state.world, inverse);
         }

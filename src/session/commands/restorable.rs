@@ -15,6 +15,9 @@ pub enum Restorable {
     FirstState,
     /// What a constraint took from the pose at its creation.
     Captured,
+    /// How far something has turned: its number of points, these by number, then whole turns and
+    /// angle, and those that `reset` brings back.
+    Turn,
     /// The values of a driven constraint.
     Values,
     /// The places of a trace.
@@ -25,21 +28,25 @@ pub enum Restorable {
     Ghost,
     /// What the solver remembers.
     Memory,
+    /// Whether what follows was there before: 1 or 0.
+    Past,
 }
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 12] = [
         Self::Clock,
         Self::Start,
         Self::State,
         Self::FirstState,
         Self::Captured,
+        Self::Turn,
         Self::Values,
         Self::Trace,
         Self::Missed,
         Self::Ghost,
         Self::Memory,
+        Self::Past,
     ];
 
     /// Its word in the statement.
@@ -50,11 +57,13 @@ impl Restorable {
             Self::State => "state",
             Self::FirstState => "firststate",
             Self::Captured => "captured",
+            Self::Turn => "turn",
             Self::Values => "values",
             Self::Trace => "trace",
             Self::Missed => "missed",
             Self::Ghost => "ghost",
             Self::Memory => "memory",
+            Self::Past => "past",
         }
     }
 

@@ -1,11 +1,12 @@
 //! `restore`: state that no other statement can bring back; `save` writes it.
 
 use super::restorable::{Restorable, ordinals};
-use crate::constraint::{ConstraintKind as _, Point};
+use crate::constraint::{ConstraintKind as _, Point, Winding};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
-use crate::world::{Clock, Edit, Ghost, Record, Sample, Value};
+use crate::session::undo::journal::Change;
+use crate::world::{Clock, Edit, Ghost, Record, Sample, TurnCount, Turning, Value};
 
 /// Why something cannot be restored.
 enum Unfit {
@@ -65,9 +66,14 @@ impl Execution<'_> {
             (Restorable::Trace, Some(name)) => self.restore_trace(name, values),
             (Restorable::Missed, Some(name)) => self.restore_missed(name, values),
             (Restorable::Ghost, None) => self.restore_ghost(values),
+            (Restorable::Turn, None) => self.restore_turn(values),
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
+            (Restorable::Past, None) => self.restore_past(values),
             // These have an owner or none, and this is the other way.
-            (Restorable::Clock | Restorable::Ghost, Some(_))
+            (
+                Restorable::Clock | Restorable::Ghost | Restorable::Turn | Restorable::Past,
+                Some(_),
+            )
             | (
                 Restorable::Start
                 | Restorable::State
@@ -104,8 +110,8 @@ impl Execution<'_> {
     fn restore_values(&mut self, name: &Name, values: &[Value]) -> Restored {
         let values = numbers(values)?;
         self.restore_record(name, |record| {
-            for (k, value) in values.iter().take(record.drivers().len()).enumerate() {
-                record.constraint.set(record.drivers()[k].0, *value);
+            for (k, value) in values.iter().take(record.live().len()).enumerate() {
+                record.constraint.set(record.live()[k].0, *value);
             }
         })
     }
@@ -122,6 +128,28 @@ impl Execution<'_> {
         Ok(())
     }
 
+    fn restore_turn(&mut self, values: &[Value]) -> Restored {
+        let values = numbers(values)?;
+        let numbered = ordinals(&self.state.world);
+        let (n, values) = values.split_first().ok_or(Unfit::Values)?;
+        let (points, windings) = values.split_at_checked(*n as usize).ok_or(Unfit::Values)?;
+        let points = points.iter().map(|&k| numbered.get(k as usize).copied().ok_or(Unfit::Values));
+        let turning = Turning::of(&points.collect::<Result<Vec<_>, _>>()?).ok_or(Unfit::Values)?;
+        let (winding, start) = match *windings {
+            [turns, angle] => ([turns, angle], None),
+            [turns, angle, first_turns, first_angle] => {
+                ([turns, angle], Some([first_turns, first_angle]))
+            }
+            _ => return Err(Unfit::Values),
+        };
+        let count = TurnCount {
+            winding: Winding::from_numbers(winding),
+            start: start.map(Winding::from_numbers),
+        };
+        self.edit(Edit::TurnCount(Box::new((turning, Some(count)))));
+        Ok(())
+    }
+
     fn restore_memory(&mut self, owner: Option<&Name>, values: &[Value]) -> Restored {
         let id = owner.map(|name| self.resolve().point(name)).transpose()?;
         let values = numbers(values)?;
@@ -130,6 +158,16 @@ impl Execution<'_> {
             return Err(Unfit::Values);
         }
         self.set_memory(memory);
+        Ok(())
+    }
+
+    fn restore_past(&mut self, values: &[Value]) -> Restored {
+        let is_restoring = match numbers(values)?[..] {
+            [1.0] => true,
+            [0.0] => false,
+            _ => return Err(Unfit::Values),
+        };
+        self.change(Change::Restoring(is_restoring));
         Ok(())
     }
 

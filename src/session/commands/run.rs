@@ -4,14 +4,15 @@ use super::dead_point::{Next, WayBack};
 use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
 };
-use crate::lang::ast::{DragTarget, Expr, Promise};
+use crate::lang::ast::{Expr, Promise};
 use crate::session::execution::{Execution, Flow};
+use crate::session::host::{Host, NO_CLOCK};
 use crate::session::quotas::MOST_FRAMES;
 use crate::session::state::State;
 use crate::session::summary::Summary;
 use crate::solve::{Budget, Report, Settings, Status, Verdict, least_tolerance, verdict};
 use crate::study::{Hand, move_by};
-use crate::world::{Edit, PointId, World};
+use crate::world::{PointId, World};
 
 /// A promise, evaluated.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,11 +25,32 @@ pub(crate) struct Limits {
     pub known_error: f64,
 }
 
+impl Limits {
+    /// When the time of what begins now is up, by the clock of a host.
+    fn deadline(&self, host: &dyn Host) -> Option<f64> {
+        Some(host.seconds()? + self.seconds?)
+    }
+}
+
+/// Whether a moment has passed.
+fn has_passed(deadline: f64, host: &dyn Host) -> bool {
+    host.seconds().is_some_and(|now| now >= deadline)
+}
+
+/// The hands that are at work while frames pass.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Hands<'a> {
+    /// Those that hold their points.
+    pub firm: &'a [Hand],
+    /// Those that take their points as far as the constraints allow.
+    pub soft: &'a [Hand],
+}
+
 /// So many frames, and the hands that are at work in them.
 #[derive(Clone, Copy)]
 struct Frames<'a> {
     n: u64,
-    hands: &'a [Hand],
+    hands: Hands<'a>,
 }
 
 /// What a user who wants to stop does to a frame on its way.
@@ -57,6 +79,11 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
+        if let Some(time) = &promise.in_time
+            && self.host.seconds().is_none()
+        {
+            return Err(Diagnostic::error(NO_CLOCK).at(time.span, "no time can be promised"));
+        }
         Ok(Limits { tolerance, seconds, known_error: 0.0 })
     }
 
@@ -72,7 +99,7 @@ impl Execution<'_> {
         };
         let limits = self.promised_here(promise)?;
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
-        let (flow, n_done) = self.frames(n, limits, span, &[])?;
+        let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
@@ -93,64 +120,18 @@ impl Execution<'_> {
         }
         let (n, limits) = (n as u64, self.promised_here(promise)?);
         self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
-        let (flow, n_done) = self.frames(n, limits, span, &[])?;
+        let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
     }
 
-    pub(crate) fn drag(
-        &mut self,
-        targets: &[DragTarget],
-        over: Option<&Expr>,
-        span: Span,
-    ) -> Result<Flow, Diagnostic> {
-        let n = match over {
-            None => 1,
-            Some(n) => self.resolve().count(n, 1.0, MOST_FRAMES, "frames")?,
-        };
-        let mut hands: Vec<Hand> = Vec::new();
-        for target in targets {
-            let id = self.resolve().point(&target.point)?;
-            if hands.iter().any(|hand| hand.point == id) {
-                return Err(Diagnostic::error("one point cannot be dragged to two places")
-                    .at(target.point.span, "dragged twice"));
-            }
-            let (from, to) = (self.state.world.points().at(id), self.resolve().place(&target.to)?);
-            hands.push(Hand { point: id, from, way: to - from });
-        }
-        // A free point is held by the hand that drags it, and let go after.
-        let free: Vec<PointId> = hands
-            .iter()
-            .map(|h| h.point)
-            .filter(|&id| !self.state.world.points().is_frozen(id))
-            .collect();
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
-        self.begin_motion();
-        for &id in &free {
-            self.edit(Edit::Freeze(id, true));
-        }
-        let is_at_start = self.state.world.clock().frame == 0;
-        let (flow, n_done) = self.frames(n, Limits::default(), span, &hands)?;
-        for &id in &free {
-            self.edit(Edit::Freeze(id, false));
-        }
-        // The hand moved before the clock left 0: `reset` puts the point back under it.
-        if is_at_start && self.state.world.clock().frame > 0 {
-            for hand in &hands {
-                self.edit(Edit::Start(hand.point, hand.from));
-            }
-        }
-        self.history.last_motion.end_leg(self.state, n, n_done, hands);
-        Ok(flow)
-    }
-
     /// Lets `n` frames pass, in which hands go their ways; gives how many did.
-    fn frames(
+    pub(super) fn frames(
         &mut self,
         n: u64,
         limits: Limits,
         span: Span,
-        hands: &[Hand],
+        hands: Hands,
     ) -> Result<(Flow, u64), Diagnostic> {
         let clock = self.state.world.clock();
         if !(clock.time() + n as f64 * clock.dt).is_finite() {
@@ -203,7 +184,7 @@ impl Execution<'_> {
                 self.keep_frame(is_missed(&report));
             }
         }
-        summary.seconds += self.host.seconds() - begun;
+        summary.add_time(begun, self.host.seconds());
         if let Some(tolerance) = limits.tolerance
             && last == Status::Converged
             && summary.n_frames > n_before
@@ -217,7 +198,7 @@ impl Execution<'_> {
         }
         let is_asked = self.host.is_listening() || limits.tolerance.is_some();
         if last != Status::Converged && summary.culprits.is_none() && is_asked {
-            let held: Vec<PointId> = hands.iter().map(|hand| hand.point).collect();
+            let held: Vec<PointId> = hands.firm.iter().map(|hand| hand.point).collect();
             summary.culprits = Some(self.state.culprits(last, &held));
         }
         let broken = summary.broken(n_missed_before).filter(|_| limits.tolerance.is_some());
@@ -282,18 +263,29 @@ impl Execution<'_> {
         let Self { state, host, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
-        let deadline = limits.seconds.map(|seconds| host.seconds() + seconds);
+        let deadline = limits.deadline(&**host);
         let is_over = || {
             may_be_long && host.is_interrupted()
-                || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+                || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
         };
         let has_end = may_be_long || deadline.is_some();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
         let Limits { tolerance, known_error, .. } = *limits;
         let budget = Budget { tolerance, stop, known_error };
         let share = k as f64 / frames.n as f64;
-        let hand = |world: &mut World| move_by(frames.hands, share, world);
+        let hand = |world: &mut World| move_by(frames.hands.firm, share, world);
         let report = solver.step(world, &preferences.solve, &budget, hand);
+        let report = report.and_then(|mut report| {
+            if !frames.hands.soft.is_empty() && report.status == Status::Converged {
+                let soft = frames.hands.soft.iter();
+                let pulled: Vec<_> = soft.map(|hand| (hand.point, hand.at(share))).collect();
+                let after = solver.pull(world, &preferences.solve, &budget, &pulled)?;
+                report.status = report.status.max(after.status);
+                report.residual = report.residual.max(after.residual);
+                report.counters.add(&after.counters);
+            }
+            Ok(report)
+        });
         report.map_err(|why| self.in_frame(why))
     }
 
@@ -334,9 +326,6 @@ impl Execution<'_> {
                 flow = Flow::Stopped;
                 break;
             }
-            if self.state.world.is_measured() {
-                self.state.world.refresh_measured()?;
-            }
             let chunk = left.min(RELAX_CHUNK);
             let report = self.state.solver.relax(
                 &mut self.state.world,
@@ -360,29 +349,45 @@ impl Execution<'_> {
         Ok(flow)
     }
 
-    pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
-        let limits = self.promised_here(promise)?;
-        self.begin_motion();
-        let is_measured = self.state.world.is_measured();
-        if is_measured {
-            self.state.world.refresh_measured()?;
-        }
-        let mut report = {
+    /// Solves while the clock stands still, as long as that gets on.
+    pub(super) fn settle(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
+        let report = {
             let Self { state, host, .. } = &mut *self;
             let State { solver, world, preferences, .. } = &mut **state;
-            let deadline = limits.seconds.map(|s| host.seconds() + s);
+            let deadline = limits.deadline(&**host);
             let is_over = || {
-                host.is_interrupted() || deadline.is_some_and(|deadline| host.seconds() >= deadline)
+                host.is_interrupted()
+                    || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
             };
             let budget =
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
-        if is_measured {
-            let State { solver, world, preferences, .. } = &mut *self.state;
-            let budget = Budget { tolerance: limits.tolerance, stop: None, ..Budget::default() };
-            solver.agree(world, &preferences.solve, &budget, &mut report)?;
+        if report.status != Status::Converged
+            && let Some(why) = self.state.world.failed_measure()
+        {
+            return Err(why);
         }
+        Ok(report)
+    }
+
+    /// Says how the present pose stands, unless everything holds, and who is to blame.
+    pub(super) fn tell_unless_solved(&mut self, status: Status, hands: &[Hand]) {
+        let verdict = self.verdict_within(self.state.preferences.solve.tolerance);
+        if verdict.is_met() || !self.host.is_listening() {
+            return;
+        }
+        let held: Vec<PointId> = hands.iter().map(|hand| hand.point).collect();
+        let found = self.state.culprits(verdict.ending(status), &held);
+        let residual = format_rounded(verdict.residual);
+        self.note(format!("{}: residual {residual}", found.status.phrase()));
+        found.notes.iter().chain(&found.helps).for_each(|text| self.note(text.as_str()));
+    }
+
+    pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
+        let limits = self.promised_here(promise)?;
+        self.begin_motion();
+        let report = self.settle(&limits)?;
         let tolerance = limits.tolerance.unwrap_or(self.state.preferences.solve.tolerance);
         let verdict = self.verdict_within(tolerance);
         let mut status = verdict.ending(report.status);

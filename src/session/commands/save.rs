@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::restorable::{Restorable, ordinals};
 use super::setting_table::SETTINGS;
-use crate::constraint::{Constraint, ConstraintKind as _};
+use crate::constraint::{Constraint, ConstraintKind as _, Field};
 use crate::diag::Diagnostic;
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
@@ -13,6 +13,7 @@ use crate::session::execution::Execution;
 use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
 use crate::session::state::State;
 use crate::solve::CogForm;
+use crate::world::{Depends, Drivers, ParameterId, Record};
 
 /// How a file that `save` wrote begins.
 const FIRST_WORDS: &str = "# A linkwork session.";
@@ -45,12 +46,20 @@ impl State {
             line(&mut script, Building::Define(definition.clone()));
         }
         self.save_points(&mut script);
-        for id in self.parameters_in_order() {
-            let text = Unbind::of(&self.world).parameter_text(id);
-            script.push_str(&text);
-            script.push('\n');
-        }
+        self.save_turn_counts(&mut script);
+        restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
+        // What mentions members of constraints comes after these.
+        let (late, early): (Vec<_>, Vec<_>) =
+            self.parameters_in_order().into_iter().partition(|id| {
+                let parameter = self.world.parameter(*id).expect("a listed parameter lives");
+                has_members(parameter.depends)
+            });
+        self.save_parameters(&early, &mut script);
         self.save_constraints(&mut script);
+        self.save_parameters(&late, &mut script);
+        self.save_late_values(&mut script);
+        self.save_start_states(&mut script);
+        restore(&mut script, Restorable::Past, None, numbers(&[0.0]));
         self.save_looks(&mut script);
         for (owner, values) in
             self.solver.memory().for_settings(&self.preferences.solve).to_numbers()
@@ -108,6 +117,19 @@ impl State {
         }
     }
 
+    fn save_turn_counts(&self, script: &mut String) {
+        let numbered = ordinals(&self.world);
+        for (turning, count) in self.world.turn_counts() {
+            let points = turning.points();
+            let ordinal = |id| numbered.binary_search(id).unwrap_or_default() as f64;
+            let mut values = vec![points.len() as f64];
+            values.extend(points.iter().map(ordinal));
+            values.extend(count.winding.to_numbers());
+            values.extend(count.start.iter().flat_map(|start| start.to_numbers()));
+            restore(script, Restorable::Turn, None, numbers(&values));
+        }
+    }
+
     fn save_constraints(&self, script: &mut String) {
         let now = self.preferences.solve.cog;
         let mut form = now;
@@ -120,33 +142,70 @@ impl State {
             if std::mem::replace(&mut form, wanted) != wanted {
                 set_cog(script, wanted);
             }
-            line(script, Unbind::of(&self.world).constraint_statement(record));
-            let name = Some(&*record.name);
+            let late = self.late_fields(record);
+            line(script, Unbind::of(&self.world).constraint_statement(&without(record, &late)));
             if let Some(rho) = record.rho() {
                 let targets = vec![named(&record.name)];
                 let value = literal(rho);
                 line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
-            // The values come first: a new ratio makes wheels mesh anew.
-            if !record.drivers().is_empty() {
-                let value = |field| record.constraint.get(field).unwrap_or_default();
-                let values: Vec<f64> = record.drivers().iter().map(|d| value(d.0)).collect();
-                restore(script, Restorable::Values, name, numbers(&values));
-            }
-            let captured = record.constraint.captured();
-            if !captured.is_empty() {
-                restore(script, Restorable::Captured, name, numbers(&captured));
-            }
-            if let Some(state) = record.constraint.state() {
-                restore(script, Restorable::State, name, numbers(&state));
-            }
-            if !record.is_on {
-                line(script, Changing::Off(vec![named(&record.name)]));
+            if late.is_empty() {
+                save_state(record, script);
             }
         }
         if form != now {
             set_cog(script, now);
         }
+    }
+
+    fn save_parameters(&self, ids: &[ParameterId], script: &mut String) {
+        for id in ids {
+            script.push_str(&Unbind::of(&self.world).parameter_text(*id));
+            script.push('\n');
+        }
+    }
+
+    /// The values of a constraint that mention members of constraints, which may come after it,
+    /// and those that stand in the same part of its statement.
+    fn late_fields(&self, record: &Record) -> Vec<Field> {
+        let parts: [&[Field]; 6] = [
+            &[Field::Lo, Field::Hi],
+            &[Field::X, Field::Y],
+            &[Field::Radius],
+            &[Field::Speed],
+            &[Field::Phase],
+            &[Field::Ratio],
+        ];
+        let is_late = |field: &Field| {
+            let driver = record.driver(*field);
+            driver.is_some_and(|formula| has_members(self.world.depends(formula)))
+        };
+        let late = parts.into_iter().filter(|part| part.iter().any(is_late)).flatten();
+        late.copied().filter(|field| record.driver(*field).is_some()).collect()
+    }
+
+    /// Makes live what had to wait for the members it mentions.
+    fn save_late_values(&self, script: &mut String) {
+        for (_, record) in self.world.constraints() {
+            let late = self.late_fields(record);
+            if late.is_empty() {
+                continue;
+            }
+            let unbind = Unbind::of(&self.world);
+            let parts = |record: &Record| match unbind.constraint_statement(record) {
+                Command::Constrain(declaration) => declaration.constraint.parts,
+                _ => unreachable!("a constraint is stated by its statement"),
+            };
+            let before = parts(&without(record, &late));
+            let changed = parts(record).into_iter().filter(|part| !before.contains(part));
+            for part in changed {
+                line(script, Changing::Change { name: named(&record.name), parts: vec![part] });
+            }
+            save_state(record, script);
+        }
+    }
+
+    fn save_start_states(&self, script: &mut String) {
         for (id, state) in self.world.start_states() {
             if let Some(record) = self.world.constraint(*id) {
                 restore(script, Restorable::FirstState, Some(&record.name), numbers(state));
@@ -187,6 +246,39 @@ impl State {
         if let Some(every) = self.preferences.expose_every {
             line(script, Drawing::Expose(Expose::Every(literal(every as f64))));
         }
+    }
+}
+
+/// Whether something mentions members of constraints.
+const fn has_members(depends: Depends) -> bool {
+    depends.on_angles || depends.on_constraints
+}
+
+/// A constraint with the numbers of now in the place of the expressions behind these values.
+fn without(record: &Record, fields: &[Field]) -> Record {
+    let mut plain = record.clone();
+    plain.replace_drivers(fields, Drivers::new());
+    plain
+}
+
+/// The state of a constraint, once its values are live.
+fn save_state(record: &Record, script: &mut String) {
+    let name = Some(&*record.name);
+    // The values come first: a new ratio makes wheels mesh anew.
+    if !record.live().is_empty() {
+        let value = |field| record.constraint.get(field).unwrap_or_default();
+        let values: Vec<f64> = record.live().iter().map(|d| value(d.0)).collect();
+        restore(script, Restorable::Values, name, numbers(&values));
+    }
+    let captured = record.constraint.captured();
+    if !captured.is_empty() {
+        restore(script, Restorable::Captured, name, numbers(&captured));
+    }
+    if let Some(state) = record.constraint.state() {
+        restore(script, Restorable::State, name, numbers(&state));
+    }
+    if !record.is_on {
+        line(script, Changing::Off(vec![named(&record.name)]));
     }
 }
 

@@ -32,6 +32,14 @@ impl Execution<'_> {
             match item {
                 PrintItem::Text(text) => line.push_str(&text.value),
                 PrintItem::Value(expr) => line.push_str(&format_value(self.resolve().value(expr)?)),
+                PrintItem::InUnit(expr, unit) => match self.resolve().value(expr)? {
+                    Value::Number(n) => line.push_str(&format_number(n / unit.scale())),
+                    Value::Vector(_) => {
+                        return Err(Diagnostic::error("only a number is written in a unit")
+                            .at(expr.span, "this is a vector")
+                            .help("print its parts, `v.x` and `v.y`"));
+                    }
+                },
             }
         }
         self.host.print(&line);

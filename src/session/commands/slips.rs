@@ -1,10 +1,10 @@
-//! Values of a constraint that are likely slips: said once, with what to type.
+//! Values of a constraint that are likely slips: said once of each place in a text, with what to type.
 
 use crate::constraint::{Constraint, ConstraintKind as _, Field, Period};
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::lang::ast::{Expr, Node, Part, Range, Relation, Role, Unit};
 use crate::session::execution::Execution;
-use crate::world::Drivers;
+use crate::world::Formula;
 
 /// No angle that is meant in radians is larger than that, a little more than one turn.
 const LARGEST_ANGLE: f64 = 7.0;
@@ -12,12 +12,13 @@ const LARGEST_ANGLE: f64 = 7.0;
 const NO_SIDE: f64 = 1e-9;
 
 impl Execution<'_> {
-    /// Says what in a constraint that is about to be made is likely a slip.
+    /// Says what these parts, of a constraint that is about to be made or changed so, likely slipped
+    /// in.
     pub(super) fn note_slips(
         &mut self,
         constraint: &Constraint,
         parts: &[Part],
-        drivers: &Drivers,
+        drivers: &[(Field, Formula)],
     ) {
         for part in parts {
             match (constraint, part) {
@@ -59,7 +60,7 @@ impl Execution<'_> {
             let note = Diagnostic::note_only(format!(
                 "a plain number is an angle in radians: did you mean `{text}deg`?"
             ));
-            self.warn(&note.at(value.span, "more than a whole turn"));
+            self.note_slip(note, value.span, "more than a whole turn");
         }
     }
 
@@ -72,7 +73,15 @@ impl Execution<'_> {
             side(now),
             format_number(-asked)
         ));
-        self.warn(&note.at(span, format!("this is on the {}", side(asked))));
+        self.note_slip(note, span, &format!("this is on the {}", side(asked)));
+    }
+
+    /// Says what is likely a slip, but not in each round of a loop.
+    fn note_slip(&mut self, note: Diagnostic, at: Span, label: &str) {
+        if !self.slips.contains(&at) {
+            self.slips.push(at);
+            self.warn(&note.at(at, label));
+        }
     }
 }
 

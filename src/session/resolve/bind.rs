@@ -4,8 +4,8 @@ use super::scope::{Bound, Meaning, Resolver};
 use crate::constraint::{Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Operator, Shape};
-use crate::world::{Depends, Entity, Formula, Node, Rates, Value, call, operate};
+use crate::terms::{Function, Member, Operator, Shape};
+use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, call, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -136,18 +136,25 @@ impl Resolver<'_> {
         expr: &Expr,
         shape: Shape,
     ) -> Result<(Value, Option<Formula>), Diagnostic> {
-        let term = self.bind(expr, Mode::Live)?;
-        if term.shape() != shape {
+        let (value, formula) = self.measure(expr)?;
+        if value.shape() != shape {
             return Err(wanted(expr, shape));
         }
-        match term {
+        Ok((value, formula))
+    }
+
+    /// A value that a constraint may have or hold, with the expression behind it if it can change.
+    pub(crate) fn measure(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
+        match self.bind(expr, Mode::Live)? {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
-                if self.state.world.depends(&formula).on_rates {
-                    return Err(Diagnostic::error("a velocity cannot drive a constraint")
-                        .at(expr.span, "velocities follow from the constraints"));
-                }
-                Ok((self.state.world.evaluate(&formula, None)?, Some(formula)))
+                self.refuse_what_follows(&formula, expr.span)?;
+                let value = match self.state.world.evaluate(&formula, None) {
+                    // The one that it had last is put back after.
+                    Err(_) if self.state.is_restoring => Value::zero(formula.shape()),
+                    value => value?,
+                };
+                Ok((value, Some(formula)))
             }
         }
     }
@@ -222,6 +229,7 @@ impl Resolver<'_> {
                     Mode::Now => self.evaluate(&formula).map(Term::Constant),
                 };
             }
+            Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
             Meaning::Bound(Bound::Point(id)) => Entity::Point(id),
             Meaning::Entity(entity) => entity,
         };
@@ -259,6 +267,27 @@ impl Resolver<'_> {
         }
     }
 
+    fn bind_member(
+        &mut self,
+        id: ConstraintId,
+        member: Member,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let follows = member.follows();
+        let depends = Depends {
+            on_angles: !follows,
+            on_constraints: follows,
+            on_points: follows,
+            ..Depends::default()
+        };
+        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+
     /// The value of a formula now, velocities included if it needs them.
     pub(crate) fn evaluate(&mut self, formula: &Formula) -> Result<Value, Diagnostic> {
         if self.state.world.depends(formula).on_rates {
@@ -280,15 +309,15 @@ impl Resolver<'_> {
         expr: &Expr,
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
-        let is_rate = matches!(function, Function::Velocity | Function::Acceleration);
+        let is_of_points = function.is_rate() || function.counts_turns();
         let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
         let mut many = Vec::new();
         let is_few = arguments.len() <= few.len();
         let letters =
             function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
         for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
-            // Only a formula keeps the name that a rate needs.
-            let term = self.bind(argument, if is_rate { Mode::Live } else { mode })?;
+            // Only a formula keeps the names of points.
+            let term = self.bind(argument, if is_of_points { Mode::Live } else { mode })?;
             let shape = if letter == b'n' { Shape::Number } else { Shape::Vector };
             if term.shape() != shape {
                 return Err(wanted(argument, shape));
@@ -300,8 +329,8 @@ impl Resolver<'_> {
             }
         }
         let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
-        if is_rate {
-            return self.bind_rate(function, &terms[0], arguments, expr, mode);
+        if is_of_points {
+            return self.bind_of_points(function, terms, arguments, expr, mode);
         }
         if terms.iter().all(|term| matches!(term, Term::Constant(_))) {
             let constant = |term: &Term| match term {
@@ -323,32 +352,45 @@ impl Resolver<'_> {
         Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
     }
 
-    fn bind_rate(
+    fn bind_of_points(
         &mut self,
         function: Function,
-        argument: &Term,
+        terms: &[Term],
         arguments: &[Expr],
         expr: &Expr,
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
-        let formula = match argument {
-            Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => formula.clone(),
-            _ => {
-                return Err(Diagnostic::error(format!(
-                    "`{}` takes the name of a point",
-                    function.name()
-                ))
-                .at(arguments[0].span, "this is not a point"));
-            }
-        };
-        let depends = Depends { on_rates: true, ..Depends::default() };
-        let node = Node::Call(function, Box::new([formula]));
-        let formula = Formula::new(node, Shape::Vector, depends, expr.span);
+        let points = points_of(function, terms, arguments)?;
+        if function.counts_turns() {
+            self.note_turning(&points);
+        }
+        let is_rate = function.is_rate();
+        let depends = Depends { on_rates: is_rate, on_points: !is_rate, ..Depends::default() };
+        let node = Node::Call(function, points);
+        let formula = Formula::new(node, function.result(), depends, expr.span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),
         }
     }
+}
+
+/// The arguments of a function that takes the names of points.
+fn points_of(
+    function: Function,
+    terms: &[Term],
+    arguments: &[Expr],
+) -> Result<Box<[Formula]>, Diagnostic> {
+    let points = terms.iter().zip(arguments).map(|(term, argument)| match term {
+        Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => Ok(formula.clone()),
+        _ => {
+            let wants =
+                if terms.len() == 1 { "the name of a point" } else { "the names of points" };
+            Err(Diagnostic::error(format!("`{}` takes {wants}", function.name()))
+                .at(argument.span, "this is not a point"))
+        }
+    });
+    points.collect()
 }
 
 fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {

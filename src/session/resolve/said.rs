@@ -19,6 +19,8 @@ pub(crate) struct Said {
     pub values: Vec<(Field, f64)>,
     /// The words that stand alone.
     pub flags: Vec<Flag>,
+    /// Whether it was there before.
+    pub is_restored: bool,
 }
 
 impl Said {
@@ -39,7 +41,13 @@ impl Said {
         });
         let values = Field::ALL.into_iter();
         let values = values.filter_map(|field| Some((field, constraint.get(field)?)));
-        Self { groups: groups.collect(), bounds, values: values.collect(), flags: flags.to_vec() }
+        Self {
+            groups: groups.collect(),
+            bounds,
+            values: values.collect(),
+            flags: flags.to_vec(),
+            is_restored: false,
+        }
     }
 
     /// Makes a constraint that is stated by this word, with all points at these places.
@@ -47,8 +55,9 @@ impl Said {
     /// # Errors
     /// Points or a pose that allow none.
     pub fn declare(&self, kind: Kind, word: &str, x: &[Point]) -> Result<Constraint, Refusal> {
-        let Self { groups, bounds, values, flags } = self;
-        kind.declare(&Given { word, groups, bounds: *bounds, values, flags, x })
+        let Self { groups, bounds, values, flags, is_restored } = self;
+        let (bounds, is_restored) = (*bounds, *is_restored);
+        kind.declare(&Given { word, groups, bounds, values, flags, x, is_restored })
     }
 }
 

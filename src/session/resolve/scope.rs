@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::state::State;
-use crate::world::{ConstraintId, Entity, Formula, NameText, PointId};
+use crate::terms::Member;
+use crate::world::{ConstraintId, Entity, Formula, NameText, PointId, Turning};
 
 /// Names that have a meaning of their own in every expression.
 pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -20,11 +21,13 @@ pub struct Scopes {
     stack: Vec<Scope>,
     /// Room for the text of a name.
     spelling: String,
+    /// What the statement under way wants counted.
+    turnings: Vec<Turning>,
 }
 
 impl Default for Scopes {
     fn default() -> Self {
-        Self { stack: vec![Scope::default()], spelling: String::new() }
+        Self { stack: vec![Scope::default()], spelling: String::new(), turnings: Vec::new() }
     }
 }
 
@@ -54,6 +57,11 @@ impl Scopes {
     /// Forgets a loop variable of the innermost scope.
     pub fn unbind(&mut self, place: usize) {
         self.innermost_mut().bindings.truncate(place);
+    }
+
+    /// What was to be counted since this was last asked for.
+    pub fn take_turnings(&mut self) -> Vec<Turning> {
+        std::mem::take(&mut self.turnings)
     }
 
     fn innermost(&self) -> &Scope {
@@ -101,12 +109,20 @@ pub enum Meaning {
     Bound(Bound),
     /// Something with a name.
     Entity(Entity),
+    /// A member of a constraint.
+    Member(ConstraintId, Member),
 }
 
 impl<'a> Resolver<'a> {
     /// Names as they are in `scopes`; `sources` holds the text they stand in.
     pub fn new(state: &'a mut State, scopes: &'a mut Scopes, sources: &'a Sources) -> Self {
         Self { state, scopes, sources }
+    }
+
+    /// Wants counted how far something turns, from this statement on.
+    pub(super) fn note_turning(&mut self, points: &[Formula]) {
+        let points: Vec<PointId> = points.iter().filter_map(Formula::as_point).collect();
+        self.scopes.turnings.extend(Turning::of(&points));
     }
 
     /// The text at a place.
@@ -190,11 +206,20 @@ impl<'a> Resolver<'a> {
             self.scopes.spelling = whole;
             return Ok((Meaning::Entity(entity), None));
         }
-        if axis.is_some() {
-            let vector = self.spell(name, name.parts.len() - 1)?;
-            if let Some(entity) = self.find(&vector) {
-                self.scopes.spelling = vector;
-                return Ok((Meaning::Entity(entity), axis));
+        let member = match name.parts.last().map(|part| &part.kind) {
+            Some(PartKind::Member(member)) => Member::named(member),
+            _ => None,
+        };
+        if axis.is_some() || member.is_some() {
+            let owner = self.spell(name, name.parts.len() - 1)?;
+            let found = self.find(&owner);
+            self.scopes.spelling = owner;
+            match (found, member) {
+                (Some(entity), None) => return Ok((Meaning::Entity(entity), axis)),
+                (Some(entity), Some(member)) => {
+                    return Ok((self.member(entity, member, name.span)?, None));
+                }
+                (None, _) => {}
             }
         }
         Err(self.unknown(&whole, name.span))
@@ -218,7 +243,7 @@ impl<'a> Resolver<'a> {
                 Err(Diagnostic::error(format!("`{}` stands for {value} here", name.head.text))
                     .at(name.span, format!("expected the name of {wanted}")))
             }
-            (_, Some(_)) => {
+            (_, Some(_)) | (Meaning::Member(..), None) => {
                 let whole = self.spell(name, name.parts.len())?;
                 Err(self.unknown(&whole, name.span))
             }
@@ -319,6 +344,13 @@ impl<'a> Resolver<'a> {
         for (dot, _) in text.match_indices('.') {
             let owner = &text[..dot];
             if let Some(entity) = names.get(owner) {
+                if let (Entity::Constraint(id), Some(member)) =
+                    (entity, Member::named(&text[dot + 1..]))
+                    && self.state.world.has_member(id, member)
+                {
+                    return Err(Diagnostic::error(format!("`{text}` is a member of `{owner}`"))
+                        .at(span, "this name has its meaning already"));
+                }
                 return Err(Diagnostic::error(format!("`{owner}` is a {}", entity.noun()))
                     .at(span, "only an instance of a definition has members")
                     .help("choose a name without the dot"));
@@ -357,6 +389,15 @@ impl<'a> Resolver<'a> {
                 format!("there is `{first}`")
             } else {
                 format!("there are `{first}` to `{last}`")
+            });
+        }
+        if let Some((owner, word)) = text.rsplit_once('.')
+            && let Some(Entity::Constraint(id)) = self.find(owner)
+        {
+            let members: Vec<&str> = self.members(id).map(Member::word).collect();
+            return problem.help(match nearest(word, members.iter().copied()) {
+                Some(near) => format!("did you mean `{owner}.{near}`?"),
+                None => format!("its members are `.{}`", members.join("`, `.")),
             });
         }
         let prefix = &self.scope().prefix;

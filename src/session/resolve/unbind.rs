@@ -104,6 +104,10 @@ impl<'a> Unbind<'a> {
                     let mut ends = names();
                     Part::Line(role, Pair { from: ends.next()?, to: ends.next()? })
                 }
+                Slot::Measure => Part::Measure(self.held(record)?),
+                Slot::Relation { .. } if record.constraint.get(Field::ValueY).is_some() => {
+                    Part::Relation(Relation::Equal(self.place_of(record)?))
+                }
                 Slot::Relation { default } => {
                     Part::Relation(self.relation_if_needed(record, default)?)
                 }
@@ -124,11 +128,7 @@ impl<'a> Unbind<'a> {
                     Part::Value(role, self.value_of(record, field_of(role)))
                 }
                 Slot::Value(role) => Part::Value(role, self.value_of(record, field_of(role))),
-                Slot::Place(role) => {
-                    let [x, y] = [Field::X, Field::Y].map(|field| record.constraint.get(field));
-                    let driver = record.driver(Field::X).map(|formula| self.unbind(formula));
-                    Part::Value(role, driver.or_else(|| Some(vector(x?, y?)))?)
-                }
+                Slot::Place(role) => Part::Value(role, self.place_of(record)?),
                 Slot::Flag(role) => {
                     let flags = record.constraint.traits().flags;
                     return flags.contains(&flag_of(role)).then_some(Part::Flag(role));
@@ -138,6 +138,25 @@ impl<'a> Unbind<'a> {
         let constraint = Stated { word, parts: parts.collect() };
         let label = Some(named(&record.name));
         Command::Constrain(Box::new(ConstraintDecl { label, constraint }))
+    }
+
+    /// The place that a constraint asks for.
+    fn place_of(&self, record: &Record) -> Option<Expr> {
+        self.of_fields(record, [Field::X, Field::Y])
+    }
+
+    /// What a constraint holds.
+    fn held(&self, record: &Record) -> Option<Expr> {
+        if record.constraint.get(Field::ValueY).is_some() {
+            return self.of_fields(record, [Field::Value, Field::ValueY]);
+        }
+        Some(self.value_of(record, Field::Value))
+    }
+
+    fn of_fields(&self, record: &Record, fields: [Field; 2]) -> Option<Expr> {
+        let [x, y] = fields.map(|field| record.constraint.get(field));
+        let driver = record.driver(fields[0]).map(|formula| self.unbind(formula));
+        driver.or_else(|| Some(vector(x?, y?)))
     }
 
     fn value_of(&self, record: &Record, field: Field) -> Expr {
@@ -170,7 +189,7 @@ impl<'a> Unbind<'a> {
         let x = self.world.points().column();
         let angle = |phi: f64| format!("{} deg", format_rounded(phi.to_degrees()));
         let at = |p: PointIdx| x[p as usize];
-        match &record.constraint {
+        match record.constraint.stated() {
             Constraint::Length(c) => {
                 let [a, b] = c.points;
                 vec![format!("length now {}", format_number(at(a).distance(at(b))))]
@@ -187,6 +206,34 @@ impl<'a> Unbind<'a> {
         }
     }
 
+    fn component(&self, of: &Formula, axis: Axis) -> Syntax {
+        let of = self.unbind(of);
+        match of.node {
+            Syntax::Name(name) => {
+                let letter = if axis == Axis::X { "x" } else { "y" };
+                Syntax::Name(named(&format!("{name}.{letter}")))
+            }
+            _ => Syntax::Component(Box::new(of), axis),
+        }
+    }
+
+    /// The expression that measures what a constraint measures, if there is one.
+    pub(crate) fn measure_text(&self, id: ConstraintId) -> Option<String> {
+        let constraint = self.world.constraint(id)?.constraint.stated();
+        let names: Vec<&str> =
+            constraint.points().iter().map(|&p| self.world.points().name(PointId(p))).collect();
+        Some(match (constraint, &names[..]) {
+            (Constraint::Length(_) | Constraint::Distance(_), names) => {
+                format!("distance({})", names.join(", "))
+            }
+            (Constraint::Orientation(_), names) => format!("angle({})", names.join(", ")),
+            (Constraint::Equal(_), [a, b, c, d]) => {
+                format!("distance({a}, {b}) - distance({c}, {d})")
+            }
+            _ => return None,
+        })
+    }
+
     /// A formula as the language writes it.
     pub(crate) fn unbind(&self, formula: &Formula) -> Expr {
         let two = |a: &Formula, b: &Formula| Box::new([self.unbind(a), self.unbind(b)]);
@@ -195,11 +242,15 @@ impl<'a> Unbind<'a> {
             Node::Time => Syntax::Time,
             Node::Point(id) => Syntax::Name(named(self.world.points().name(*id))),
             Node::Parameter(id) => Syntax::Name(named(self.world.name_of(Entity::Parameter(*id)))),
+            Node::Member(id, member) => {
+                let name = self.world.name_of(Entity::Constraint(*id));
+                Syntax::Name(named(&format!("{name}.{}", member.word())))
+            }
             Node::Vector(x, y) => Syntax::Vector(two(x, y)),
             Node::Negate(a) => Syntax::Negate(Box::new(self.unbind(a))),
             Node::Binary(op, a, b) => Syntax::Binary(*op, two(a, b)),
-            Node::X(a) => Syntax::Component(Box::new(self.unbind(a)), Axis::X),
-            Node::Y(a) => Syntax::Component(Box::new(self.unbind(a)), Axis::Y),
+            Node::X(a) => self.component(a, Axis::X),
+            Node::Y(a) => self.component(a, Axis::Y),
             Node::Call(function, arguments) => {
                 Syntax::Call(*function, arguments.iter().map(|a| self.unbind(a)).collect())
             }

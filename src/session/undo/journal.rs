@@ -31,6 +31,8 @@ pub enum Change {
     Series(Box<SeriesList>),
     /// Sets what the recorders have taken.
     Reels(Box<[Reel]>),
+    /// Says whether what is stated was there before.
+    Restoring(bool),
 }
 
 impl Change {

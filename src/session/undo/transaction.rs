@@ -47,6 +47,9 @@ impl State {
             Change::Series(new) => {
                 Change::Series(Box::new(std::mem::replace(&mut self.series, *new)))
             }
+            Change::Restoring(is_restoring) => {
+                Change::Restoring(std::mem::replace(&mut self.is_restoring, is_restoring))
+            }
             Change::Reels(reels) => Change::Reels(
                 self.recorders.iter_mut().zip(reels).map(|(r, reel)| r.wind(reel)).collect(),
             ),

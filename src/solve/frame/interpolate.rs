@@ -12,10 +12,6 @@ pub(crate) struct Ends {
     states: Vec<(u32, Vec<f64>)>,
 }
 
-/// The values that a motion in between is made of. A speed is none: what it did to the angle is.
-const FIELDS: [Field; 7] =
-    [Field::Lo, Field::Hi, Field::X, Field::Y, Field::Radius, Field::Phase, Field::Ratio];
-
 impl Ends {
     /// The ends of the frame an island is in: its present values, and those before.
     pub fn of_frame(island: &mut Island) -> Self {
@@ -63,7 +59,7 @@ impl Ends {
         };
         let (_, before, after) = &self.constraints[place];
         if let (Field::Speed, Constraint::Motor(before), Constraint::Motor(after)) =
-            (field, before, after)
+            (field, before.stated(), after.stated())
         {
             return Jet::constant(after.turned().total() - before.turned().total());
         }
@@ -83,18 +79,21 @@ impl Ends {
 
 /// Sets the values of a constraint to those at instant `t`.
 fn between(now: &mut Constraint, before: &Constraint, after: &Constraint, t: f64) {
-    for field in FIELDS {
+    // Those of wheels are no part of a motion in between: wheels go on with other values from where
+    // they stand, and those of the end of a frame act from its beginning on.
+    if now.traits().is_wheel {
+        return;
+    }
+    // A speed is no part of a motion in between: what it did to the angle is.
+    for field in now.fields().filter(|field| *field != Field::Speed) {
         if let (Some(a), Some(b)) = (before.get(field), after.get(field)) {
             let is_between = t != 1.0 && a.is_finite() && b.is_finite();
             let value = if is_between { a + (b - a) * t } else { b };
-            // Setting the ratio of wheels makes them go on from where they stand: not idle.
-            if now.get(field) != Some(value) {
-                now.set(field, value);
-            }
+            now.set(field, value);
         }
     }
     if let (Constraint::Motor(now), Constraint::Motor(before), Constraint::Motor(after)) =
-        (now, before, after)
+        (now.stated_mut(), before.stated(), after.stated())
     {
         let (from, to) = (before.turned(), after.turned());
         let way = (to.total() - from.total()) * t;

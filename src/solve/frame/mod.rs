@@ -9,5 +9,6 @@ pub mod dyad;
 pub mod interpolate;
 pub mod nearest;
 pub mod predict;
+pub mod pull;
 pub mod settle;
 pub mod substep;

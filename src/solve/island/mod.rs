@@ -221,9 +221,7 @@ impl Island {
             return;
         }
         let mut new = constraint.clone();
-        for (to, from) in new.points_mut().iter_mut().zip(self.constraints[c].points()) {
-            *to = *from;
-        }
+        new.set_points(self.constraints[c].points());
         if new == self.constraints[c] {
             // Deleted and brought back, or set to what it was.
             return;

@@ -215,8 +215,10 @@ fn descend_by(
 ) -> End {
     workspace.evaluate(pose, work);
     let most = way.n_before.saturating_add(limits.n_iterations);
+    let is_affine = workspace.equations.is_affine();
     loop {
-        if workspace.is_met(limits) {
+        // Linear rows are met by one step, and to the last digits by a second.
+        if workspace.is_met(limits) && !(is_affine && way.n_iterations == 1) {
             return End::Met;
         }
         if way.n_iterations >= most
@@ -232,12 +234,13 @@ fn descend_by(
         let rms = (2.0 * before / workspace.rows.n_active().max(1) as f64).sqrt();
         let unit = (rms / limits.size).min(1.0);
         loop {
-            let Some(promised) = solve_step(workspace, way.nu * unit + FLOOR, work) else {
+            let damping = if is_affine { REFINED_FLOOR } else { way.nu * unit + FLOOR };
+            let Some(promised) = solve_step(workspace, damping, work) else {
                 return End::Stuck;
             };
             way.n_iterations += 1;
             let longest = workspace.longest_step(LONGEST_STEP, limits);
-            let is_near = workspace.equations.reach(&workspace.step) <= longest;
+            let is_near = is_affine || workspace.equations.reach(&workspace.step) <= longest;
             let energy = if is_near { workspace.try_step(pose, 1.0, work) } else { f64::INFINITY };
             let gain = (before - energy) / promised;
             if gain > LEAST_GAIN {
@@ -258,8 +261,11 @@ fn descend_by(
             if is_near {
                 workspace.reject(pose, work);
             }
+            if is_affine && workspace.is_met(limits) {
+                return End::Met;
+            }
             way.nu = (way.nu * 4.0).max(1e-3);
-            if way.nu > MOST_DAMPING {
+            if way.nu > MOST_DAMPING || is_affine {
                 return End::Stuck;
             }
             if way.n_iterations >= most {

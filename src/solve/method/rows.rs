@@ -1,11 +1,14 @@
 //! The equations of an island, linearised at a pose: normalised and weighted.
 
+use std::ops::Range;
+
 use crate::constraint::{
-    Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Vec2, Vector,
+    Activity, Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Vec2, Vector,
 };
 use crate::solve::report::Counters;
 
-/// A constraint of no more points has all of them in each of its rows, as far as we know.
+/// A constraint of no more points has all of them in each of its rows, as far as we know; so has
+/// one with measured values.
 const MOST_POINTS_OF_A_ROW: usize = 4;
 
 /// Which constraints are to be met by moving which points, and which rows hold which of them.
@@ -25,6 +28,8 @@ pub(crate) struct Equations {
     unknown: Vec<u32>,
     /// How many of `constraints` hold wheels.
     n_wheels: u64,
+    /// Whether all rows are linear, whatever the pose.
+    is_affine: bool,
 }
 
 impl Equations {
@@ -53,7 +58,9 @@ impl Equations {
         };
         for &c in &constraints {
             let constraint = &all[c as usize];
-            if constraint.points().len() <= MOST_POINTS_OF_A_ROW {
+            if constraint.points().len() <= MOST_POINTS_OF_A_ROW
+                || matches!(constraint, Constraint::Measured(_))
+            {
                 (0..constraint.n_rows()).for_each(|_| push(constraint.points()));
             } else {
                 // Large bodies: each row holds the same few points at every pose.
@@ -64,8 +71,17 @@ impl Equations {
         unknown.shrink_to_fit();
         let n_wheels =
             constraints.iter().filter(|&&c| all[c as usize].traits().is_wheel).count() as u64;
+        let is_affine = constraints.iter().all(|&c| {
+            let traits = all[c as usize].traits();
+            traits.is_linear && traits.activity == Activity::Always
+        });
         let root_w = points.iter().map(|&p| w[p as usize].sqrt()).collect();
-        Self { constraints, points, root_w, start, unknown, n_wheels }
+        Self { constraints, points, root_w, start, unknown, n_wheels, is_affine }
+    }
+
+    /// Whether all rows are linear, whatever the pose: one step meets them, however long.
+    pub const fn is_affine(&self) -> bool {
+        self.is_affine
     }
 
     /// The points to move.
@@ -215,6 +231,9 @@ impl Rows {
     /// Puts a row in its place; gives what normalises it.
     fn set(&mut self, equations: &Equations, r: usize, row: &Row) -> f64 {
         let entries = equations.start[r] as usize..equations.start[r + 1] as usize;
+        if !row.f.is_finite() {
+            return self.set_without_value(r, entries);
+        }
         let gradient = &mut self.gradient[2 * entries.start..2 * entries.end];
         let (gradient, _) = gradient.as_chunks_mut::<2>();
         let mut squared = 0.0;
@@ -238,6 +257,15 @@ impl Rows {
         self.worst = self.worst.max(distance);
         self.energy += f * f;
         scale
+    }
+
+    /// The same for a row that has no value at the pose: it is out of the question.
+    fn set_without_value(&mut self, r: usize, entries: Range<usize>) -> f64 {
+        self.gradient[2 * entries.start..2 * entries.end].fill(0.0);
+        (self.scale[r], self.f[r], self.bend[r]) = (0.0, 0.0, 0.0);
+        self.worst = f64::INFINITY;
+        self.energy = f64::INFINITY;
+        0.0
     }
 
     /// What normalises each row; 0 for one that asks for nothing.

@@ -12,12 +12,9 @@ use super::island::partition::{Home, Partition};
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
+use crate::constraint::Point;
 use crate::diag::Diagnostic;
 use crate::world::{ConstraintId, PointId, Rates, Touched, World};
-
-/// How often a pose is solved anew for values that are measured on it, before it counts as
-/// not settled. Each round shrinks the difference where the measure is a mild function.
-const MEASURE_ROUNDS: u32 = 60;
 
 /// Everything the solver keeps from one call to the next.
 #[derive(Default)]
@@ -56,9 +53,9 @@ impl Solver {
         self.run(world, settings, budget, Task::Frame)
     }
 
-    /// Lets one frame pass: the clock ticks, live values are evaluated, the pose is solved,
-    /// and solved again until values that are measured on it agree with it. Points that a hand
-    /// drags along in this frame are moved by `hand`, once the solver knows where they were.
+    /// Lets one frame pass: the clock ticks, live values are evaluated, the pose is solved. Points
+    /// that a hand drags along in this frame are moved by `hand`, once the solver knows where they
+    /// were.
     ///
     /// # Errors
     /// A live expression that has no value at this time or in this pose.
@@ -72,37 +69,12 @@ impl Solver {
         self.sync(world, settings);
         hand(world);
         world.advance()?;
-        let mut report = self.frame(world, settings, budget);
-        if world.is_mutual() {
-            self.agree(world, settings, budget, &mut report)?;
+        let report = self.frame(world, settings, budget);
+        let is_met = report.status == Status::Converged;
+        match if is_met { None } else { world.failed_measure() } {
+            Some(why) => Err(why),
+            None => Ok(report),
         }
-        Ok(report)
-    }
-
-    /// Solves until values that are measured on the pose agree with it.
-    ///
-    /// # Errors
-    /// A live expression that has no value in this pose.
-    pub fn agree(
-        &mut self,
-        world: &mut World,
-        settings: &Settings,
-        budget: &Budget,
-        report: &mut Report,
-    ) -> Result<(), Diagnostic> {
-        let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
-        for _ in 0..MEASURE_ROUNDS {
-            let change = world.refresh_measured()?;
-            if change <= tolerance * self.size() {
-                return Ok(());
-            }
-            let again = self.settle(world, settings, budget);
-            report.iterations += again.iterations;
-            report.residual = again.residual;
-            report.status = again.status;
-        }
-        report.status = report.status.max(Status::Stalled);
-        Ok(())
     }
 
     /// Does `n` bare iterations of the chosen method; `auto` means relaxation here.
@@ -127,6 +99,27 @@ impl Solver {
     /// Solves until everything holds, or no iteration changes anything any more.
     pub fn settle(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
         self.run(world, settings, budget, Task::Settle)
+    }
+
+    /// Brings points as near to places as the constraints allow, from a pose that meets them:
+    /// nothing is torn, and no time passes.
+    ///
+    /// # Errors
+    /// A live expression that has no value in the new pose.
+    pub fn pull(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        pulled: &[(PointId, Point)],
+    ) -> Result<Report, Diagnostic> {
+        self.sync(world, settings);
+        let report = self.pull_islands(world, settings, budget, pulled);
+        let is_met = report.status == Status::Converged;
+        match if is_met { None } else { world.failed_measure() } {
+            Some(why) => Err(why),
+            None => Ok(report),
+        }
     }
 
     /// Takes in what the user edited. To be called before the clock goes on and before a point

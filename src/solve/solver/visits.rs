@@ -1,12 +1,16 @@
 //! A call of the solver: the islands that it visits, and what that comes to.
 
+use std::collections::BTreeMap;
+
 use super::Solver;
+use crate::constraint::Point;
 use crate::solve::dispatch::{Cause, Task, Visit, turn_back, visit, write_back};
+use crate::solve::frame::pull::{Pulled, pull};
 use crate::solve::island::Island;
 use crate::solve::parallel::{self, ISLANDS};
 use crate::solve::report::{Budget, Counters, Report, Status};
 use crate::solve::settings::Settings;
-use crate::world::World;
+use crate::world::{PointId, World};
 
 /// An island on its way through a visit.
 struct Guest {
@@ -75,6 +79,7 @@ impl Solver {
         }
         due.clear();
         self.due = due;
+        world.follow_turns();
         let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
         for &violation in self.unsatisfiable.values() {
             let is_met = violation <= tolerance;
@@ -88,6 +93,40 @@ impl Solver {
                 report.include(status, 0, island.residual);
             }
         }
+        report
+    }
+
+    /// Brings points as near to places as the constraints allow, from a pose that meets them, and
+    /// gives the largest residual that leaves. What is not solved stays where it is.
+    pub(super) fn pull_islands(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        pulled: &[(PointId, Point)],
+    ) -> Report {
+        let mut report = Report::default();
+        let mut by_island: BTreeMap<u32, Vec<Pulled>> = BTreeMap::new();
+        for &(id, to) in pulled {
+            match self.partition.island_of_point(id) {
+                // Nothing holds it.
+                None => world.set_position(id, to),
+                Some(k) => {
+                    let local = self.partition.get(k).and_then(|island| island.local_point(id));
+                    by_island.entry(k).or_default().extend(local.map(|p| (p, to)));
+                }
+            }
+        }
+        for (k, pulled) in by_island {
+            let Some(island) = self.partition.get_mut(k) else { continue };
+            if island.status == Status::Converged {
+                let limits = island.limits(settings, budget);
+                pull(island, &pulled, &limits, &mut report.counters);
+                report.include(island.status, 0, island.residual);
+                write_back(island, world);
+            }
+        }
+        world.follow_turns();
         report
     }
 

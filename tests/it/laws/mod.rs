@@ -5,6 +5,7 @@ mod constraint;
 mod lang;
 mod linalg;
 mod random_constraint;
+mod random_measure;
 mod random_scene;
 mod random_session;
 mod scenes;

@@ -2,11 +2,13 @@
 
 use linkwork::constraint::{
     Aligned, AxisDirection, Bounds, Cog, CogVelocity, Coincidence, Constraint, ConstraintKind,
-    Distance, Equal, Equivalence, Field, Flag, Given, Glider, Hinge, Kind, Length, Motor,
+    Distance, Equal, Equivalence, Field, Flag, Given, Glider, Hinge, Hold, Kind, Length, Motor,
     Orientation, Period, Point, PointIdx, Rack, Rigid, Row, Symmetric, Vector,
 };
 use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
+
+use super::random_measure::measured;
 
 /// Points of a scene.
 pub const N_POINTS: usize = 6;
@@ -47,12 +49,20 @@ pub struct Scene {
     /// Numbers in -1..1 and a choice among variants of the kind.
     pub numbers: [f64; 3],
     pub variant: u8,
+    /// Whether its values are measured on points, those of the constraint among them.
+    pub is_measured: bool,
 }
 
 impl Scene {
     /// The constraint, as it would have been stated in the plane so moved.
-    #[allow(clippy::match_wildcard_for_single_variants, reason = "a new kind comes there too")]
     pub fn constraint(&self, by: Similarity) -> Constraint {
+        let plain = self.plain(by);
+        if self.is_measured { measured(self, plain, by) } else { plain }
+    }
+
+    /// The same with values of its own.
+    #[allow(clippy::match_wildcard_for_single_variants, reason = "a new kind comes there too")]
+    fn plain(&self, by: Similarity) -> Constraint {
         let p = &self.points;
         let [n0, n1, n2] = self.numbers;
         let before = by.points(&self.before);
@@ -115,6 +125,12 @@ impl Scene {
                 let all = [AxisDirection::Horizontal, AxisDirection::Vertical];
                 Aligned { points: [p[0], p[1]], direction: all[usize::from(n0 > 0.0)] }.into()
             }
+            Kind::Hold if n2 > 0.5 => {
+                Hold::Vector { value: Vector::ZERO, target: Vector::ZERO }.into()
+            }
+            Kind::Hold => {
+                Hold::Number { value: 0.0, bounds: bounds(length(n0), length(n1)) }.into()
+            }
             kind => self.declared(kind, by),
         }
     }
@@ -127,7 +143,9 @@ impl Scene {
         let groups = [self.points[..2].to_vec(), self.points[2..4].to_vec()];
         let flags: &[Flag] = if self.numbers[1] > 0.0 { &[Flag::Inside] } else { &[] };
         let (word, bounds) = ("cog", None);
-        let given = Given { word, groups: &groups, bounds, values: &values, flags, x: before };
+        let is_restored = false;
+        let given =
+            Given { word, groups: &groups, bounds, values: &values, flags, x: before, is_restored };
         // A wheel of one point only cannot be stated.
         let points = [0, 1, 2, 3].map(|k| self.points[k]);
         let other = |_| Cog::new(points, self.ratio(), before).into();
@@ -159,8 +177,15 @@ impl Scene {
         ];
         let before = by.points(&self.before);
         let word = word.pattern().entry.keyword;
-        let (bounds, flags) = (None, &[]);
-        let given = Given { word, groups: &groups, bounds, values: &values, flags, x: &before };
+        let given = Given {
+            word,
+            groups: &groups,
+            bounds: None,
+            values: &values,
+            flags: &[],
+            x: &before,
+            is_restored: false,
+        };
         kind.declare(&given).expect("points that are apart")
     }
 
@@ -179,11 +204,11 @@ impl Scene {
 
     /// Whether one correction is exact wherever it starts.
     pub fn is_exact(&self) -> bool {
-        if self.is_between_links() {
-            return false;
-        }
-        !matches!(self.kind, Kind::Cog | Kind::Rack | Kind::Distance | Kind::Symmetric)
-            && !self.has_repeats()
+        let is_closed = !matches!(
+            self.kind,
+            Kind::Cog | Kind::Rack | Kind::Distance | Kind::Symmetric | Kind::Hold
+        );
+        is_closed && !self.is_between_links() && !self.is_measured && !self.has_repeats()
     }
 
     pub fn has_repeats(&self) -> bool {
@@ -194,7 +219,7 @@ impl Scene {
     pub fn size(&self, c: &Constraint) -> f64 {
         let coordinates = self.x.iter().chain(&self.before).map(|p| p.x.abs().max(p.y.abs()));
         let size = coordinates.fold(10.0, f64::max);
-        match c {
+        match c.stated() {
             Constraint::Orientation(_) => 1.0,
             Constraint::Cog(_) => 1.0 + self.ratio().abs(),
             // Far from its contact a marker is a long lever.
@@ -223,20 +248,28 @@ pub fn scenes(frozen: f64, n_places: usize) -> impl Strategy<Value = Scene> {
     };
     let kinds = proptest::sample::select(Kind::ALL);
     let numbers = proptest::array::uniform3(-1.0..1.0);
-    (kinds, places, shifts, weights, points, numbers, 0..5u8).prop_map(
-        move |(kind, places, shifts, weights, points, numbers, variant)| {
-            let x: Vec<_> = places.iter().map(|&(x, y)| Point::new(x, y)).collect();
+    let variants = (0..5u8, any::<bool>());
+    (kinds, places, shifts, weights, points, numbers, variants).prop_map(
+        move |(kind, places, shifts, weights, points, numbers, (variant, is_measured))| {
+            let x: Vec<Point> = places.iter().map(|&(x, y)| Point::new(x, y)).collect();
             let before = x.iter().zip(shifts).map(|(&p, (x, y))| p + Vector::new(x, y)).collect();
             let weight = |(u, e): (f64, f64)| if u < frozen { 0.0 } else { 10f64.powf(e) };
             let w = weights.into_iter().map(weight).collect();
-            Scene { kind, x, before, w, points, numbers, variant }
+            // Points that are one have no distance and no direction that could be measured.
+            let are_apart = |[i, j]: [usize; 2]| {
+                let [a, b] = [points[i], points[j]].map(|p| p as usize);
+                x[a].distance(x[b]) > 0.5
+            };
+            let n = N_POINTS;
+            let is_measured = is_measured && are_apart([n - 1, n - 2]) && are_apart([n - 3, n - 4]);
+            Scene { kind, x, before, w, points, numbers, variant, is_measured }
         },
     )
 }
 
 /// The rows of a constraint.
-pub fn rows(c: &Constraint, x: &[Point]) -> Vec<Row> {
+pub fn rows(c: &Constraint, x: &[Point]) -> Vec<Row<'static>> {
     let mut all = Vec::new();
-    c.jacobian(x, &mut |row| all.push(row));
+    c.jacobian(x, &mut |row| all.push(Row { further: row.further.to_vec().leak(), ..row }));
     all
 }

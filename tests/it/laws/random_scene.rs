@@ -37,6 +37,18 @@ fn relation(value: impl Strategy<Value = String> + Clone) -> impl Strategy<Value
     ]
 }
 
+/// A number that is measured on the pose.
+fn measure() -> impl Strategy<Value = String> {
+    prop_oneof![
+        (point(), point()).prop_map(|(a, b)| format!("distance({a}, {b})")),
+        point().prop_map(|a| format!("{a}.x")),
+        (point(), point(), point())
+            .prop_map(|(a, b, c)| format!("(distance({a}, {b}) + 2 * distance({b}, {c}))")),
+        (point(), point(), point()).prop_map(|(a, b, c)| format!("dot({a} - {b}, {c} - {b})")),
+        (point(), point()).prop_map(|(a, b)| format!("sin({a}.x - {b}.y)")),
+    ]
+}
+
 /// A statement of a constraint of any type, with its name in front.
 fn constraint() -> impl Strategy<Value = String> {
     let body = prop_oneof![
@@ -80,8 +92,27 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|[a, b, c, d]| format!("rack {a} {b} on {c} {d}")),
         1 => ([point(), point(), point(), point()], number())
             .prop_map(|([a, b, c, d], r)| format!("rack {a} {b} on {c} {d} radius abs({r})")),
+        2 => (point(), point(), measure()).prop_map(|(a, b, m)| format!("length {a} {b} = abs({m})")),
+        1 => (point(), point(), point(), measure())
+            .prop_map(|(a, b, c, m)| format!("orientation {a} {b}, {a} {c} = {m} / 4")),
+        2 => (measure(), relation(number().boxed()))
+            .prop_map(|(m, r)| format!("hold {m} {}", if r.is_empty() { "= 1" } else { &*r })),
+        1 => [point(), point(), point()]
+            .prop_map(|[a, b, c]| format!("hold {a} = midpoint({b}, {c})")),
     ];
     (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
+}
+
+/// A constraint with an expression that has no value, or none that it could have, in some poses.
+fn live() -> impl Strategy<Value = String> {
+    let points = [point(), point(), point()];
+    (constraint_name(), points, any::<bool>()).prop_map(|(name, [a, b, c], is_quotient)| {
+        if is_quotient {
+            format!("{name}: length {a} {b} = 2 / distance({a}, {c})")
+        } else {
+            format!("{name}: length {a} {b} <= {c}.x")
+        }
+    })
 }
 
 /// A definition with names of its own that are names outside too.
@@ -124,6 +155,7 @@ pub fn renamed(statement: &str) -> String {
 pub fn edit() -> impl Strategy<Value = String> {
     prop_oneof![
         8 => constraint(),
+        1 => live(),
         1 => constraint_name().prop_map(|c| format!("delete {c}")),
         1 => point().prop_map(|p| format!("delete {p} cascade")),
         1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("point {p} = ({x}, {y})")),
@@ -134,8 +166,13 @@ pub fn edit() -> impl Strategy<Value = String> {
         2 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} = {v}")),
         1 => (constraint_name(), number()).prop_map(|(c, v)| format!("change {c} speed {v}")),
         1 => (point(), number(), number()).prop_map(|(p, x, y)| format!("move {p} to ({x}, {y})")),
+        1 => (point(), point()).prop_map(|(p, q)| format!("move {p} to {q}")),
         2 => (point(), number(), number(), 1..6u32)
             .prop_map(|(p, x, y, n)| format!("drag {p} to ({x}, {y}) over {n}")),
+        1 => (point(), number(), number(), 0..6u32)
+            .prop_map(|(p, x, y, n)| format!("pull {p} to ({x}, {y}) over {n}")),
+        1 => (point(), number(), number(), prop_oneof![Just(0), 2..6u32])
+            .prop_map(|(p, x, y, n)| format!("drag {p} through ({x}, 0), ({x}, {y}) over {n}")),
         3 => (1..8u32).prop_map(|n| format!("step {n}")),
         1 => Just("solve".to_owned()),
         1 => Just("relax 5".to_owned()),

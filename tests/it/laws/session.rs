@@ -3,7 +3,6 @@
 
 use super::random_session::{SCENE, statements};
 use crate::support::compare::check_same;
-use crate::support::fresh::can_be_stated;
 use crate::support::talk::Talking;
 use proptest::prelude::*;
 
@@ -49,10 +48,6 @@ fn has_begun(talking: &Talking) -> bool {
 /// Taken back to before the first frame, a session is as one in which none has passed, and goes
 /// on as it went.
 fn undone_to_the_start(statements: &[String]) {
-    // The number of an instance that is not named is not given again once it was taken back.
-    let is_named =
-        |statement: &&String| !statement.starts_with("use ") || statement.contains(" as ");
-    let statements: Vec<String> = statements.iter().filter(is_named).cloned().collect();
     let mut talking = Talking::after(SCENE);
     let mut n_before = 0;
     while n_before < statements.len() && !has_begun(&talking) {
@@ -86,9 +81,6 @@ fn saved_goes_on(before: &[String], after: &[String]) {
     let mut talking = Talking::after(SCENE);
     for statement in before {
         tries(&mut talking, statement);
-    }
-    if !can_be_stated(talking.world()) {
-        return;
     }
     let script = talking.script();
     let mut other = Talking::after(&script);

@@ -2,5 +2,6 @@
 
 mod names;
 mod picture_hash;
+mod saved;
 mod start_and_switch;
 mod verdict;

@@ -81,3 +81,55 @@ fn wheels_that_are_switched_on_again_stay_where_they_are() {
         talking.run(&format!("assert B = C + polar(2, 180deg + {sign}45deg) within 1e-9"));
     }
 }
+
+#[test]
+fn wheels_that_are_made_while_the_clock_runs_mesh_at_the_start_as_the_points_stand_there() {
+    const WHEELS: &str = "point O = (0, 0) frozen, G = (1, 0), Q = (3, 0) frozen, H = (2, 0)
+         point P = (0, -1) frozen, R = (9, -1) frozen, S = (0, 0), T = (1, 0)
+         distance S to P R = 1; length S T = 1; length Q H = 1
+         motor O G speed 90deg
+         coordinate S at (time, 0)";
+    const MESH: &str = "cog O G, Q H ratio 2; rack S T on P R";
+    for ratio in ["2", "2 + time"] {
+        let mesh = MESH.replace("ratio 2", &format!("ratio {ratio}"));
+        let mut late = Talking::after(WHEELS);
+        late.run("step 50");
+        late.run(&mesh);
+        late.run("step 7; reset");
+        for name in ["cog1", "rack1"] {
+            let residual = late.session.residual(name).unwrap();
+            assert!(residual.abs() < 1e-15, "{name}: {residual}");
+        }
+        let mut early = Talking::after(WHEELS);
+        early.run(&mesh);
+        let mut saved = Talking::after(&late.script());
+        for talking in [&mut late, &mut early, &mut saved] {
+            talking.run("step 30");
+            assert_eq!(talking.session.last_run().unwrap().n_missed, 0);
+        }
+        for point in ["H", "T"] {
+            let places = [&late, &early, &saved].map(|it| it.session.position(point).unwrap());
+            assert!(places[0].distance(places[1]) < 1e-11, "{ratio}: {point} {places:?}");
+            assert_eq!(places[0], places[2]);
+        }
+    }
+}
+
+#[test]
+fn wheels_that_are_made_while_the_clock_runs_are_undone_with_what_reset_knows_of_them() {
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, G = (1, 0), Q = (3, 0) frozen, H = (2, 0)
+         motor O G speed 90deg; step 20; cog O G, Q H ratio 2; step 20",
+    );
+    let before = talking.script();
+    talking.run("reset; undo");
+    assert_eq!(talking.script(), before);
+    talking.run("undo 2; redo 2");
+    assert_eq!(talking.script(), before);
+    talking.run("for i in 1..2 { step; cog O G, Q H ratio 2; step }; undo");
+    assert_eq!(talking.script(), before);
+    talking.run("point P = (0, -1), R = (9, -1); rack O G on P R; step");
+    let before = talking.script();
+    talking.run("change rack1 on R P; undo");
+    assert_eq!(talking.script(), before);
+}

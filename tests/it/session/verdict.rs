@@ -130,6 +130,20 @@ fn a_best_fit_that_nobody_tested_is_not_called_a_contradiction() {
     assert_eq!(phrase, "no solution found from here");
     assert_eq!(Status::Contradictory.phrase(), "best fit: the constraints contradict each other");
     assert!(Status::BestFit < Status::Contradictory && Status::Contradictory < Status::Stalled);
+    // Chains that are too short: the one is tested, the other is longer than what is.
+    for (n_bars, expected, other) in [(20, "contradict", phrase), (520, phrase, "contradict")] {
+        let mut talking = Talking::after(&format!(
+            "point P[0] = (0, 0) frozen, P[{n_bars}] = (1.2 * {n_bars}, 0) frozen
+             for i in 1..{n_bars} - 1 {{ point P[i] = (1.2 * i, 0) }}
+             for i in 1..{n_bars} {{ length P[i - 1] P[i] = 1 }}"
+        ));
+        for command in ["solve", "step"] {
+            talking.talk.said.clear();
+            talking.run(command);
+            let told = &talking.talk.said;
+            assert!(told.contains(expected) && !told.contains(other), "{n_bars}: {told}");
+        }
+    }
 }
 
 #[test]

@@ -60,3 +60,79 @@ fn a_rod_that_feeds_on_the_height_of_its_own_end_settles() {
         talking.run(&format!("{run}; assert B = (0, 6) within 1e-9"));
     }
 }
+
+#[test]
+fn an_equation_between_vectors_is_held_and_changed() {
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (4, 0), P = (1, 1)
+         m: hold P = midpoint(A, B)
+         hold B = (4, 2)
+         solve",
+    );
+    talking.run("assert P = (2, 1) within 1e-12; change m = A + (1, B.y); solve");
+    talking.run("assert P = (1, 2) within 1e-12; off m; move P to (5, 5); solve");
+    talking.run("assert P = (5, 5) within 1e-12; on m; solve; assert P = (1, 2) within 1e-12");
+    assert_eq!(talking.ask("list constraints")[0], "m: hold P = A + (1, B.y)  # residual 0");
+}
+
+#[test]
+fn linear_equations_are_met_at_once_however_far() {
+    let mut talking = Talking::after(
+        "point A = (0, 0), B = (1, 0), C = (2, 0)
+         hold A.x + B.x = 1e6; hold A.x - B.x = 2; hold B + C = (7, 1e5); hold C.y = 3",
+    );
+    talking.execute("solve").expect("it is solved");
+    let told = talking.talk.told().concat();
+    assert!(told.contains("after 2 iterations"), "{told}");
+    talking.run("assert B.x = 499999 within 1e-9; assert C.x = -499992 within 1e-9");
+}
+
+#[test]
+fn a_velocity_goes_through_what_is_measured() {
+    // A rope over two pulleys: B rises half as fast as A goes down, and is slower the more the
+    // faster A is.
+    let mut talking = Talking::after(
+        "point U = (0, 0) frozen, V = (6, 0) frozen, A = (0, -3), B = (6, -3)
+         rope: hold distance(U, A) + 2 * distance(V, B) = 9
+         hold A = (0, -3 - time^2); hold B.x = 6
+         set dt 1/10; step 5",
+    );
+    talking
+        .run("assert velocity(A) = (0, -1) within 1e-9; assert velocity(B) = (0, 0.5) within 1e-9");
+    talking.run("assert acceleration(B) = (0, 1) within 1e-9");
+}
+
+#[test]
+fn a_value_that_is_out_of_range_on_the_way_is_no_mistake() {
+    // The root has no value beyond x = 4, where a long first step leads.
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, P = (3.9, 0)
+         hold sqrt(4 - P.x) = 1; hold P.y = 0; solve",
+    );
+    talking.run("assert P = (3, 0) within 1e-9");
+    let told = talking.execute("move P to (9, 0); solve").expect_err("a root of -5");
+    assert!(told.to_string().contains("`sqrt` has no value at -5"), "{told}");
+}
+
+#[test]
+fn what_measures_no_point_cannot_be_held() {
+    for statement in ["hold 3 = 3", "hold time = 4", "hold velocity(P).x = 1", "hold P < (1, 2)"] {
+        let mut talking = Talking::after("point P = (3, 0)");
+        assert!(talking.execute(statement).is_err(), "{statement}");
+    }
+}
+
+#[test]
+fn a_count_of_turns_is_held_beyond_half_a_turn() {
+    // A wheel that may turn by a turn and a half, and is pushed on by another that turns two.
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, A = (1, 0), Q = (3, 0) frozen, B = (4, 0)
+         length O A = 1
+         motor Q B radius 1 speed 1rev
+         stop: hold turn(O, A) <= 1.5rev
+         follow: hold turn(O, A) = turn(Q, B) / 2
+         set dt 1/36; step 36",
+    );
+    talking.run("assert turn(O, A) = 0.5rev within 1e-9; assert A = (-1, 0) within 1e-9");
+    talking.run("step 36; assert turn(O, A) = 1rev within 1e-9; assert A = (1, 0) within 1e-9");
+}

@@ -1,6 +1,8 @@
 //! The solver on mechanisms whose answers are known.
 
+mod hands;
 mod hard;
+mod live_ratio;
 mod live_values;
 mod memory;
 mod motion;

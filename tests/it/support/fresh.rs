@@ -3,7 +3,8 @@
 
 use linkwork::constraint::{Constraint, ConstraintKind as _, Field, Point, Vec2};
 use linkwork::diag::Diagnostic;
-use linkwork::world::{Environment, ParameterId, PointId, Value, World};
+use linkwork::terms::Member;
+use linkwork::world::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
 
 /// A world as its formulas see it: each parameter is what its own formula gives now.
 struct Fresh<'a>(&'a World);
@@ -22,6 +23,17 @@ impl Environment<f64> for Fresh<'_> {
         self.0.clock().time()
     }
 
+    fn expected_turn(&self, turning: Turning) -> f64 {
+        self.0.turn_count(turning).total()
+    }
+
+    fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
+        match self.0.constraint(id).map(|record| &record.constraint) {
+            Some(Constraint::Motor(motor)) if member == Member::Angle => Ok(motor.total()),
+            other => unreachable!("{member:?} of {other:?} drives nothing"),
+        }
+    }
+
     fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
         None
     }
@@ -34,7 +46,11 @@ pub fn flaws(world: &World, tolerance: f64) -> Vec<String> {
     let (x, w) = (world.points().column(), world.points().inverse_masses());
     let mut flaws = Vec::new();
     for (_, record) in world.constraints().filter(|(_, record)| record.is_on) {
-        for (field, formula) in record.drivers() {
+        // What is measured at the beginning of a frame is none of its end.
+        let live = record.live().iter().filter(|(field, formula)| {
+            !(matches!(field, Field::Input(_)) && formula.depends().on_points)
+        });
+        for (field, formula) in live {
             let wanted = match (field, formula.evaluate(&Fresh(world))) {
                 (Field::X, Ok(Value::Vector(v))) => v.x,
                 (Field::Y, Ok(Value::Vector(v))) => v.y,
@@ -62,17 +78,6 @@ pub fn violation(world: &World) -> f64 {
     let (x, w) = (world.points().column(), world.points().inverse_masses());
     let on = world.constraints().filter(|(_, record)| record.is_on);
     on.map(|(_, record)| record.constraint.violation(x, &w)).fold(0.0, f64::max)
-}
-
-/// Whether a script can state this world: not a rack whose rim point has come to lie on its
-/// centre, which a statement takes for a wheel of radius 0.
-pub fn can_be_stated(world: &World) -> bool {
-    let x = world.points().column();
-    let has_radius = |constraint: &Constraint| match constraint {
-        Constraint::Rack(rack) => x[rack.points[0] as usize] != x[rack.points[1] as usize],
-        _ => true,
-    };
-    world.constraints().all(|(_, record)| has_radius(&record.constraint))
 }
 
 /// How far a world extends, and no less than the lengths that are asked for in it.

@@ -75,8 +75,8 @@ impl Host for Notebook {
         Ok(())
     }
 
-    fn seconds(&self) -> f64 {
+    fn seconds(&self) -> Option<f64> {
         self.n_looks.set(self.n_looks.get() + 1);
-        self.n_looks.get() as f64 * self.tick
+        Some(self.n_looks.get() as f64 * self.tick)
     }
 }

@@ -86,6 +86,17 @@ impl Talking {
         render(problem, self.session.sources(), Paint::Plain)
     }
 
+    /// Checks that what is loaded from its file says the same of itself, now and after `then`.
+    #[track_caller]
+    pub fn assert_goes_on_from_its_file(&mut self, then: &str) {
+        let kept = self.script();
+        let mut again = Self::after(&kept);
+        assert_eq!(again.script(), kept);
+        self.run(then);
+        again.run(then);
+        assert_eq!(again.script(), self.script(), "after {then}");
+    }
+
     pub fn world(&self) -> &World {
         self.session.world()
     }

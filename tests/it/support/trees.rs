@@ -60,14 +60,18 @@ fn making() -> BoxedStrategy<Making> {
         at,
         frozen,
     });
-    let target = (name(), expr()).prop_map(|(point, to)| DragTarget { point, to });
+    let targets = || {
+        let target = (name(), vec(expr(), 1..4));
+        vec(target.prop_map(|(point, places)| DragTarget { point, places }), 1..3)
+    };
     prop_oneof![
         vec(binding, 1..3).prop_map(Making::Let),
         vec(point, 1..3).prop_map(Making::Point),
         selection().prop_map(Making::Freeze),
         selection().prop_map(Making::Thaw),
         (name(), expr()).prop_map(|(point, to)| Making::Move { point, to }),
-        (vec(target, 1..3), of(expr())).prop_map(|(targets, over)| Making::Drag { targets, over }),
+        (targets(), of(expr())).prop_map(|(targets, over)| Making::Drag { targets, over }),
+        (targets(), of(expr())).prop_map(|(targets, over)| Making::Pull { targets, over }),
     ]
     .boxed()
 }
@@ -81,7 +85,7 @@ fn constraint_decl() -> BoxedStrategy<ConstraintDecl> {
 /// Any of them, each part that may be left out there or not.
 fn constraint() -> BoxedStrategy<Constraint> {
     let parts = |word: ConstraintWord| {
-        let slots = word.pattern().slots.iter().map(|&slot| slot_part(slot));
+        let slots = word.pattern().slots.iter().map(|&slot| slot_part(word, slot));
         slots.collect::<Vec<_>>().prop_map(move |parts| Constraint {
             word,
             parts: parts.into_iter().flatten().collect(),
@@ -91,11 +95,15 @@ fn constraint() -> BoxedStrategy<Constraint> {
 }
 
 /// What may stand in a slot of a statement.
-fn slot_part(slot: Slot) -> BoxedStrategy<Option<Part>> {
+fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
     match slot {
         Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
+        Slot::Measure => expr().prop_map(|value| Some(Part::Measure(value))).boxed(),
+        Slot::Relation { .. } if word == ConstraintWord::Hold => {
+            relation().prop_map(|relation| Some(Part::Relation(relation))).boxed()
+        }
         Slot::Relation { .. } => of(relation()).prop_map(|of| of.map(Part::Relation)).boxed(),
         Slot::Optional(role, _) => {
             of(expr()).prop_map(move |value| Some(Part::Value(role, value?))).boxed()
@@ -160,7 +168,11 @@ fn running() -> BoxedStrategy<Running> {
 }
 
 fn looking() -> BoxedStrategy<Looking> {
-    let item = prop_oneof![expr().prop_map(PrintItem::Value), text().prop_map(PrintItem::Text)];
+    let item = prop_oneof![
+        expr().prop_map(PrintItem::Value),
+        (expr(), select(Unit::ALL.to_vec())).prop_map(|(e, unit)| PrintItem::InUnit(e, unit)),
+        text().prop_map(PrintItem::Text)
+    ];
     prop_oneof![
         of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
         name().prop_map(Looking::Show),

@@ -44,6 +44,7 @@ impl Expected {
                     expected.add("a relation");
                     expected.keywords.push("in");
                 }
+                Rule::unit => expected.add("a unit"),
                 Rule::string => {
                     let is_path = match verb {
                         "print" | "sample" => false,
@@ -121,7 +122,7 @@ impl fmt::Display for Expected {
 /// What the statement of `verb` has names of.
 fn noun(verb: &str, is_first: bool) -> &'static str {
     match verb {
-        "freeze" | "thaw" | "move" | "drag" | "point" | "trace" | "untrace" => "a point",
+        "freeze" | "thaw" | "move" | "drag" | "pull" | "point" | "trace" | "untrace" => "a point",
         "change" if !is_first => "a point",
         "let" => "a parameter",
         "set" if is_first => "a setting",
@@ -159,6 +160,7 @@ fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::in_time | Rule::kw_in => "in",
         Rule::kw_frozen => "frozen",
         Rule::kw_to => "to",
+        Rule::kw_through => "through",
         Rule::kw_over => "over",
         Rule::kw_on => "on",
         Rule::kw_cascade => "cascade",

@@ -46,9 +46,16 @@ impl Reader<'_> {
             // Taken for a name, it was meant to be the keyword that is now missing.
             expected.near(last_word(before).filter(|word| word.len() > 2)?)
         });
-        let help = match misspelt {
-            Some(near) => Some(format!("did you mean `{near}`?")),
-            None => self.hint(&found, &expected, word, before, range.end),
+        let behind = &self.text[found.span.range().end..range.end];
+        let short = misspelt.is_none() || found.word(self).len() <= 2;
+        let other_points = other_points(word, before, found.word(self), behind, &expected);
+        let help = match (misspelt, other_points.filter(|_| short)) {
+            (_, Some(name)) => Some(format!(
+                "a constraint keeps its points: `delete {}`, and state it anew with others",
+                brief(name)
+            )),
+            (Some(near), None) => Some(format!("did you mean `{near}`?")),
+            (None, None) => self.hint(&found, &expected, word, before, range.end),
         };
         let problem = match help {
             Some(help) => problem.help(help),
@@ -223,6 +230,22 @@ impl FoundAt {
 
 const NO_BREAK_SPACE: &str = "no-break space";
 const ODD_BLANK: &str = "odd blank";
+
+/// The name in a `change` that gives other points, as the statement does that makes a constraint:
+/// two names stand behind it.
+fn other_points<'a>(
+    verb: &str,
+    before: &'a str,
+    found: &str,
+    behind: &str,
+    expected: &Expected,
+) -> Option<&'a str> {
+    let is_name = |text: &str| text.starts_with(|char: char| char.is_alphabetic() || char == '_');
+    let name = before.strip_prefix(verb)?.trim();
+    let second = first_word(behind.trim_start().trim_start_matches(',').trim_start());
+    let are_points = is_name(found) && is_name(second) && !expected.has(&format!("`{second}`"));
+    (verb == "change" && is_name(name) && !name.contains(' ') && are_points).then_some(name)
+}
 
 /// The beginning of a word, if it is too long for a message.
 pub(crate) fn brief(word: &str) -> Cow<'_, str> {

@@ -1,7 +1,7 @@
 //! What the grammar lets through and the language does not.
 
 use crate::diag::{Diagnostic, Span, nearest};
-use crate::lang::ast::{Function, Ident};
+use crate::lang::ast::{Function, Ident, Unit};
 use crate::lang::layout::{Flaw, MAX_NESTING};
 
 use super::mistake::brief;
@@ -162,6 +162,15 @@ pub(crate) fn wrong_count(word: &Ident, n: usize, span: Span) -> Diagnostic {
     Diagnostic::error(format!("wrong number of arguments of `{name}`"))
         .at(span, given)
         .help(format!("usage: {}", usages.join(" or ")))
+}
+
+pub(crate) fn unknown_unit(word: &Ident) -> Diagnostic {
+    let problem = Diagnostic::error(format!("unknown unit `{}`", brief(&word.text)))
+        .at(word.span, "expected `deg`, `rad`, `rev`, `rpm`, `s` or `ms`");
+    match nearest(&word.text, Unit::ALL.map(Unit::suffix)) {
+        Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None => problem,
+    }
 }
 
 pub(crate) fn unknown_list(word: &Ident, known: &[&str]) -> Diagnostic {

@@ -1,0 +1,160 @@
+//! Moving points by hand: `drag`, which takes them along, and `pull`, which they follow as far as
+//! they can.
+
+use super::run::{Hands, Limits};
+use crate::constraint::Point;
+use crate::diag::{Diagnostic, Span};
+use crate::lang::ast::{DragTarget, Expr};
+use crate::session::execution::{Execution, Flow};
+use crate::session::quotas::MOST_FRAMES;
+use crate::session::state::State;
+use crate::solve::{Budget, Status};
+use crate::study::Hand;
+use crate::world::{Edit, PointId};
+
+/// What a hand does to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Grip {
+    /// Holds it, whatever that tears.
+    Firm,
+    /// Takes it as far as the constraints allow.
+    Soft,
+}
+
+impl Grip {
+    const fn participle(self) -> &'static str {
+        match self {
+            Self::Firm => "dragged",
+            Self::Soft => "pulled",
+        }
+    }
+}
+
+impl Execution<'_> {
+    pub(crate) fn drag(
+        &mut self,
+        targets: &[DragTarget],
+        over: Option<&Expr>,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let (n, hands) = self.hands(targets, over, Grip::Firm)?;
+        // A free point is held by the hand that drags it, and let go after.
+        let free: Vec<PointId> = hands
+            .iter()
+            .map(|h| h.point)
+            .filter(|&id| !self.state.world.points().is_frozen(id))
+            .collect();
+        if n == 0 {
+            self.history.last_motion.give_up();
+        } else {
+            self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        }
+        self.begin_motion();
+        for &id in &free {
+            self.edit(Edit::Freeze(id, true));
+        }
+        let is_at_start = self.state.world.clock().frame == 0;
+        let (flow, n_done) = if n == 0 {
+            (self.drag_at_once(&hands)?, 0)
+        } else {
+            self.frames(n, Limits::default(), span, Hands { firm: &hands, soft: &[] })?
+        };
+        for &id in &free {
+            self.edit(Edit::Freeze(id, false));
+        }
+        // The hand moved before the clock left 0: `reset` puts the point back under it.
+        if is_at_start && self.state.world.clock().frame > 0 {
+            for hand in &hands {
+                self.edit(Edit::Start(hand.point, hand.from));
+            }
+        }
+        if n > 0 {
+            self.history.last_motion.end_leg(self.state, n, n_done, hands);
+        }
+        Ok(flow)
+    }
+
+    pub(crate) fn pull(
+        &mut self,
+        targets: &[DragTarget],
+        over: Option<&Expr>,
+        span: Span,
+    ) -> Result<Flow, Diagnostic> {
+        let (n, hands) = self.hands(targets, over, Grip::Soft)?;
+        // It cannot be done again without the hand.
+        self.history.last_motion.give_up();
+        self.begin_motion();
+        if n > 0 {
+            let soft = Hands { firm: &[], soft: &hands };
+            return Ok(self.frames(n, Limits::default(), span, soft)?.0);
+        }
+        let status = self.settle(&Limits::default())?.status;
+        let n_stops = hands.iter().map(Hand::n_pieces).max().unwrap_or(0);
+        for k in 0..n_stops {
+            let pulled: Vec<_> = hands.iter().map(|hand| (hand.point, hand.stop(k))).collect();
+            let State { solver, world, preferences, .. } = &mut *self.state;
+            solver.pull(world, &preferences.solve, &Budget::default(), &pulled)?;
+        }
+        self.tell_unless_solved(status, &[]);
+        Ok(Flow::On)
+    }
+
+    /// Moves points that are held from place to place while the clock stands still.
+    fn drag_at_once(&mut self, hands: &[Hand]) -> Result<Flow, Diagnostic> {
+        let n_stops = hands.iter().map(Hand::n_pieces).max().unwrap_or(0);
+        let mut status = Status::Converged;
+        for k in 0..n_stops {
+            if self.host.is_interrupted() {
+                self.note(format!("stopped after {k} of {n_stops} places"));
+                return Ok(Flow::Stopped);
+            }
+            self.sync();
+            for hand in hands {
+                self.edit(Edit::Move(hand.point, hand.stop(k)));
+            }
+            status = self.settle(&Limits::default())?.status;
+        }
+        self.tell_unless_solved(status, hands);
+        Ok(Flow::On)
+    }
+
+    /// The hands of a statement, and how many frames they take.
+    fn hands(
+        &mut self,
+        targets: &[DragTarget],
+        over: Option<&Expr>,
+        grip: Grip,
+    ) -> Result<(u64, Vec<Hand>), Diagnostic> {
+        let n_pieces = targets.iter().map(|target| target.places.len() as u64).max().unwrap_or(1);
+        let n = match over {
+            None => n_pieces,
+            Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
+        };
+        if let Some(over) = over.filter(|_| (1..n_pieces).contains(&n)) {
+            return Err(Diagnostic::error("a path takes a frame for each of its pieces at least")
+                .at(over.span, format!("it has {n_pieces} pieces"))
+                .help("`over 0` goes through all of them at once"));
+        }
+        let mut hands: Vec<Hand> = Vec::new();
+        for DragTarget { point, places } in targets {
+            let id = self.resolve().point(point)?;
+            if hands.iter().any(|hand| hand.point == id) {
+                let word = grip.participle();
+                return Err(Diagnostic::error(format!("one point cannot be {word} to two places"))
+                    .at(point.span, format!("{word} twice"))
+                    .help("a path is written `through (x, y), (x, y)`"));
+            }
+            if grip == Grip::Soft && self.state.world.points().is_frozen(id) {
+                let name = self.state.world.points().name(id);
+                return Err(Diagnostic::error(format!("`{name}` is frozen: no pull moves it"))
+                    .at(point.span, "this point is immovable")
+                    .help(format!("`drag {name} ...` moves it, `thaw {name}` lets it move")));
+            }
+            let places = places.iter().map(|place| self.resolve().place(place));
+            let places: Vec<Point> = places.collect::<Result<_, _>>()?;
+            let from = self.state.world.points().at(id);
+            hands.push(Hand::new(id, from, &places, n.max(n_pieces)));
+        }
+        Ok((n, hands))
+    }
+}

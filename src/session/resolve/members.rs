@@ -1,0 +1,66 @@
+//! Members of things: which there are, and what they cannot be used for.
+
+use super::scope::{Meaning, Resolver};
+use super::unbind::Unbind;
+use crate::diag::{Diagnostic, Span};
+use crate::terms::Member;
+use crate::world::{ConstraintId, Entity, Formula};
+
+impl Resolver<'_> {
+    /// The members that a constraint has.
+    pub(super) fn members(&self, id: ConstraintId) -> impl Iterator<Item = Member> {
+        let world = &self.state.world;
+        Member::ALL.into_iter().filter(move |&member| world.has_member(id, member))
+    }
+
+    /// A member of something with a name.
+    pub(super) fn member(
+        &self,
+        of: Entity,
+        member: Member,
+        span: Span,
+    ) -> Result<Meaning, Diagnostic> {
+        let world = &self.state.world;
+        let (name, word) = (world.name_of(of), member.word());
+        let Entity::Constraint(id) = of else {
+            return Err(Diagnostic::error(format!("`{name}` is a {}", of.noun()))
+                .at(span, format!("only a constraint has a member `.{word}`")));
+        };
+        if world.has_member(id, member) {
+            return Ok(Meaning::Member(id, member));
+        }
+        let others = self.members(id).map(|other| format!("`{name}.{}`", other.word()));
+        let others: Vec<String> = others.collect();
+        let label = match member {
+            Member::Angle => "only a motor has an angle",
+            _ => "it measures no single number",
+        };
+        Err(Diagnostic::error(format!("`{name}` has no `.{word}`"))
+            .at(span, label)
+            .help(format!("there is {}", others.join(" and "))))
+    }
+
+    /// Refuses to drive a constraint by what follows from the constraints.
+    pub(super) fn refuse_what_follows(
+        &self,
+        formula: &Formula,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let depends = self.state.world.depends(formula);
+        if depends.on_rates {
+            return Err(Diagnostic::error("a velocity cannot drive a constraint")
+                .at(span, "velocities follow from the constraints"));
+        }
+        let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
+        let unbind = Unbind::of(&self.state.world);
+        let name =
+            format!("{}.{}", self.state.world.name_of(Entity::Constraint(id)), member.word());
+        let problem = Diagnostic::error(format!("`{name}` cannot drive a constraint"));
+        Err(match (member, unbind.measure_text(id)) {
+            (Member::Value, Some(measure)) => problem
+                .at(span, "it follows from the constraints")
+                .help(format!("write what it measures: `{measure}`")),
+            _ => problem.at(span, "it follows from the constraints"),
+        })
+    }
+}

@@ -1,0 +1,354 @@
+//! Values that are measured on the pose become a program that the solver runs at every pose it
+//! tries.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::environments::Here;
+use super::{Drivers, Formula, Mention, Node, ParameterId, PointId, Record, World};
+use crate::constraint::{
+    Constraint, ConstraintKind as _, Field, Measured, Operation, PointIdx, Program, Register,
+};
+use crate::diag::Diagnostic;
+use crate::terms::{Function, Operator, Shape};
+
+/// Where the result of a formula is.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Number(Register),
+    Vector(Register, Register),
+}
+
+impl Place {
+    fn number(self) -> Register {
+        match self {
+            Self::Number(register) => register,
+            Self::Vector(..) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+
+    fn vector(self) -> (Register, Register) {
+        match self {
+            Self::Vector(x, y) => (x, y),
+            Self::Number(_) => unreachable!("shapes are checked when a formula is bound"),
+        }
+    }
+}
+
+impl World {
+    /// Makes the expressions of a constraint that measure the pose part of it, to be solved with it;
+    /// the others are to be evaluated before it is solved.
+    pub fn bind(&self, record: &mut Record) {
+        let constraint = record.constraint.stated().clone();
+        let mut live = Drivers::new();
+        let mut measured = Drivers::new();
+        for (field, formula) in record.drivers() {
+            // What wheels and speeds turn by is of the pose that a frame begins with.
+            let is_rate = *field == Field::Speed || constraint.traits().is_wheel;
+            let is_measured = !is_rate && self.depends(formula).on_points;
+            let list = if is_measured { &mut measured } else { &mut live };
+            list.push((*field, formula.clone()));
+        }
+        if measured.is_empty() {
+            record.bind(constraint, None);
+        } else {
+            let (constraint, inputs) = self.compile(constraint, &measured);
+            live.extend(inputs);
+            record.bind(constraint, Some(live));
+        }
+    }
+
+    /// A constraint with measured values, and what its program is given from outside.
+    fn compile(&self, constraint: Constraint, measured: &Drivers) -> (Constraint, Drivers) {
+        let mut compiler = Compiler::new(self, constraint.points());
+        let mut values: Vec<(Field, Register)> = Vec::new();
+        let mut last: Option<(&Formula, Place)> = None;
+        for (field, formula) in measured {
+            let place = match last {
+                // Both ends of an equality, both coordinates of a place.
+                Some((before, place)) if before.is_same(formula) => place,
+                _ => {
+                    compiler.compile_parameters(formula);
+                    compiler.compile(formula)
+                }
+            };
+            last = Some((formula, place));
+            let register = match place {
+                Place::Number(register) => register,
+                Place::Vector(x, y) => {
+                    if matches!(field, Field::X | Field::Value) {
+                        x
+                    } else {
+                        y
+                    }
+                }
+            };
+            values.push((*field, register));
+        }
+        let Compiler { points, program, inputs, .. } = compiler;
+        // What has no value now, as while a saved pose is brought back, will be given one.
+        let value = |formula: &Formula| formula.evaluate(&Here::new(self, None));
+        let numbers = inputs.iter().map(|f| value(f).map_or(f64::NAN, super::Value::number));
+        let constraint = Measured::new(constraint, points, program, values, numbers.collect());
+        let inputs = (0..).map(Field::Input).zip(inputs).collect();
+        (constraint.into(), inputs)
+    }
+
+    /// Why a value that is measured on the pose has none there; none where all have one.
+    pub fn failed_measure(&mut self) -> Option<Diagnostic> {
+        self.refresh_parameters();
+        let here = Here::new(self, None);
+        let measured = self.constraints().filter(|(_, record)| {
+            record.is_on && matches!(record.constraint, Constraint::Measured(_))
+        });
+        let mut formulas = measured.flat_map(|(_, record)| record.drivers());
+        formulas.find_map(|(_, formula)| formula.evaluate(&here).err())
+    }
+}
+
+/// A program in the making.
+struct Compiler<'a> {
+    world: &'a World,
+    /// The points it looks at, those of the constraint first.
+    points: Vec<PointIdx>,
+    program: Program,
+    /// Where the coordinates of points are.
+    of_points: BTreeMap<PointIdx, (Register, Register)>,
+    /// Where the values of parameters are that measure the pose.
+    of_parameters: BTreeMap<ParameterId, Place>,
+    /// What it is given from outside.
+    inputs: Vec<Formula>,
+}
+
+impl<'a> Compiler<'a> {
+    fn new(world: &'a World, points: &[PointIdx]) -> Self {
+        Self {
+            world,
+            points: points.to_vec(),
+            program: Program::default(),
+            of_points: BTreeMap::new(),
+            of_parameters: BTreeMap::new(),
+            inputs: Vec::new(),
+        }
+    }
+
+    /// Compiles the parameters that a formula mentions and that measure the pose, each after those
+    /// it mentions: a chain of them may be longer than calls can be deep.
+    fn compile_parameters(&mut self, formula: &Formula) {
+        let mut wanted = BTreeSet::new();
+        let mut open = vec![formula.clone()];
+        while let Some(formula) = open.pop() {
+            formula.mentions(&mut |mention| {
+                if let Mention::Parameter(id) = mention
+                    && let Some(parameter) = self.world.parameter(id)
+                    && parameter.depends.on_points
+                    && wanted.insert(id)
+                {
+                    open.push(parameter.formula.clone());
+                }
+            });
+        }
+        for &id in self.world.dependencies.order() {
+            if wanted.contains(&id) && !self.of_parameters.contains_key(&id) {
+                let parameter = self.world.parameter(id).expect("a listed parameter lives");
+                let place = self.compile(&parameter.formula);
+                self.of_parameters.insert(id, place);
+            }
+        }
+    }
+
+    fn push(&mut self, operation: Operation) -> Register {
+        self.program.push(operation)
+    }
+
+    fn binary(&mut self, operator: Operator, a: Register, b: Register) -> Register {
+        self.push(Operation::Binary(operator, a, b))
+    }
+
+    fn subtract(
+        &mut self,
+        a: (Register, Register),
+        b: (Register, Register),
+    ) -> (Register, Register) {
+        (self.binary(Operator::Subtract, a.0, b.0), self.binary(Operator::Subtract, a.1, b.1))
+    }
+
+    fn scale(&mut self, v: (Register, Register), k: Register) -> Place {
+        let x = self.binary(Operator::Multiply, v.0, k);
+        Place::Vector(x, self.binary(Operator::Multiply, v.1, k))
+    }
+
+    fn dot(&mut self, a: (Register, Register), b: (Register, Register)) -> Register {
+        let x = self.binary(Operator::Multiply, a.0, b.0);
+        let y = self.binary(Operator::Multiply, a.1, b.1);
+        self.binary(Operator::Add, x, y)
+    }
+
+    fn cross(&mut self, a: (Register, Register), b: (Register, Register)) -> Register {
+        let x = self.binary(Operator::Multiply, a.0, b.1);
+        let y = self.binary(Operator::Multiply, a.1, b.0);
+        self.binary(Operator::Subtract, x, y)
+    }
+
+    fn point(&mut self, id: PointId) -> (Register, Register) {
+        if let Some(&place) = self.of_points.get(&id.0) {
+            return place;
+        }
+        let known = self.points.iter().position(|&p| p == id.0);
+        let k = known.unwrap_or_else(|| {
+            self.points.push(id.0);
+            self.points.len() - 1
+        }) as u32;
+        let place = (self.push(Operation::X(k)), self.push(Operation::Y(k)));
+        self.of_points.insert(id.0, place);
+        place
+    }
+
+    /// A number from outside.
+    fn input(&mut self, formula: &Formula) -> Register {
+        let known = self.inputs.iter().position(|input| input.is_same(formula));
+        let k = known.unwrap_or_else(|| {
+            self.inputs.push(formula.clone());
+            self.inputs.len() - 1
+        });
+        self.push(Operation::Input(k as u32))
+    }
+
+    fn compile(&mut self, formula: &Formula) -> Place {
+        let depends = self.world.depends(formula);
+        if !depends.on_points && !depends.is_constant() {
+            return match formula.shape() {
+                Shape::Number => Place::Number(self.input(formula)),
+                Shape::Vector => {
+                    let (span, depends) = (formula.span(), formula.depends());
+                    let part = |node| Formula::new(node, Shape::Number, depends, span);
+                    let x = self.input(&part(Node::X(formula.clone())));
+                    Place::Vector(x, self.input(&part(Node::Y(formula.clone()))))
+                }
+            };
+        }
+        match formula.node() {
+            Node::Number(n) => Place::Number(self.push(Operation::Constant(*n))),
+            Node::Point(id) => {
+                let (x, y) = self.point(*id);
+                Place::Vector(x, y)
+            }
+            Node::Parameter(id) => self.of_parameters[id],
+            Node::Vector(x, y) => {
+                let x = self.compile(x).number();
+                Place::Vector(x, self.compile(y).number())
+            }
+            Node::X(v) => Place::Number(self.compile(v).vector().0),
+            Node::Y(v) => Place::Number(self.compile(v).vector().1),
+            Node::Negate(a) => match self.compile(a) {
+                Place::Number(a) => Place::Number(self.push(Operation::Negate(a))),
+                Place::Vector(x, y) => {
+                    let x = self.push(Operation::Negate(x));
+                    Place::Vector(x, self.push(Operation::Negate(y)))
+                }
+            },
+            Node::Binary(operator, a, b) => {
+                let (a, b) = (self.compile(a), self.compile(b));
+                match (a, b) {
+                    (Place::Number(a), Place::Number(b)) => {
+                        Place::Number(self.binary(*operator, a, b))
+                    }
+                    (Place::Vector(ax, ay), Place::Vector(bx, by)) => {
+                        let x = self.binary(*operator, ax, bx);
+                        Place::Vector(x, self.binary(*operator, ay, by))
+                    }
+                    (Place::Vector(x, y), Place::Number(k)) => {
+                        let x = self.binary(*operator, x, k);
+                        Place::Vector(x, self.binary(*operator, y, k))
+                    }
+                    (Place::Number(k), Place::Vector(x, y)) => self.scale((x, y), k),
+                }
+            }
+            Node::Call(function, arguments) => {
+                let place = self.call(*function, arguments);
+                if !function.counts_turns() {
+                    return place;
+                }
+                // The whole turns are those that it had when the frame began.
+                let before = self.input(formula);
+                Place::Number(self.push(Operation::NearestTurn(place.number(), before)))
+            }
+            Node::Member(..) | Node::Time => {
+                unreachable!("what does not measure the pose is an input")
+            }
+        }
+    }
+
+    fn call(&mut self, function: Function, arguments: &[Formula]) -> Place {
+        let places: Vec<Place> = arguments.iter().map(|a| self.compile(a)).collect();
+        let number = |k: usize| places[k].number();
+        let vector = |k: usize| places[k].vector();
+        Place::Number(match function {
+            Function::Norm => {
+                let (x, y) = vector(0);
+                self.push(Operation::Norm(x, y))
+            }
+            Function::Dot => self.dot(vector(0), vector(1)),
+            Function::Cross => self.cross(vector(0), vector(1)),
+            Function::Rotate => {
+                let ((x, y), phi) = (vector(0), number(1));
+                let [cos, sin] = self.cos_and_sin(phi);
+                let v = (cos, self.push(Operation::Negate(sin)));
+                let turned = self.dot((x, y), v);
+                return Place::Vector(turned, self.dot((x, y), (sin, cos)));
+            }
+            Function::Polar => {
+                let (r, phi) = (number(0), number(1));
+                let [cos, sin] = self.cos_and_sin(phi);
+                return self.scale((cos, sin), r);
+            }
+            Function::Midpoint => {
+                let ((ax, ay), (bx, by)) = (vector(0), vector(1));
+                let sum = (self.binary(Operator::Add, ax, bx), self.binary(Operator::Add, ay, by));
+                let half = self.push(Operation::Constant(0.5));
+                return self.scale(sum, half);
+            }
+            Function::Distance => {
+                let (x, y) = self.subtract(vector(1), vector(0));
+                self.push(Operation::Norm(x, y))
+            }
+            Function::DistanceToLine => {
+                let line = self.subtract(vector(2), vector(1));
+                let to_point = self.subtract(vector(0), vector(1));
+                let area = self.cross(line, to_point);
+                let length = self.push(Operation::Norm(line.0, line.1));
+                self.binary(Operator::Divide, area, length)
+            }
+            Function::Angle | Function::Turn => {
+                let (x, y) = self.subtract(vector(1), vector(0));
+                self.push(Operation::OfTwo(Function::Atan2, y, x))
+            }
+            Function::AngleBetween | Function::TurnBetween => {
+                let u = self.subtract(vector(1), vector(0));
+                let v = self.subtract(vector(3), vector(2));
+                let (along, across) = (self.dot(u, v), self.cross(u, v));
+                self.push(Operation::OfTwo(Function::Atan2, across, along))
+            }
+            Function::Clamp => {
+                let (x, lo, hi) = (number(0), number(1), number(2));
+                let x = self.push(Operation::OfTwo(Function::Min, x, hi));
+                self.push(Operation::OfTwo(Function::Max, x, lo))
+            }
+            _ if function.is_rate() => unreachable!("no rate drives a constraint"),
+            _ => {
+                let mut numbers = places.iter().map(|place| place.number());
+                let first = numbers.next().expect("a function has an argument");
+                let rest: Vec<Register> = numbers.collect();
+                match rest[..] {
+                    [] => self.push(Operation::Of(function, first)),
+                    _ => rest
+                        .into_iter()
+                        .fold(first, |sum, next| self.push(Operation::OfTwo(function, sum, next))),
+                }
+            }
+        })
+    }
+
+    fn cos_and_sin(&mut self, phi: Register) -> [Register; 2] {
+        [Function::Cos, Function::Sin].map(|function| self.push(Operation::Of(function, phi)))
+    }
+}
