@@ -55,10 +55,15 @@ impl Attempt {
     /// and now, and the square of how far away its other place is for a side of 1.
     #[inline]
     fn compare(&mut self, [before, now]: [f64; 2], correction: f64, apart_squared: f64) {
-        self.least_side = self.least_side.min(now.abs());
+        // Comparisons, since `min` and `max` ask about values that are not numbers each time.
+        if now.abs() < self.least_side {
+            self.least_side = now.abs();
+        }
         if before * now > 0.0 && before.abs() > SINGULAR {
             let apart_squared = apart_squared * (now * now);
-            self.nearest_squared = self.nearest_squared.min(apart_squared);
+            if apart_squared < self.nearest_squared {
+                self.nearest_squared = apart_squared;
+            }
             let squared = correction * correction;
             if squared > self.doubt_squared * apart_squared {
                 self.doubt_squared = squared / apart_squared;
@@ -122,10 +127,14 @@ fn attempt_blocks(
     for block in &mut plan.blocks {
         let which = &plan.constraints[block.first as usize..block.end as usize];
         let found = dyad::find(block, which, constraints, x, is_predicted, limits, work)?;
-        sum.worst = sum.worst.max(found.worst);
+        if found.worst > sum.worst {
+            sum.worst = found.worst;
+        }
         sum.n_iterations = sum.n_iterations.max(found.n_steps);
-        if block.is_determined || found.correction > FREE_SURPRISE * limits.size {
-            sum.correction = sum.correction.max(found.correction);
+        if found.correction > sum.correction
+            && (block.is_determined || found.correction > FREE_SURPRISE * limits.size)
+        {
+            sum.correction = found.correction;
         }
         if block.has_branches() {
             sum.compare([block.side.sine, found.sine], found.correction, found.apart_squared);

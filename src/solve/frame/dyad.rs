@@ -270,11 +270,12 @@ fn meet(
         let d = (w * (f * l) - v * (h * m)).perp() / side;
         at += d;
         let squared = d.norm_squared();
-        let shortest = l.min(m) - squared.sqrt();
+        let shortest = if l < m { l } else { m } - squared.sqrt();
         let left = 0.5 * squared / shortest;
         if shortest > 0.0 && left <= limits.tolerance {
             let moved = at - start;
-            let correction = moved.x.abs().max(moved.y.abs());
+            let (x, y) = (moved.x.abs(), moved.y.abs());
+            let correction = if x > y { x } else { y };
             let sine = side / (l * m);
             let apart_squared = 4.0 * (l * m) * (l * m) / (v - w).norm_squared();
             let side = Side { sine, other: 1 };
