@@ -15,6 +15,7 @@ mod normal;
 mod order;
 mod orthogonal;
 mod sparse;
+mod square;
 mod supernodal;
 
 pub use block::Pivots;
@@ -23,6 +24,7 @@ use graph::{Graph, Lists, lower_triangle};
 use normal::Normal;
 pub use orthogonal::RowBasis;
 use sparse::Sparse;
+pub use square::{MOST_UNKNOWNS, Square};
 use supernodal::Supernodal;
 
 /// J^T J and its factor.

@@ -153,7 +153,10 @@ pub(super) fn confirm(
             return;
         }
         let n_iterations = outcome.n_iterations;
+        // It moves by no more than it was off: what comes next still goes on from before.
+        let history = island.history.clone();
         *outcome = solve(island, settings, &now, Task::Settle, work).0;
+        island.history = history;
         outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
     }
 }

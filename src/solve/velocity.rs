@@ -4,6 +4,7 @@
 //! what is left of the second derivative when the points move on with constant v. Where
 //! there is freedom left the shortest v and a are taken.
 
+use super::frame::motion;
 use super::island::Island;
 use super::island::partition::Partition;
 use super::method::rows::{add_row, dot_row};
@@ -87,6 +88,9 @@ pub(super) fn motion(
 /// How far the farthest free point of an island is from where its constraints say, to first
 /// order: the step that would meet what is left of them.
 pub(super) fn position_error(island: &mut Island) -> f64 {
+    if island.plan.is_complete() {
+        return motion::position_error(island);
+    }
     let n_free = island.n_free;
     let mut workspace = island.take_workspace();
     let mut work = Counters::default();

@@ -42,6 +42,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "solve/frame/branch.rs",
             "solve/frame/decomposition.rs",
             "solve/frame/dyad.rs",
+            "solve/frame/motion.rs",
             "solve/method/sweep.rs",
         ],
     ),

@@ -1,10 +1,11 @@
 //! An attempt at a pose from an expected one: block by block, then the parts that are solved as a
 //! whole.
 
-use super::branch::{Volume, may_cross};
+use super::branch::PartSide;
 use super::dyad;
-use crate::constraint::Point;
+use crate::constraint::{ConstraintKind, Point};
 use crate::solve::island::Island;
+use crate::solve::island::sides::SINGULAR;
 use crate::solve::method::newton;
 use crate::solve::method::{Limits, Pose, Stiffness, Workspace};
 use crate::solve::report::Counters;
@@ -21,6 +22,10 @@ pub(crate) const NO_MOTION: f64 = 1e-6;
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
 const RANK_CUT: f64 = 1e-10;
 
+/// Where the least singular value of all rows is larger than this, the other place where they hold
+/// is at least such a part of the size away.
+const REGULAR: f64 = 1e-2;
+
 /// How an attempt at a pose from an expected one went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Attempt {
@@ -30,18 +35,51 @@ pub(crate) struct Attempt {
     pub n_iterations: u32,
     /// How far the farthest point ended from where it was expected.
     pub correction: f64,
-    /// Whether a singular pose lies on the way, or may.
-    pub may_cross: bool,
-    /// How near the pose is to a singular one, as the sine of an angle or as a volume: an error of a
+    /// The largest correction of a point as a part of the way to the other place where its
+    /// constraints hold, over those that are on the side they were on, squared.
+    pub doubt_squared: f64,
+    /// How far away the nearest of these places is, squared.
+    pub nearest_squared: f64,
+    /// Whether something is on the other side of a singular pose than before, or was too near to
+    /// one to tell.
+    pub has_crossed: bool,
+    /// Of what has crossed, the largest correction against what lay between the two places before and after.
+    pub leap: f64,
+    /// How near the pose is to a singular one, as the sine of an angle or a pivot: an error of a
     /// length is one of a place divided by this.
     pub least_side: f64,
 }
 
 impl Attempt {
-    /// Whether the pose, reached by `motion` from the last one, follows from it.
-    pub fn is_safe(&self, motion: f64, limits: &Limits) -> bool {
-        !self.may_cross
-            && (self.correction <= SURPRISE * motion || motion <= NO_MOTION * limits.size)
+    /// Takes in on which side of its singular pose something is that was corrected by so much: before
+    /// and now, and the square of how far away its other place is for a side of 1.
+    #[inline]
+    fn compare(&mut self, [before, now]: [f64; 2], correction: f64, apart_squared: f64) {
+        // Comparisons, since `min` and `max` ask about values that are not numbers each time.
+        if now.abs() < self.least_side {
+            self.least_side = now.abs();
+        }
+        if before * now > 0.0 && before.abs() > SINGULAR {
+            let apart_squared = apart_squared * (now * now);
+            if apart_squared < self.nearest_squared {
+                self.nearest_squared = apart_squared;
+            }
+            let squared = correction * correction;
+            if squared > self.doubt_squared * apart_squared {
+                self.doubt_squared = squared / apart_squared;
+            }
+        } else {
+            self.has_crossed = true;
+            if correction > 0.0 {
+                let apart = apart_squared.sqrt() * (before.abs() + now.abs());
+                self.leap = self.leap.max(correction / apart);
+            }
+        }
+    }
+
+    /// Whether the pose ends near where it was expected, for a motion of this length.
+    pub fn is_expected(&self, motion: f64, limits: &Limits) -> bool {
+        self.correction <= SURPRISE * motion || motion <= NO_MOTION * limits.size
     }
 }
 
@@ -64,26 +102,78 @@ pub(crate) fn attempt(
     limits: &Limits,
     work: &mut Counters,
 ) -> Option<Attempt> {
-    let mut sum = Attempt { least_side: 1.0, ..Attempt::default() };
-    let Island { plan, constraints, x, .. } = island;
-    for block in &mut plan.blocks {
-        let which = &plan.constraints[block.first as usize..block.end as usize];
-        let found = dyad::find(block, which, constraints, x, is_predicted, limits, work)?;
-        sum.worst = sum.worst.max(found.worst);
-        sum.n_iterations = sum.n_iterations.max(found.n_steps);
-        if block.is_determined || found.correction > FREE_SURPRISE * limits.size {
-            sum.correction = sum.correction.max(found.correction);
-        }
-        if block.has_branches() {
-            sum.may_cross |= may_cross(block.side, found.side);
-            sum.least_side = sum.least_side.min(found.side.abs());
-        }
-        block.next_side = found.side;
-    }
+    let may_be_found_at_once =
+        is_predicted && island.plan.is_redundant && island.plan.is_complete();
+    let expected = may_be_found_at_once.then(|| Box::from(&island.x[..island.n_free]));
+    let Some(mut sum) = attempt_blocks(island, is_predicted, limits, work) else {
+        return attempt_whole(island, &expected?, limits, work);
+    };
     if !island.plan.is_complete() {
         attempt_rest(island, is_predicted, limits, work, &mut sum)?;
     }
     Some(sum)
+}
+
+/// Looks for the points that are found one by one.
+#[inline]
+fn attempt_blocks(
+    island: &mut Island,
+    is_predicted: bool,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Option<Attempt> {
+    let mut sum = Attempt { least_side: 1.0, nearest_squared: f64::INFINITY, ..Attempt::default() };
+    let Island { plan, constraints, x, .. } = island;
+    for block in &mut plan.blocks {
+        let which = &plan.constraints[block.first as usize..block.end as usize];
+        let found = dyad::find(block, which, constraints, x, is_predicted, limits, work)?;
+        if found.worst > sum.worst {
+            sum.worst = found.worst;
+        }
+        sum.n_iterations = sum.n_iterations.max(found.n_steps);
+        if found.correction > sum.correction
+            && (block.is_determined || found.correction > FREE_SURPRISE * limits.size)
+        {
+            sum.correction = found.correction;
+        }
+        if block.has_branches() {
+            sum.compare([block.side.sine, found.sine], found.correction, found.apart_squared);
+        }
+        block.next_side = found.side;
+    }
+    Some(sum)
+}
+
+/// Looks for all points at once. Where two bars are in line, a third may tell where their point is,
+/// but only through points that are found after it.
+fn attempt_whole(
+    island: &mut Island,
+    expected: &[Point],
+    limits: &Limits,
+    work: &mut Counters,
+) -> Option<Attempt> {
+    island.x[..expected.len()].copy_from_slice(expected);
+    let (outcome, is_regular) = island.with_workspace(|workspace, pose, _| {
+        let outcome = newton::solve_near(workspace, pose, limits, work);
+        (outcome, workspace.assemble(Stiffness::None).nullity(REGULAR * REGULAR) == 0)
+    });
+    if !outcome.is_converged() || !is_regular {
+        return None;
+    }
+    for k in 0..island.plan.blocks.len() {
+        let side = island.side_of_block(k);
+        island.plan.blocks[k].next_side = side;
+    }
+    let correction = motion_between(&island.x, expected);
+    let doubt = correction / (REGULAR * limits.size);
+    Some(Attempt {
+        worst: outcome.worst,
+        n_iterations: outcome.n_iterations,
+        correction,
+        doubt_squared: doubt * doubt,
+        least_side: REGULAR,
+        ..Attempt::default()
+    })
 }
 
 /// The same for the parts that are solved as a whole.
@@ -124,11 +214,18 @@ fn attempt_rest(
             workspaces.iter().map(|workspace| workspace.correction(&island.x)).fold(0.0, f64::max);
         if island.is_smooth() {
             for (k, workspace) in workspaces.iter().enumerate() {
-                let now = Volume::of(&workspace.equations, &workspace.rows);
-                island.watch.next_volumes[k] = now;
-                if let (Some(before), Some(now)) = (island.watch.volumes[k], now) {
-                    sum.may_cross |= before.may_cross(now);
-                    sum.least_side = sum.least_side.min(now.value.abs());
+                let now = PartSide::of(&workspace.equations, &workspace.rows);
+                island.watch.next_part_sides[k] = now;
+                if let (Some(before), Some(now)) = (island.watch.part_sides[k], now)
+                    && before.is_like(now)
+                {
+                    let part = &island.plan.rest[k];
+                    let lengths = part.constraints.iter();
+                    let lengths = lengths.map(|&c| island.constraints[c as usize].nominal_length());
+                    let shortest = lengths.filter(|l| *l > 0.0).fold(limits.size, f64::min);
+                    let sides = [before.value, now.value];
+                    let apart_squared = 4.0 * shortest * shortest;
+                    sum.compare(sides, workspace.correction(&island.x), apart_squared);
                 }
             }
         }

@@ -15,6 +15,8 @@ pub(crate) struct Plan {
     pub constraints: Vec<u32>,
     /// What is left, as parts that do not depend on each other.
     pub rest: Vec<Part>,
+    /// Whether some of the blocks have more equations than it takes.
+    pub is_redundant: bool,
 }
 
 /// A point that is found from constraints to known points.
@@ -32,11 +34,25 @@ pub(crate) struct Block {
     pub form: Form,
     /// Whether the constraints leave it no freedom.
     pub is_determined: bool,
-    /// On which side of the singular pose it was last accepted: the sign of the angle between
-    /// its first two rows; 0 before that.
-    pub side: f64,
-    /// The same for the pose that is tried.
-    pub next_side: f64,
+    /// On which side of the singular pose it was last accepted.
+    pub side: Side,
+    /// The same for the pose that was tried last.
+    pub next_side: Side,
+}
+
+/// On which side of the singular pose a point is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Side {
+    /// The sine of the angle between its first row and another; 0 where nothing is known.
+    pub sine: f64,
+    /// Which other one: the second, or of more the one that is farthest from in line with the first.
+    pub other: u32,
+}
+
+impl Default for Side {
+    fn default() -> Self {
+        Self { sine: 0.0, other: 1 }
+    }
 }
 
 /// The forms of a block that are solved faster than by adding up rows.
@@ -80,6 +96,7 @@ impl Plan {
             if search.is_known[p as usize] || search.n_firm_rows(constraints, p) < 2 {
                 continue;
             }
+            plan.is_redundant |= search.n_firm_rows(constraints, p) > 2;
             let ready = search.take(p);
             plan.push(constraints, p, &ready, true);
             plan.blocks.last_mut().expect("just pushed").form = form(constraints, &ready, p);
@@ -102,7 +119,7 @@ impl Plan {
         self.constraints.extend(which);
         let end = self.constraints.len() as u32;
         let n_wheels = which.iter().filter(|&&c| all[c as usize].traits().is_wheel).count() as u32;
-        let (side, next_side, form) = (0.0, 0.0, Form::Any);
+        let (side, next_side, form) = (Side::default(), Side::default(), Form::Any);
         let block = Block { point, first, end, n_wheels, form, is_determined, side, next_side };
         self.blocks.push(block);
     }

@@ -1,6 +1,6 @@
 //! One point found from constraints to known points.
 
-use super::decomposition::{Block, Form};
+use super::decomposition::{Block, Form, Side};
 use crate::constraint::{Constraint, ConstraintKind, Point, PointIdx, Row, Vector};
 use crate::solve::method::Limits;
 use crate::solve::report::Counters;
@@ -32,9 +32,12 @@ pub(crate) struct Found {
     /// How far the point is from where it started, or from where the first step led if the
     /// start was no prediction.
     pub correction: f64,
-    /// On which side of the singular pose it is: the sine of the angle between the first two
-    /// gradients.
-    pub side: f64,
+    /// On which side of the singular pose it is, by the rows that told the side before.
+    pub sine: f64,
+    /// The same by the rows that tell it best now.
+    pub side: Side,
+    /// How far from here the other place is where its constraints hold, divided by the sine, squared.
+    pub apart_squared: f64,
 }
 
 /// The rows of a block as they depend on its point, added up.
@@ -48,12 +51,21 @@ struct Sum {
     fy: f64,
     worst: f64,
     n_rows: u32,
-    /// The first active gradient; then the cross product with the second.
-    first: Option<Vector>,
-    side: f64,
+    /// The first active gradient, and which other one told the side before.
+    first: Vector,
+    other: u32,
+    /// The cross product of the two, and the largest with any.
+    sine: f64,
+    side: Side,
+    /// The shortest distance to the other end of a bar.
+    shortest: f64,
 }
 
 impl Sum {
+    fn new(other: u32) -> Self {
+        Self { other, shortest: f64::INFINITY, ..Self::default() }
+    }
+
     #[inline]
     fn add(&mut self, row: &Row, point: PointIdx) {
         if !row.is_active {
@@ -80,12 +92,18 @@ impl Sum {
         self.fx += g.x * f;
         self.fy += g.y * f;
         self.worst = self.worst.max(f.abs());
-        self.n_rows += 1;
-        match self.first {
-            None => self.first = Some(g),
-            Some(first) if self.side == 0.0 => self.side = first.cross(g),
-            Some(_) => {}
+        if self.n_rows == 0 {
+            self.first = g;
+        } else {
+            let sine = self.first.cross(g);
+            if self.n_rows == self.other {
+                self.sine = sine;
+            }
+            if sine.abs() > self.side.sine.abs() {
+                self.side = Side { sine, other: self.n_rows };
+            }
         }
+        self.n_rows += 1;
     }
 
     /// The Gauss-Newton step, damped by `mu` where the rows are nearly in line. A single row
@@ -103,12 +121,16 @@ impl Sum {
 }
 
 /// Adds up the rows of a block at a pose.
-fn evaluate(p: PointIdx, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum {
-    let mut sum = Sum::default();
+fn evaluate(block: &Block, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum {
+    let p = block.point;
+    let mut sum = Sum::new(block.side.other);
     for &c in which {
         let constraint = &all[c as usize];
         let felt = match constraint {
-            Constraint::Length(bar) => bar.felt_by(p, x),
+            Constraint::Length(bar) => {
+                sum.shortest = sum.shortest.min(bar.bounds.lo);
+                bar.felt_by(p, x)
+            }
             Constraint::Glider(glider) => glider.felt_by(p, x),
             Constraint::Equal(equal) => equal.felt_by(p, x),
             _ => None,
@@ -122,8 +144,12 @@ fn evaluate(p: PointIdx, which: &[u32], all: &[Constraint], x: &[Point]) -> Sum 
 }
 
 /// The side of the singular pose a block is on, at a pose.
-pub(crate) fn side(block: &Block, which: &[u32], all: &[Constraint], x: &[Point]) -> f64 {
-    if block.form == Form::Assignment { 0.0 } else { evaluate(block.point, which, all, x).side }
+pub(crate) fn side(block: &Block, which: &[u32], all: &[Constraint], x: &[Point]) -> Side {
+    if block.form == Form::Assignment {
+        Side::default()
+    } else {
+        evaluate(block, which, all, x).side
+    }
 }
 
 /// Puts the point of a block where its constraints `which` say; none if it is not near.
@@ -146,7 +172,9 @@ pub(crate) fn find(
             x[p as usize] = assign(p, &all[which[0] as usize], x).filter(|at| at.is_finite())?;
             let d = x[p as usize] - reference;
             let correction = if is_predicted { d.x.abs().max(d.y.abs()) } else { 0.0 };
-            return Some(Found { worst: 0.0, n_steps: 0, correction, side: 0.0 });
+            let (side, apart_squared) = (Side::default(), f64::INFINITY);
+            let (worst, n_steps, sine) = (0.0, 0, 0.0);
+            return Some(Found { worst, n_steps, correction, sine, side, apart_squared });
         }
         Form::Dyad(others) if is_predicted => {
             let lengths = [which[0], which[1]].map(|c| length(&all[c as usize]));
@@ -159,7 +187,7 @@ pub(crate) fn find(
         }
         Form::Dyad(_) | Form::Any => {}
     }
-    let mut sum = evaluate(p, which, all, x);
+    let mut sum = evaluate(block, which, all, x);
     let mut n_steps = 0;
     while sum.worst > limits.tolerance || sum.worst.is_nan() {
         let d = sum.step(DAMPING * (sum.worst / limits.size).min(1.0) + FLOOR);
@@ -174,7 +202,7 @@ pub(crate) fn find(
             reference = x[p as usize];
         }
         let before = sum.worst;
-        sum = evaluate(p, which, all, x);
+        sum = evaluate(block, which, all, x);
         work.evaluations += which.len() as u64;
         work.wheel_evaluations += u64::from(block.n_wheels);
         if sum.worst > (SLOWEST * before).max(limits.tolerance) {
@@ -183,7 +211,9 @@ pub(crate) fn find(
     }
     let d = x[p as usize] - reference;
     let correction = d.x.abs().max(d.y.abs());
-    Some(Found { worst: sum.worst, n_steps, correction, side: sum.side })
+    let apart = 2.0 * sum.shortest.min(limits.size);
+    let Sum { worst, sine, side, .. } = sum;
+    Some(Found { worst, n_steps, correction, sine, side, apart_squared: apart * apart })
 }
 
 /// The place of `p` that satisfies a linear vector equation.
@@ -241,13 +271,17 @@ fn meet(
         let d = (w * (f * l) - v * (h * m)).perp() / side;
         at += d;
         let squared = d.norm_squared();
-        let shortest = l.min(m) - squared.sqrt();
+        let shortest = if l < m { l } else { m } - squared.sqrt();
         let left = 0.5 * squared / shortest;
         if shortest > 0.0 && left <= limits.tolerance {
             let moved = at - start;
-            let correction = moved.x.abs().max(moved.y.abs());
-            let side = side / (l * m);
-            return Some((at, Found { worst: left, n_steps, correction, side }));
+            let (x, y) = (moved.x.abs(), moved.y.abs());
+            let correction = if x > y { x } else { y };
+            let sine = side / (l * m);
+            let apart_squared = 4.0 * (l * m) * (l * m) / (v - w).norm_squared();
+            let side = Side { sine, other: 1 };
+            let found = Found { worst: left, n_steps, correction, sine, side, apart_squared };
+            return Some((at, found));
         }
     }
     None

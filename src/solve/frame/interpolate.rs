@@ -1,5 +1,6 @@
 //! What drives an island in a frame, between its beginning and its end.
 
+use super::motion::{self, Rates};
 use crate::constraint::{Constraint, ConstraintKind, Field, Jet, Point, Real, Turns, Vector};
 use crate::solve::island::Island;
 use crate::solve::velocity;
@@ -39,14 +40,15 @@ impl Ends {
     }
 
     /// Velocities and accelerations of the free points at the present pose, per frame.
-    pub fn motion(&self, island: &mut Island) -> Vec<[Vector; 2]> {
+    pub fn motion(&self, island: &mut Island) -> Vec<Rates> {
         let n_free = island.n_free;
         let drive = |c: usize, field: Field, value: f64| self.rate(c, field, value);
         let hand = |p: usize| {
             let of_point = self.points.iter().find(|(q, ..)| *q as usize == p);
             of_point.map_or(Vector::ZERO, |(_, before, after)| *after - *before)
         };
-        let mut motion = velocity::motion(island, &drive, &hand);
+        let mut motion = motion::point_by_point(island, &drive, &hand)
+            .unwrap_or_else(|| velocity::motion(island, &drive, &hand));
         motion.truncate(n_free);
         motion
     }

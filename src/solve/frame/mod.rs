@@ -7,6 +7,7 @@ pub mod branch;
 pub mod decomposition;
 pub mod dyad;
 pub mod interpolate;
+pub mod motion;
 pub mod nearest;
 pub mod predict;
 pub mod pull;

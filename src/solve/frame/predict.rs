@@ -6,6 +6,7 @@ use super::attempt::{Attempt, attempt, motion_between, motion_since};
 use super::{settle, substep};
 use crate::constraint::Point;
 use crate::solve::island::Island;
+use crate::solve::island::sides::{NEARLY_SINGULAR, SINGULAR};
 use crate::solve::method::newton;
 use crate::solve::method::{Limits, Outcome, Pose};
 use crate::solve::report::{Counters, Status};
@@ -16,18 +17,32 @@ use crate::solve::velocity;
 /// and expecting them to go on makes them grow.
 const WELL_EXPECTED: f64 = 1e-4;
 
-/// On what is nearer to its singular pose than this, as the sine of an angle or as a volume, errors
+/// On what is nearer to its singular pose than this, as the sine of an angle or a pivot, errors
 /// grow more than fivefold.
 const SENSITIVE: f64 = 0.2;
 /// Position errors are larger than the residual over that sine by no more than this, through the
 /// points that depend on each other: what cannot be the largest of a run is not worked out.
 const ROUGHLY: f64 = 10.0;
 
+/// How many poses before the present one an expectation of full degree is made from.
+const WELL_KNOWN: usize = 3;
+/// A point is where it was expected if it was corrected by no more than this part of the way to the
+/// other place where its constraints hold, and if that place is so near that it might be there, by
+/// no more than the second.
+const DOUBT: f64 = 0.25;
+const NEAR_DOUBT: f64 = 1e-2;
+/// That place is near if it is no more than so many times as far away as a point went.
+const FAR: f64 = 4.0;
+/// The same for one that passed a singular pose. Two branches may come near there and not meet. If
+/// they are passed in a part e of the frame, four poses on one let a pose on the other expect with an
+/// error of more than 3 e^2 of the way by which the branches part in a frame.
+const LEAP: f64 = 1.5e-5;
+
 /// A tolerance of less than this part of the size is fine enough to follow any motion.
 const FINE: f64 = 1e-8;
 /// The same relative to the motion of a frame: expectations from four poses make 15 times as much of
-/// what they are off, and a correction of 30 percent is a surprise.
-const FINE_MOTION: f64 = 3e-3;
+/// what they are off, and next to another branch a correction of a percent is too much.
+const FINE_MOTION: f64 = 3e-4;
 
 /// The limits for following a motion. Poses that are off by as much as they move are no ground
 /// to expect the next one from: a frame would seem to need ever smaller steps.
@@ -48,28 +63,31 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
         return settle(island, limits, work);
     }
     let n_free = island.n_free;
-    island.measure_volumes(work);
+    island.measure_part_sides(work);
     island.history.begin(&island.x[..n_free], island.highest_degree());
-    // A motion that begins at a change point may go on along any branch.
-    let is_open = island.history.n_past() == 0 && island.is_singular();
+    // A motion that begins at a change point or at a dead point may go on along any branch.
+    let is_first = island.history.n_past() == 0;
+    let is_open = is_first && island.is_singular(SINGULAR);
+    let may_be_open = is_first && island.is_singular(NEARLY_SINGULAR);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {
         project_prediction(island, limits, work);
     }
     let near = following(island, limits);
-    if let Some(attempt) = attempt(island, is_predicted, &near, work)
+    let tried = attempt(island, is_predicted, &near, work);
+    if let Some(attempt) = tried
         && (island.has_velocities()
             || is_open
             || island.plan.is_linear()
-            || attempt.is_safe(motion_since(island, island.history.origin()), limits)
-                && island.watched_point_over().is_none())
+            || follows(island, &attempt, is_predicted, limits))
     {
         return accept(island, attempt, limits);
     }
+    let ends_in_singular = tried.is_some_and(|attempt| attempt.least_side < NEARLY_SINGULAR);
     island.x[..n_free].copy_from_slice(island.history.origin());
     let sides = island.sides();
     if !island.has_velocities()
-        && let Some(attempt) = substep::frame(island, &near, work)
+        && let Some(attempt) = substep::frame(island, ends_in_singular, &near, work)
     {
         return accept(island, attempt, limits);
     }
@@ -77,12 +95,41 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     island.set_sides(sides);
     island.x[..n_free].copy_from_slice(island.history.origin());
     let outcome = settle(island, limits, work);
-    if outcome.is_converged() && !is_open && !island.has_velocities() && !island.is_singular() {
+    if outcome.is_converged()
+        && !may_be_open
+        && !island.has_velocities()
+        && !island.is_singular(NEARLY_SINGULAR)
+    {
         // It could not be followed here: whatever side it is on, it may be another branch. At a
         // singular pose all of them meet.
         island.turned_over = island.turned_over.or_else(|| island.point_with_branches());
     }
     outcome
+}
+
+/// Whether the pose that was reached at once is the one that the motion leads to.
+fn follows(island: &Island, attempt: &Attempt, is_predicted: bool, limits: &Limits) -> bool {
+    let motion = motion_since(island, island.history.origin());
+    if !attempt.is_expected(motion, limits) || island.watched_point_over().is_some() {
+        return false;
+    }
+    if !is_predicted && attempt.nearest_squared.is_finite() {
+        return false;
+    }
+    let is_well_expected = island.history.n_past() == WELL_KNOWN;
+    if attempt.has_crossed {
+        return is_well_expected
+            && attempt.least_side >= NEARLY_SINGULAR
+            && attempt.leap <= LEAP
+            && attempt.doubt_squared <= NEAR_DOUBT * NEAR_DOUBT;
+    }
+    if attempt.nearest_squared < (FAR * motion) * (FAR * motion) {
+        is_well_expected
+            && attempt.doubt_squared <= NEAR_DOUBT * NEAR_DOUBT
+            && attempt.correction <= NEAR_DOUBT * motion
+    } else {
+        attempt.doubt_squared <= DOUBT * DOUBT
+    }
 }
 
 /// Solves a frame that does not follow from the one before, and notes what changed sides.

@@ -2,36 +2,43 @@
 //! and the present one, and each step is expected from the exact velocity and acceleration at its
 //! beginning.
 //!
-//! A step counts as understood if it ends near where it was expected, if the velocities at both of
-//! its ends fit the way between them, and if no singular pose may lie in it. What is not understood
-//! is divided. Through an exact change point the smooth motion changes the sign of the
-//! determinant however small the step, and its velocities fit; a kinked one and the other branch of
-//! two that come near do not.
+//! A step counts as understood if it ends much nearer to where it was expected than the other place
+//! where the constraints hold, and if the motions at both of its ends fit the way between them. What
+//! is not understood is divided. Through an exact change point the smooth motion changes the sign of
+//! the determinant, and its velocities fit far better; a kinked one and the other branch of two
+//! that come near do not.
 
 use super::attempt::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
 use super::interpolate::Ends;
+use super::motion::Rates;
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
-use crate::solve::island::sides::Sides;
+use crate::solve::island::sides::{NEARLY_SINGULAR, SINGULAR, Sides};
 use crate::solve::method::{Limits, newton};
 use crate::solve::report::Counters;
 
-/// The smallest step, as a part of the frame. A gap between two branches that is passed in
-/// less than this is not seen.
-const SMALLEST: f64 = 1.0 / 256.0;
-/// How far to leap over a pose that it hits exactly, in smallest steps.
-const LEAPS: [f64; 3] = [2.5, 4.0, 7.0];
+/// The smallest step, as a part of the frame.
+const SMALLEST: f64 = 1.0 / 65536.0;
+/// Steps of one frame before it counts as not to be followed.
+const MOST_STEPS: u32 = 500;
 /// After a step whose correction stayed below this part of its motion the next may be longer.
-const EASY: f64 = 0.01;
-/// The part of the way by which the velocities at its ends may miss it, by the trapezoidal rule: 0.6
-/// percent for a crank that turns by 15 degrees, everything where the motion goes on along another
-/// branch.
-const KINK: f64 = 0.05;
+const EASY: f64 = 0.05;
+/// The part of the way by which the motions at its ends may miss it: 0.3 percent for a crank that
+/// turns by 20 degrees, everything where the motion goes on along another branch.
+const KINK: f64 = 0.02;
+/// The same where the sign of the determinant changes. Next to a gap between two branches, passed in
+/// a part e of the step, the motions miss the way by e squared.
+const CROSSING: f64 = 1e-4;
+/// A correction may be this part of the way to the other place where the constraints hold.
+const CLEAR: f64 = 0.25;
 /// A correction of this part of the way, where the way is known from the frames before only, leads
 /// to another branch: the ways along two branches that cross differ by more than the longer one.
 const VAGUE: f64 = 0.75;
-/// How far before and beyond a singular pose at its end the motion of a frame is looked at.
-const NEXT_TO: f64 = 1.0 / 64.0;
+/// The part of a step that is tried after it. Not a half: a singular pose is often in the middle.
+const SHORTER: f64 = 0.45;
+/// How far before and beyond a singular pose at its end the motion of a frame is looked at: as far as
+/// it is understood, since the places next to it are the less well known the nearer they are.
+const NEXT_TO: [f64; 4] = [1.0 / 16.0, 1.0 / 64.0, 1.0 / 256.0, 1.0 / 1024.0];
 /// More iterations than this in a step near its solution: there is none.
 const MOST_ITERATIONS: u32 = 12;
 /// What a pose may be off, as a part of the size, so that steps of a part of a frame are understood.
@@ -119,14 +126,14 @@ fn lagrange(nodes: &[(f64, Vec<Point>)], degree: usize, t: f64) -> Vec<f64> {
 }
 
 /// Velocity and acceleration of the free points, per frame; none at a singular pose.
-type Motion = Option<Vec<[Vector; 2]>>;
+type Motion = Option<Vec<Rates>>;
 
 fn motion_at(island: &mut Island, ends: &Ends) -> Motion {
-    (!island.is_singular()).then(|| ends.motion(island))
+    (!island.is_singular(SINGULAR)).then(|| ends.motion(island))
 }
 
 /// Puts the points where their motion takes them in a part of the frame.
-fn follow(here: &[Point], motion: &[[Vector; 2]], degree: &[u8], h: f64, free: &mut [Point]) {
+fn follow(here: &[Point], motion: &[Rates], degree: &[u8], h: f64, free: &mut [Point]) {
     for (k, to) in free.iter_mut().enumerate() {
         let [v, a] = motion[k];
         // What has freedom left goes the shortest way, and has no motion of its own to go on with.
@@ -135,30 +142,25 @@ fn follow(here: &[Point], motion: &[[Vector; 2]], degree: &[u8], h: f64, free: &
     }
 }
 
-/// How far the velocities at both ends of a step miss the way between them: the farthest point,
-/// and by which part of the longest way.
-fn misfit(island: &Island, before: &[Point], motions: [&Motion; 2], h: f64) -> (u32, f64) {
+/// How far the motions at both ends of a step miss the way between them: the farthest point, and by
+/// which part of the longest way.
+///
+/// The way is that of the polynomial of degree 5 through both ends but for h^5 / 720 of the fifth
+/// derivative, the change of the velocity but for h^4 / 12 of the fourth.
+fn misfit(island: &Island, before: &[Point], motions: [&[Rates]; 2], h: f64) -> (u32, f64) {
+    let [first, last] = motions;
     let (mut way, mut off, mut point) = (0.0_f64, 0.0_f64, 0);
-    if let [Some(first), Some(last)] = motions {
-        for k in (0..island.n_free).filter(|&k| island.degree[k] > 1) {
-            let d = island.x[k] - before[k];
-            let missed = (d - (first[k][0] + last[k][0]) * (0.5 * h)).norm();
-            way = way.max(d.norm());
-            if missed > off {
-                (off, point) = (missed, k as u32);
-            }
+    for k in (0..island.n_free).filter(|&k| island.degree[k] > 1) {
+        let d = island.x[k] - before[k];
+        let ([v0, a0], [v1, a1]) = (first[k], last[k]);
+        let missed = (d - (v0 + v1) * (0.5 * h) - (a0 - a1) * (h * h / 12.0)).norm();
+        let kink = (v1 - v0 - (a0 + a1) * (0.5 * h)).norm() * h;
+        way = way.max(d.norm());
+        if missed.max(kink) > off {
+            (off, point) = (missed.max(kink), k as u32);
         }
     }
     (point, if way > 0.0 { off / way } else { 0.0 })
-}
-
-/// What a step may pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stride {
-    /// No singular pose, unless it is too short to be divided.
-    Short,
-    /// The singular pose that is known to be there.
-    Over,
 }
 
 /// A way through a frame.
@@ -171,50 +173,63 @@ struct Walk<'a> {
     t: f64,
     /// The step to be tried next.
     h: f64,
+    n_steps: u32,
     n_iterations: u32,
     last: Option<Attempt>,
 }
 
 impl<'a> Walk<'a> {
     fn new(island: &mut Island, ends: Ends, limits: Limits<'a>) -> Self {
-        let track = Track::new(island);
+        let mut track = Track::new(island);
         ends.interpolate(island, 0.0);
+        if let Some((_, here)) = track.nodes.last_mut() {
+            here.copy_from_slice(&island.x[..island.n_free]);
+        }
         let motion = motion_at(island, &ends);
-        Self { limits, ends, track, motion, t: 0.0, h: 0.5, n_iterations: 0, last: None }
+        let (n_steps, n_iterations) = (0, 0);
+        Self { limits, ends, track, motion, t: 0.0, h: 1.0, n_steps, n_iterations, last: None }
+    }
+
+    /// Goes the frame before once more, up to a little before its end: where that was next to a
+    /// singular pose, how the motion goes on from there shows in how it came. False if what drives
+    /// the island did not go as fast then.
+    fn begin_before(&mut self, island: &mut Island, work: &mut Counters) -> bool {
+        if island.history.n_past() == 0 {
+            return false;
+        }
+        self.ends.interpolate(island, -1.0);
+        let n_free = island.n_free;
+        island.x[..n_free].copy_from_slice(island.history.past(1));
+        let there = attempt(island, true, &self.limits, work);
+        if there.is_none_or(|there| there.correction > FINE * self.limits.size) {
+            return false;
+        }
+        island.keep_sides();
+        self.motion = motion_at(island, &self.ends);
+        self.t = -1.0;
+        let nodes = vec![(self.t, island.x[..n_free].to_vec())];
+        self.track = Track { nodes, has_past: false };
+        self.motion.is_some() && self.go(island, -NEXT_TO[0], work)
     }
 
     /// Goes on to an instant; false if the motion cannot be followed so far.
     fn go(&mut self, island: &mut Island, until: f64, work: &mut Counters) -> bool {
         while self.t < until {
             let to = if self.t + self.h >= until { until } else { self.t + self.h };
-            if self.step(island, to, Stride::Short, work) {
+            if self.step(island, to, work) {
                 continue;
             }
-            if self.limits.budget.is_spent() {
+            let h = to - self.t;
+            if self.limits.budget.is_spent() || self.n_steps > MOST_STEPS || h <= SMALLEST {
                 return false;
             }
-            if to - self.t <= SMALLEST {
-                if !self.leap(island, until, work) {
-                    return false;
-                }
-            } else {
-                self.h = 0.5 * (to - self.t);
-            }
+            self.h = SHORTER * h;
         }
         true
     }
 
-    /// Goes over a pose that the smallest step hits so exactly that no equation tells where the
-    /// points are; what comes after has to fit what was before.
-    fn leap(&mut self, island: &mut Island, until: f64, work: &mut Counters) -> bool {
-        LEAPS.into_iter().any(|n| {
-            let to = self.t + n * SMALLEST;
-            to <= until && self.step(island, to, Stride::Over, work)
-        })
-    }
-
     /// Takes a step if it is understood, or if there is none smaller.
-    fn step(&mut self, island: &mut Island, to: f64, stride: Stride, work: &mut Counters) -> bool {
+    fn step(&mut self, island: &mut Island, to: f64, work: &mut Counters) -> bool {
         let (n_free, h) = (island.n_free, to - self.t);
         self.ends.interpolate(island, to);
         let free = &mut island.x[..n_free];
@@ -227,32 +242,17 @@ impl<'a> Walk<'a> {
         };
         let tried = attempt(island, is_predicted, &self.limits, work);
         work.substeps += 1;
-        let is_smallest = h <= SMALLEST;
-        let way = motion_since(island, self.track.here());
-        let is_still = way <= NO_MOTION * self.limits.size;
-        let may_count = |step: &Attempt| {
-            is_smallest || stride == Stride::Over || step.is_safe(way, &self.limits)
-        };
-        if let Some(step) = tried.filter(may_count) {
+        self.n_steps += 1;
+        if let Some(step) = tried {
             let sides = island.sides();
             island.keep_sides();
-            let after = motion_at(island, &self.ends);
-            let (point, missed) = misfit(island, self.track.here(), [&self.motion, &after], h);
-            // Where the velocity is not known the frames before are all there is to go by, and
-            // they may have been shorter or longer.
-            let surprise = if self.motion.is_some() { SURPRISE } else { VAGUE };
-            let is_understood = is_still || missed <= KINK && step.correction <= surprise * way;
-            if is_understood || is_smallest {
-                if !is_understood {
-                    island.turned_over = island.turned_over.or(Some(point));
-                }
-                self.t = to;
-                self.motion = after;
+            if self.is_taken(island, &step, to) {
                 self.n_iterations += step.n_iterations;
                 self.last = Some(Attempt { n_iterations: self.n_iterations, ..step });
-                if step.correction <= EASY * way {
+                if step.correction <= EASY * motion_since(island, self.track.here()) {
                     self.h = (2.0 * h).max(self.h).min(1.0);
                 }
+                self.t = to;
                 if to != 1.0 {
                     island.accept_pose();
                 }
@@ -264,6 +264,40 @@ impl<'a> Walk<'a> {
         island.x[..n_free].copy_from_slice(self.track.here());
         false
     }
+
+    /// Whether the island goes on from the pose that a step led to.
+    fn is_taken(&mut self, island: &mut Island, step: &Attempt, to: f64) -> bool {
+        let h = to - self.t;
+        let is_smallest = h <= SMALLEST;
+        let way = motion_since(island, self.track.here());
+        let is_kept = !step.has_crossed && step.doubt_squared <= CLEAR * CLEAR;
+        let is_still = way <= NO_MOTION * self.limits.size;
+        // Where the velocity is not known the frames before are all there is to go by, and they may
+        // have been shorter or longer.
+        let is_known = self.motion.is_some();
+        let is_near = step.correction <= if is_known { SURPRISE } else { VAGUE } * way;
+        let may_fit = step.has_crossed || is_kept && (is_still || is_near);
+        if !may_fit && !is_smallest {
+            return false;
+        }
+        let after = motion_at(island, &self.ends);
+        let (mut point, mut is_understood) = (0, is_kept && is_still);
+        if let (false, Some(first), Some(last)) = (is_understood, &self.motion, &after) {
+            let missed;
+            (point, missed) = misfit(island, self.track.here(), [first, last], h);
+            is_understood =
+                if step.has_crossed { missed <= CROSSING } else { may_fit && missed <= KINK };
+        } else {
+            is_understood |= is_near && (to == 1.0 || !is_known);
+        }
+        if !is_understood && is_smallest {
+            island.turned_over = island.turned_over.or(Some(point));
+        }
+        if is_understood || is_smallest {
+            self.motion = after;
+        }
+        is_understood || is_smallest
+    }
 }
 
 /// A walk and its island, to come back to.
@@ -273,7 +307,9 @@ struct Checkpoint {
     states: Vec<(u32, Vec<f64>)>,
     track: Track,
     motion: Motion,
+    t: f64,
     n_iterations: u32,
+    turned_over: Option<u32>,
 }
 
 impl Checkpoint {
@@ -286,50 +322,82 @@ impl Checkpoint {
             states: states.collect(),
             track: walk.track.clone(),
             motion: walk.motion.clone(),
+            t: walk.t,
             n_iterations: walk.n_iterations,
+            turned_over: island.turned_over,
         }
     }
 
-    fn restore(self, island: &mut Island, walk: &mut Walk, t: f64) {
+    fn restore(&self, island: &mut Island, walk: &mut Walk) {
         island.x[..self.x.len()].copy_from_slice(&self.x);
-        island.set_sides(self.sides);
+        island.set_sides(self.sides.clone());
         for (c, state) in &self.states {
             island.constraints[*c as usize].set_state(state);
         }
-        let Self { track, motion, n_iterations, .. } = self;
-        (walk.track, walk.motion, walk.n_iterations, walk.t) = (track, motion, n_iterations, t);
+        (walk.track, walk.motion) = (self.track.clone(), self.motion.clone());
+        (walk.n_iterations, walk.n_steps) = (self.n_iterations, 0);
+        (walk.t, walk.h) = (self.t, 1.0);
+        island.turned_over = self.turned_over;
     }
 }
 
 /// Solves a frame from the pose it begins with; none if the motion cannot be followed. The
 /// values of all constraints are those at the end of the frame afterwards.
-pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -> Option<Attempt> {
+pub(crate) fn frame(
+    island: &mut Island,
+    ends_in_singular: bool,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Option<Attempt> {
     let tolerance = limits.tolerance.min(FINE * limits.size);
     let n_iterations = limits.n_iterations.min(MOST_ITERATIONS);
     let limits = Limits { tolerance, n_iterations, ..*limits };
     let ends = Ends::of_frame(island);
+    if island.history.n_past() == 0 && island.residual * limits.size > tolerance {
+        // Of a pose that is off by as much as a step is long the motion tells nothing.
+        ends.interpolate(island, 0.0);
+        island.with_workspace(|workspace, pose, _| {
+            newton::solve_near(workspace, pose, &limits, work)
+        });
+    }
     let mut walk = Walk::new(island, ends, limits);
-    let next_to = 1.0 - NEXT_TO;
-    let is_next_to = walk.go(island, next_to, work);
-    let before = is_next_to.then(|| Checkpoint::new(island, &walk));
-    if is_next_to && walk.go(island, 1.0, work) && walk.motion.is_some() {
-        return walk.last;
+    if island.is_singular(NEARLY_SINGULAR) {
+        let begin = Checkpoint::new(island, &walk);
+        if !walk.begin_before(island, work) {
+            begin.restore(island, &mut walk);
+        }
+    }
+    let mut direct = None;
+    if !ends_in_singular {
+        let begin = Checkpoint::new(island, &walk);
+        if walk.go(island, 1.0, work) {
+            if !island.is_singular(NEARLY_SINGULAR) {
+                return walk.last;
+            }
+            direct = walk.last.zip(Some(Checkpoint::new(island, &walk)));
+        }
+        if walk.t >= 1.0 - NEXT_TO[0] {
+            begin.restore(island, &mut walk);
+        }
     }
     // It ends in a singular pose, or close to one, or where there is none.
-    if let Some(before) = before {
-        let last = walk.last.filter(|_| walk.t == 1.0);
-        let there = Checkpoint::new(island, &walk);
-        let turned_over = island.turned_over.take();
-        before.restore(island, &mut walk, next_to);
-        if let Some(attempt) = through(island, &mut walk, work) {
+    for next_to in NEXT_TO {
+        if walk.t >= 1.0 - next_to || !walk.go(island, 1.0 - next_to, work) {
+            break;
+        }
+        let before = Checkpoint::new(island, &walk);
+        if let Some(attempt) = through(island, &mut walk, next_to, work) {
             return Some(attempt);
         }
-        if let Some(last) = last {
-            there.restore(island, &mut walk, 1.0);
-            walk.ends.interpolate(island, 1.0);
-            island.turned_over = turned_over;
-            return Some(last);
-        }
+        before.restore(island, &mut walk);
+    }
+    if ends_in_singular && walk.go(island, 1.0, work) {
+        return walk.last;
+    }
+    if let Some((last, there)) = direct {
+        there.restore(island, &mut walk);
+        walk.ends.interpolate(island, 1.0);
+        return Some(last);
     }
     walk.ends.interpolate(island, 1.0);
     walk.ends.restore_states(island);
@@ -339,15 +407,19 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
 /// Solves a frame that ends in a singular pose, where the equations do not say where the points
 /// are but the motion does: from a little before to a little beyond, and in between by the
 /// polynomial of degree 5 that has places, velocities and accelerations of both.
-fn through(island: &mut Island, walk: &mut Walk, work: &mut Counters) -> Option<Attempt> {
+fn through(
+    island: &mut Island,
+    walk: &mut Walk,
+    next_to: f64,
+    work: &mut Counters,
+) -> Option<Attempt> {
     let (here, before) = (walk.track.here().to_vec(), walk.motion.take()?);
     walk.motion = Some(before.clone());
-    walk.h = 2.0 * NEXT_TO;
-    if !walk.step(island, 1.0 + NEXT_TO, Stride::Over, work) || island.turned_over.is_some() {
+    if !walk.step(island, 1.0 + next_to, work) {
         return None;
     }
     let (there, after) = (walk.track.here(), walk.motion.as_ref()?);
-    let h = 2.0 * NEXT_TO;
+    let h = 2.0 * next_to;
     for k in 0..island.n_free {
         let ([v0, a0], [v1, a1]) = (before[k], after[k]);
         let middle = here[k] + (there[k] - here[k]) * 0.5;
@@ -361,6 +433,7 @@ fn through(island: &mut Island, walk: &mut Walk, work: &mut Counters) -> Option<
         return None;
     }
     island.update_sides();
+    island.measure_part_sides(work);
     island.sides_are_next();
     let n_iterations = walk.n_iterations + outcome.n_iterations;
     Some(Attempt {

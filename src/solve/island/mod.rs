@@ -14,7 +14,7 @@ pub mod workspaces;
 use std::sync::{Arc, OnceLock};
 
 use super::frame::branch::Watch;
-use super::frame::decomposition::Plan;
+use super::frame::decomposition::{Plan, Side};
 use super::method::spectrum::Spectrum;
 use super::method::{Limits, Workspace};
 use super::report::{Budget, Status};
@@ -361,7 +361,7 @@ impl Island {
             block.side = block.next_side;
         }
         self.watch.update(&self.x);
-        self.watch.keep_volumes();
+        self.watch.keep_part_sides();
     }
 
     /// Tells the constraints that this pose counts: angles are unwrapped from here on.
@@ -387,16 +387,20 @@ impl Island {
         }
     }
 
+    /// On which side of its singular pose a block is.
+    pub fn side_of_block(&self, k: usize) -> Side {
+        let block = &self.plan.blocks[k];
+        let which = &self.plan.constraints[block.first as usize..block.end as usize];
+        super::frame::dyad::side(block, which, &self.constraints, &self.x)
+    }
+
     /// Works out on which side of its singular pose each block is.
     pub fn update_sides(&mut self) {
         for k in 0..self.plan.blocks.len() {
-            let block = &self.plan.blocks[k];
-            let which = &self.plan.constraints[block.first as usize..block.end as usize];
-            let side = super::frame::dyad::side(block, which, &self.constraints, &self.x);
-            self.plan.blocks[k].side = side;
+            self.plan.blocks[k].side = self.side_of_block(k);
         }
         self.watch.update(&self.x);
-        self.watch.forget_volumes();
+        self.watch.forget_part_sides();
     }
 }
 

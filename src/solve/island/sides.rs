@@ -2,69 +2,78 @@
 
 use super::Island;
 use crate::constraint::PointIdx;
-use crate::solve::frame::branch::{FLAT, Volume};
+use crate::solve::frame::branch::{FLAT, PartSide};
+use crate::solve::frame::decomposition::Side;
 
 use crate::solve::method::Pose;
 use crate::solve::report::Counters;
 
-/// A pose this near to a singular one counts as singular: velocities come from squares, of which a
-/// ten thousandth is too near to what is added to them.
-const SINGULAR: f64 = 3e-4;
+/// A pose this near to a singular one counts as next to it: what the tolerance leaves open is a place
+/// that much less well known.
+pub(crate) const NEARLY_SINGULAR: f64 = 3e-4;
+/// And this near it counts as singular: rounding leaves open on which side of it the pose is.
+pub(crate) const SINGULAR: f64 = 1e-6;
 
 /// On which side everything is.
+#[derive(Clone)]
 pub(crate) struct Sides {
-    /// Of each block, then of each watched triangle.
-    sides: Vec<f64>,
-    volumes: Vec<Option<Volume>>,
+    blocks: Vec<Side>,
+    /// Of each watched triangle.
+    triangles: Vec<f64>,
+    parts: Vec<Option<PartSide>>,
 }
 
 impl Island {
-    /// Works out the volumes of the parts at the present pose, where they are not known.
-    pub fn measure_volumes(&mut self, work: &mut Counters) {
-        if self.watch.knows_volumes || self.plan.is_complete() {
+    /// Works out on which side the parts are at the present pose, where they are not known.
+    pub fn measure_part_sides(&mut self, work: &mut Counters) {
+        if self.watch.knows_part_sides || self.plan.is_complete() {
             return;
         }
         let mut workspaces = self.take_part_workspaces();
         for (k, workspace) in workspaces.iter_mut().enumerate() {
             let pose = Pose { constraints: &self.constraints, x: &mut self.x };
             workspace.evaluate(&pose, work);
-            self.watch.volumes[k] = Volume::of(&workspace.equations, &workspace.rows);
+            self.watch.part_sides[k] = PartSide::of(&workspace.equations, &workspace.rows);
         }
         self.part_workspaces = workspaces;
-        self.watch.knows_volumes = true;
+        self.watch.knows_part_sides = true;
     }
 
-    /// Whether the present pose is singular, or too near to tell: no velocity is exact there.
-    pub fn is_singular(&self) -> bool {
+    /// Whether the last pose that counted is as near to a singular one as that.
+    pub fn is_singular(&self, nearness: f64) -> bool {
         let blocks = self.plan.blocks.iter().filter(|block| block.has_branches());
-        let sides = blocks.map(|block| block.side);
-        let volumes = self.watch.volumes.iter().flatten().map(|volume| volume.value);
-        sides.chain(volumes).any(|side| side.abs() < SINGULAR)
+        let sides = blocks.map(|block| block.side.sine);
+        let part_sides = self.watch.part_sides.iter().flatten().map(|part_side| part_side.value);
+        sides.chain(part_sides).any(|side| side.abs() < nearness)
     }
 
     /// A point that has more than one place where its constraints hold.
     pub fn point_with_branches(&self) -> Option<PointIdx> {
         let block = self.plan.blocks.iter().find(|block| block.has_branches());
         let of_part = || {
-            let parts = self.plan.rest.iter().zip(&self.watch.volumes);
-            parts.filter(|(_, volume)| volume.is_some()).find_map(|(part, _)| part.points.first())
+            let parts = self.plan.rest.iter().zip(&self.watch.part_sides);
+            parts
+                .filter(|(_, part_side)| part_side.is_some())
+                .find_map(|(part, _)| part.points.first())
         };
         block.map(|block| block.point).or_else(|| of_part().copied())
     }
 
     /// On which side each block and each watched point is.
     pub fn sides(&self) -> Sides {
-        let blocks = self.plan.blocks.iter().map(|block| block.side);
-        let sides = blocks.chain(self.watch.sides.iter().copied()).collect();
-        Sides { sides, volumes: self.watch.volumes.clone() }
+        Sides {
+            blocks: self.plan.blocks.iter().map(|block| block.side).collect(),
+            triangles: self.watch.sides.clone(),
+            parts: self.watch.part_sides.clone(),
+        }
     }
 
     /// Puts sides back.
     pub fn set_sides(&mut self, sides: Sides) {
-        self.watch.volumes = sides.volumes;
-        let mut sides = sides.sides.into_iter();
-        self.plan.blocks.iter_mut().zip(&mut sides).for_each(|(block, side)| block.side = side);
-        self.watch.sides.iter_mut().zip(&mut sides).for_each(|(to, side)| *to = side);
+        let blocks = self.plan.blocks.iter_mut();
+        blocks.zip(sides.blocks).for_each(|(block, side)| block.side = side);
+        self.watch.part_sides = sides.parts;
+        self.watch.sides = sides.triangles;
     }
 
     /// A watched point that is on the other side than at the last pose that counted. Points
@@ -75,15 +84,20 @@ impl Island {
 
     /// A point that is on the other side than it was.
     pub fn changed_since(&self, before: &Sides) -> Option<PointIdx> {
-        let now = self.sides();
-        let blocks = self.plan.blocks.iter();
-        let blocks = blocks.map(|block| block.is_determined.then_some(block.point));
-        let watched = self.watch.triangles.iter().map(|t| self.is_smooth().then_some(t[0]));
-        let mut both = before.sides.iter().zip(&now.sides).zip(blocks.chain(watched));
-        let over = |((a, b), point): ((&f64, &f64), Option<PointIdx>)| {
-            point.filter(|_| a * b < 0.0 && a.abs().min(b.abs()) > FLAT)
+        let is_over = |a: f64, b: f64| a * b < 0.0 && a.abs().min(b.abs()) > FLAT;
+        let mut blocks = self.plan.blocks.iter().zip(&before.blocks);
+        let block = blocks.find(|(block, before)| {
+            let now = block.side;
+            block.is_determined && now.other == before.other && is_over(before.sine, now.sine)
+        });
+        let triangle = || {
+            let both = before.triangles.iter().zip(&self.watch.sides);
+            let mut triangles = both.zip(&self.watch.triangles);
+            triangles.find(|((a, b), _)| is_over(**a, **b)).map(|(_, triangle)| triangle[0])
         };
-        both.find_map(over)
+        block
+            .map(|(block, _)| block.point)
+            .or_else(|| if self.is_smooth() { triangle() } else { None })
     }
 
     /// The present sides are those of the pose that was tried last.
@@ -91,6 +105,6 @@ impl Island {
         for block in &mut self.plan.blocks {
             block.next_side = block.side;
         }
-        self.watch.next_volumes.fill(None);
+        self.watch.next_part_sides.copy_from_slice(&self.watch.part_sides);
     }
 }

@@ -1,0 +1,201 @@
+//! Velocities and accelerations at a pose, point by point in the order in which they are found: no
+//! squares are made of the rows, so they are exact next to a singular pose too.
+
+use super::decomposition::Part;
+use crate::constraint::{Constraint, ConstraintKind, Field, Jet, PointIdx, Vec2, Vector};
+use crate::linalg::{MOST_UNKNOWNS, Square};
+use crate::solve::island::Island;
+
+/// Velocity and acceleration of a point.
+pub(crate) type Rates = [Vector; 2];
+
+/// Velocity and acceleration of each point of an island at a solution: `drive` gives the rates of
+/// the values of a constraint, `hand` the velocity of a frozen point. None where they are not
+/// determined by as many equations as there are coordinates.
+pub(crate) fn point_by_point(
+    island: &Island,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    hand: &impl Fn(usize) -> Vector,
+) -> Option<Vec<Rates>> {
+    let mut motion = vec![[Vector::ZERO; 2]; island.x.len()];
+    for (p, motion) in motion.iter_mut().enumerate().skip(island.n_free) {
+        motion[0] = hand(p);
+    }
+    let mut rows = Vec::new();
+    for block in &island.plan.blocks {
+        let which = &island.plan.constraints[block.first as usize..block.end as usize];
+        for order in 0..2 {
+            rows.clear();
+            let points = [block.point];
+            gather(island, which, &points, drive, &motion, order, &mut rows);
+            let own: Vec<_> = rows.iter().map(|row| (row.gradient[0].1, row.rhs)).collect();
+            motion[block.point as usize][order] = solve_one(&own, block.is_determined)?;
+        }
+    }
+    for part in &island.plan.rest {
+        for order in 0..2 {
+            solve_part(island, part, drive, &mut motion, order)?;
+        }
+    }
+    Some(motion)
+}
+
+/// Where a point is this near to its singular pose its rows do not tell how far off it is across
+/// them: that it was expected there does.
+const UNKNOWN: f64 = 1e-5;
+
+/// A row of some points, and what it times their unknown rates has to be.
+struct Row {
+    /// Of each point, by its place among them, the gradient.
+    gradient: [(usize, Vector); 4],
+    n_points: usize,
+    rhs: f64,
+}
+
+/// The rows of constraints, divided by the length of their gradients, for the rates of an order.
+fn gather(
+    island: &Island,
+    which: &[u32],
+    points: &[PointIdx],
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    motion: &[Rates],
+    order: usize,
+    rows: &mut Vec<Row>,
+) {
+    let place = |p: PointIdx| {
+        let (x, [v, a]) = (island.x[p as usize], motion[p as usize]);
+        Vec2 { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
+    };
+    let mut rhs = Vec::new();
+    for &c in which {
+        let constraint: &Constraint = &island.constraints[c as usize];
+        let field = |field: Field, value: f64| drive(c as usize, field, value);
+        rhs.clear();
+        constraint.equations(&place, &field, &mut |f: Jet| {
+            rhs.push(-if order == 0 { f.d } else { f.dd });
+        });
+        let mut r = 0;
+        constraint.jacobian(&island.x, &mut |row| {
+            let value = rhs[r];
+            r += 1;
+            if !row.is_active {
+                return;
+            }
+            let mut gradient = [(0, Vector::ZERO); 4];
+            let (mut n_points, mut squared) = (0, 0.0);
+            for (p, g) in row.terms() {
+                if let Ok(k) = points.binary_search(&p) {
+                    gradient[n_points] = (k, g);
+                    n_points += 1;
+                    squared += g.norm_squared();
+                }
+            }
+            if squared > 0.0 {
+                let scale = 1.0 / squared.sqrt();
+                gradient.iter_mut().for_each(|(_, g)| *g *= scale);
+                rows.push(Row { gradient, n_points, rhs: value * scale });
+            }
+        });
+    }
+}
+
+/// The rate of a single point: the shortest that comes nearest to what its rows ask for.
+fn solve_one(rows: &[(Vector, f64)], is_determined: bool) -> Option<Vector> {
+    let rate = match rows {
+        [] => Vector::ZERO,
+        &[(g, f)] => g * f,
+        &[(g, f), (h, k)] => Vector::new(f * h.y - k * g.y, k * g.x - f * h.x) / g.cross(h),
+        _ => {
+            let (mut xx, mut xy, mut yy, mut to) = (0.0, 0.0, 0.0, Vector::ZERO);
+            for &(g, rhs) in rows {
+                xx += g.x * g.x;
+                xy += g.x * g.y;
+                yy += g.y * g.y;
+                to += g * rhs;
+            }
+            Vector::new(yy * to.x - xy * to.y, xx * to.y - xy * to.x) / (xx * yy - xy * xy)
+        }
+    };
+    let is_known = rate.x.is_finite() && rate.y.is_finite();
+    if is_known { Some(rate) } else { (!is_determined).then_some(Vector::ZERO) }
+}
+
+/// The rates of the points of a part; none where its equations are not as many as the unknowns, or
+/// do not determine them.
+fn solve_part(
+    island: &Island,
+    part: &Part,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    motion: &mut [Rates],
+    order: usize,
+) -> Option<()> {
+    let n = 2 * part.points.len();
+    if n > MOST_UNKNOWNS {
+        return None;
+    }
+    let mut rows = Vec::with_capacity(n);
+    gather(island, &part.constraints, &part.points, drive, motion, order, &mut rows);
+    if rows.len() != n {
+        return None;
+    }
+    let mut square = Square::new(n);
+    for (r, row) in rows.iter().enumerate() {
+        square.set_right_side(r, row.rhs);
+        let to = square.row(r);
+        for (k, g) in &row.gradient[..row.n_points] {
+            to[2 * k] += g.x;
+            to[2 * k + 1] += g.y;
+        }
+    }
+    if square.eliminate() == 0.0 {
+        return None;
+    }
+    let rates = square.solution();
+    for (p, rate) in part.points.iter().zip(rates.as_chunks::<2>().0) {
+        motion[*p as usize][order] = Vector::new(rate[0], rate[1]);
+    }
+    rates.iter().all(|rate| rate.is_finite()).then_some(())
+}
+
+/// How far the farthest free point of an island that is found point by point is from where its
+/// constraints say, to first order.
+pub(crate) fn position_error(island: &Island) -> f64 {
+    // What is met to the bit may be off by the rounding of its value all the same.
+    let rounding = f64::EPSILON * island.size();
+    let mut off = vec![Vector::ZERO; island.x.len()];
+    let mut rows = Vec::new();
+    let mut worst = 0.0_f64;
+    for block in &island.plan.blocks {
+        let which = &island.plan.constraints[block.first as usize..block.end as usize];
+        let p = block.point;
+        rows.clear();
+        let mut push = |f: f64, g: Vector, known: f64| {
+            rows.push((g, -f.abs().max(rounding).copysign(f) - known));
+        };
+        for &c in which {
+            let constraint = &island.constraints[c as usize];
+            if let Constraint::Length(bar) = constraint
+                && let Some((f, g)) = bar.felt_by(p, &island.x)
+            {
+                let [a, b] = bar.points;
+                push(f, g, -g.dot(off[(if p == a { b } else { a }) as usize]));
+                continue;
+            }
+            constraint.jacobian(&island.x, &mut |row| {
+                let own = row.terms().find(|&(q, _)| q == p);
+                let length = own.map_or(0.0, |(_, g)| g.norm());
+                if let (true, Some((_, g))) = (row.is_active && length > 0.0, own) {
+                    let known: f64 = row.terms().map(|(q, g)| g.dot(off[q as usize])).sum();
+                    push(row.f / length, g / length, known / length);
+                }
+            });
+        }
+        if block.has_branches() && block.side.sine.abs() < UNKNOWN {
+            rows.truncate(1);
+        }
+        let step = solve_one(&rows, false).unwrap_or(Vector::ZERO);
+        off[p as usize] = step;
+        worst = worst.max(step.norm_squared());
+    }
+    worst.sqrt()
+}
