@@ -17,6 +17,11 @@ const FAR: f64 = 1e-3;
 const FIRST_ORDER_STEPS: u32 = 300;
 /// How far points are pushed to leave a saddle, relative to the size.
 const PUSH: f64 = 1e-4;
+/// The same where a solution is looked for before it is said that none is found: off a stop, and
+/// over to another branch.
+const FAR_PUSHES: [f64; 4] = [1e-2, -1e-2, 0.3, -0.3];
+/// So many constraints that hang together at most: each push takes a way down.
+const MOST_PUSHED: usize = 200;
 /// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
 /// between two looks at what they reached.
 const MOST_SWEPT: u32 = 200_000;
@@ -58,6 +63,9 @@ pub(crate) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Co
         let n_sweeps = MOST_SWEPT / island.constraints.len() as u32;
         let mut workspace = island.take_workspace();
         outcome = relax_first(island, &mut workspace, &start, outcome, n_sweeps, limits, work);
+        if !outcome.is_converged() && island.constraints.len() <= MOST_PUSHED {
+            outcome = from_elsewhere(island, &mut workspace, &start, outcome, limits, work);
+        }
         island.put_workspace(workspace);
         if outcome.is_converged() {
             mark_converged(island);
@@ -121,7 +129,7 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
         let width = extent(&island.x[..n_free]);
         if width > 0.0 && width <= SMALL_PART * limits.size {
             let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-            newton::refine(&mut workspace, &mut pose, work);
+            newton::refine(&mut workspace, &mut pose, limits, work);
         }
         best.worst = workspace.rows.worst;
         best.energy = workspace.rows.energy;
@@ -213,11 +221,7 @@ fn escape_saddle(
     let here: Box<[Point]> = island.x[..n_free].into();
     // At the end of a glider only one of two opposite ways leads anywhere.
     for way in [PUSH, -PUSH] {
-        // By place and not by handle, which a saved session gives anew.
-        for (k, x) in (0..).zip(&mut island.x[..n_free]) {
-            let push = Vector::new(noise(2 * k), noise(2 * k + 1));
-            *x += push * (way * limits.size);
-        }
+        push(&mut island.x[..n_free], way * limits.size);
         let after = descend(island, workspace, limits, work);
         if is_better(&after, &before) {
             return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
@@ -225,6 +229,42 @@ fn escape_saddle(
         island.x[..n_free].copy_from_slice(&here);
     }
     before
+}
+
+/// Looks for a solution from poses that the points are pushed to from the start; the pose stays as
+/// it is where there is none.
+fn from_elsewhere(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    before: Outcome,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let here: Box<[Point]> = island.x[..start.len()].into();
+    for far in FAR_PUSHES {
+        if limits.budget.is_spent() {
+            break;
+        }
+        island.x[..start.len()].copy_from_slice(start);
+        push(&mut island.x[..start.len()], far * limits.size);
+        let after = descend(island, workspace, limits, work);
+        if after.is_converged() {
+            nearest::approach(island, workspace, start, limits, work);
+            let n_iterations = before.n_iterations.saturating_add(after.n_iterations);
+            return workspace.outcome(after.status, n_iterations);
+        }
+    }
+    island.x[..start.len()].copy_from_slice(&here);
+    before
+}
+
+/// Moves each point in a direction of its own by up to this much.
+fn push(points: &mut [Point], most: f64) {
+    // By place and not by handle, which a saved session gives anew.
+    for (k, x) in (0..).zip(points) {
+        *x += Vector::new(noise(2 * k), noise(2 * k + 1)) * most;
+    }
 }
 
 /// Relaxes from the start, in so many sweeps, before the Newton steps: of the many best fits of a
