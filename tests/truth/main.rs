@@ -11,7 +11,7 @@ mod studies;
 /// for each rate in the order in which the study counts. What is mended is lowered here; 0 stays 0.
 const LIMITS: [(&str, u64, &[usize]); 23] = [
     ("verdict", 300, &[0; 5]),
-    ("sequences", 150, &[0; 3]),
+    ("sequences", 150, &[0; 4]),
     ("replaced", 256, &[0, 0]),
     ("line_of_centres", 200, &[0; 5]),
     ("reach", 200, &[0; 4]),

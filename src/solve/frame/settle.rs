@@ -357,13 +357,17 @@ fn from_elsewhere(
 ) -> Outcome {
     let here: Box<[Point]> = island.x[..start.len()].into();
     let mut nearest = Nearest::default();
+    // What does not end in a solution is not asked where it ends.
+    let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
+    let many = Limits { n_iterations, ..*limits };
     for far in FAR_PUSHES {
         if limits.budget.is_spent() {
             break;
         }
         island.x[..start.len()].copy_from_slice(start);
         push(&mut island.x[..start.len()], far * limits.size);
-        let after = descend(island, workspace, limits, work);
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        let after = newton::solve_near(workspace, &mut pose, &many, work);
         if after.is_converged() {
             nearest.add(island, workspace, start, after, limits, work);
         }

@@ -124,6 +124,10 @@ pub fn run(seeds: Range<u64>) -> Vec<Count> {
         "after any sequence, a solve: converged but wrong (violation over the tolerance)",
         "0",
     );
+    let mut screen = Count::new(
+        "after any statement: `check` calls a pose converged that is not (the same)",
+        "0",
+    );
     let mut refused = Count::new("sequences that end with a live value that there cannot be", "");
     for seed in seeds {
         let mut random = Random::new("sequence", seed);
@@ -135,6 +139,11 @@ pub fn run(seeds: Range<u64>) -> Vec<Count> {
             // A refusal changes nothing.
             if program.run(&text).is_ok() {
                 state = next;
+            }
+            let check = program.check();
+            if check.verdict == Some(Verdict::Converged) && !check.is_drawn_unsolved {
+                let off = state.off(&program.places(&state.scene.names()));
+                screen.add(seed, off > SLACK, off);
             }
             // A length that is measured on the pose may become less than 0 as points move.
             let Ok(Said { told, .. }) = program.run("step") else {
@@ -162,5 +171,5 @@ pub fn run(seeds: Range<u64>) -> Vec<Count> {
         }
         refused.add(seed, ends_early, 0.0);
     }
-    vec![frames, solves, refused]
+    vec![frames, solves, screen, refused]
 }
