@@ -372,17 +372,13 @@ fn from_elsewhere(
             nearest.add(island, workspace, start, after, limits, work);
         }
     }
-    match nearest.0 {
-        Some((_, outcome, x)) => {
-            island.x[..start.len()].copy_from_slice(&x);
-            let n_iterations = before.n_iterations.saturating_add(outcome.n_iterations);
-            Outcome { n_iterations, ..outcome }
-        }
-        None => {
-            island.x[..start.len()].copy_from_slice(&here);
-            before
-        }
-    }
+    let Some((_, outcome, x)) = nearest.0 else {
+        island.x[..start.len()].copy_from_slice(&here);
+        return before;
+    };
+    island.x[..start.len()].copy_from_slice(&x);
+    let n_iterations = before.n_iterations.saturating_add(outcome.n_iterations);
+    Outcome { n_iterations, ..outcome }
 }
 
 /// Of some solutions the one with the shortest way from the start: its length, how it was found, and
