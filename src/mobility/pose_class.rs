@@ -3,7 +3,7 @@
 use super::dependence::Dependence;
 use super::motions::{Random, motions};
 use super::projector::Projector;
-use super::system::{ConstraintSystem, UnitRows};
+use super::system::{ConstraintSystem, UnitRow, UnitRows};
 use crate::constraint::{ConstraintKind, Point, Vector};
 use nalgebra::{DMatrix, DVector};
 
@@ -102,9 +102,12 @@ pub fn goes_on(
     let first = moving().next().unwrap_or(Vector::ZERO);
     let width = moving().map(|p| (p - first).norm()).fold(0.0, f64::max);
     let size = if width > 0.0 { width } else { extent(scene, island) };
-    let held = island.rows.iter().flat_map(|row| scene.constraints[row.source.0].points());
-    let farthest = held.map(|&p| scene.x[p as usize].to_vector().norm()).fold(0.0, f64::max);
-    let exact = (8.0 * f64::EPSILON * farthest).max(1e-13 * size).max(island.worst());
+    // Row by row: to what rounding leaves of those of a large scene, small ones hold anywhere.
+    let holds = |there: &UnitRow| {
+        let here = island.rows.binary_search_by_key(&there.source, |row| row.source);
+        let here = here.map_or(0.0, |k| island.rows[k].f.abs());
+        there.f.abs() <= 10.0 * there.rounding.max(1e-13 * size).max(here)
+    };
     let motions = motions(projector, island.n_unknowns(), n_motions.min(MOST_FOLLOWED));
     let rows_at = |way: &[f64]| {
         let moves = scene.displacements(&island.points, way);
@@ -118,7 +121,7 @@ pub fn goes_on(
         let mut way: Vec<f64> = motion.iter().map(|v| v * h).collect();
         for _ in 0..MOST_STEPS {
             let there = rows_at(&way);
-            if there.worst() <= 10.0 * exact {
+            if there.rows.iter().all(holds) {
                 let along: f64 = way.iter().zip(motion.iter()).map(|(a, b)| a * b).sum();
                 return along >= 0.5 * h;
             }

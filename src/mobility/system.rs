@@ -26,6 +26,9 @@ pub struct UnitRow {
     pub f: f64,
     /// `f` divided by the value in the unit of the constraint.
     pub scale: f64,
+    /// What rounding leaves of `f`: each row's own, as one that holds points on a circle of a
+    /// million is known to a millionth of what another of the same scene is.
+    pub rounding: f64,
     points: SmallVec<[u32; 4]>,
     values: SmallVec<[f64; 8]>,
 }
@@ -51,6 +54,7 @@ impl UnitRow {
     /// Makes the row count `k` times.
     pub fn count(&mut self, k: f64) {
         self.f *= k;
+        self.rounding *= k;
         self.values.iter_mut().for_each(|value| *value *= k);
     }
 
@@ -220,6 +224,7 @@ impl ConstraintSystem<'_> {
             source,
             f: row.f * scale,
             scale,
+            rounding: self.rounding(row) * scale,
             points: SmallVec::new(),
             values: SmallVec::new(),
         };
@@ -231,6 +236,12 @@ impl ConstraintSystem<'_> {
             }
         }
         Some(unit)
+    }
+
+    /// What rounding of the coordinates leaves of a row's value.
+    fn rounding(&self, row: &Row) -> f64 {
+        let place = |p: PointIdx| self.x[p as usize].to_vector().norm();
+        8.0 * f64::EPSILON * row.terms().map(|(p, g)| g.norm() * place(p)).sum::<f64>()
     }
 
     /// The displacement of each point for a vector of unknowns.

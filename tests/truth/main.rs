@@ -10,21 +10,21 @@ mod studies;
 /// For each study how many seeds it takes, and how many wrong cases are known at most, one number
 /// for each rate in the order in which the study counts. What is mended is lowered here; 0 stays 0.
 const LIMITS: [(&str, u64, &[usize]); 23] = [
-    ("verdict", 300, &[0, 0, 0, 0, 1]),
-    ("sequences", 150, &[0, 0]),
+    ("verdict", 300, &[0; 5]),
+    ("sequences", 150, &[0; 4]),
     ("replaced", 256, &[0, 0]),
     ("line_of_centres", 200, &[0; 5]),
     ("reach", 200, &[0; 4]),
     ("contradictory", 120, &[0; 4]),
-    ("conflict", 60, &[1, 0, 0]),
+    ("conflict", 60, &[0; 3]),
     ("redundancy", 300, &[0, 0]),
-    ("least", 200, &[1, 1]),
+    ("least", 200, &[0, 0]),
     ("drags", 20, &[3, 0]),
     ("triads", 25, &[0; 9]),
     ("six_bars", 25, &[0; 9]),
     ("branches", 40, &[0; 12]),
     ("motor", 40, &[0, 0]),
-    ("arcs", 60, &[1, 6]),
+    ("arcs", 60, &[0, 0]),
     ("ranges", 100, &[0]),
     ("dead_points", 80, &[0, 0]),
     ("change_points", 20, &[0, 0]),
@@ -32,7 +32,7 @@ const LIMITS: [(&str, u64, &[usize]); 23] = [
     ("receipts", 60, &[0, 0, 1, 0]),
     ("looser", 20, &[0]),
     ("effects", 2, &[0]),
-    ("order", 60, &[56]),
+    ("order", 60, &[0]),
 ];
 
 /// A test for each study, and their names.

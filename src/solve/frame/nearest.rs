@@ -15,6 +15,10 @@ const LITTLE: f64 = 1e-2;
 /// A round that leaves more than this part of what there was goes slowly.
 const FAST: f64 = 0.25;
 const MOST_ROUNDS: u32 = 12;
+/// Angles, radians, that differ by no more than this are alike.
+const ALIKE: f64 = 1e-9;
+/// Each angle that may turn either way doubles the ways that are tried.
+const MOST_UNDECIDED: usize = 3;
 /// Lengths that differ by less than this part are the same.
 const ROUNDING: f64 = 1e-14;
 /// A way shorter than this part of the size is not looked at.
@@ -90,6 +94,61 @@ fn project(workspace: &mut Workspace, way: &mut [f64], work: &mut Counters) {
 
 fn norm(way: &[f64]) -> f64 {
     way.iter().map(|y| y * y).sum::<f64>().sqrt()
+}
+
+/// An angle that begins exactly between the two ways to turn it, and the one that would be taken.
+#[derive(Clone, Copy)]
+pub(crate) struct Undecided {
+    constraint: usize,
+    way: f64,
+}
+
+impl Undecided {
+    /// All of an island; none where they are too many to try all ways.
+    pub fn all(island: &Island) -> Vec<Self> {
+        let undecided = island.stateful.iter().filter_map(|&c| Self::of(island, c as usize));
+        let all: Vec<Self> = undecided.take(MOST_UNDECIDED + 1).collect();
+        if all.len() > MOST_UNDECIDED { Vec::new() } else { all }
+    }
+
+    /// A constraint that no pose has put on a side yet, if it is off alike from either.
+    fn of(island: &Island, constraint: usize) -> Option<Self> {
+        let as_is = &island.constraints[constraint];
+        if as_is.traits().is_wheel || as_is.state()? != [0.0] {
+            return None;
+        }
+        let [one, other] = [1.0, -1.0].map(|way| {
+            let mut decided = as_is.clone();
+            decided.set_state(&[way]);
+            decided.residual(&island.x)
+        });
+        let is_alike = one != other && (one + other).abs() <= ALIKE;
+        let way = if as_is.residual(&island.x) == one { 1.0 } else { -1.0 };
+        is_alike.then_some(Self { constraint, way })
+    }
+
+    /// Decides which of these turn the other way, by the bits of a number.
+    pub fn decide(all: &[Self], island: &mut Island, turned: usize) {
+        for (k, one) in all.iter().enumerate() {
+            let way = if turned >> k & 1 == 0 { one.way } else { -one.way };
+            island.constraints[one.constraint].set_state(&[way]);
+        }
+    }
+
+    /// None of these was ever turned.
+    pub fn release(all: &[Self], island: &mut Island) {
+        for one in all {
+            island.constraints[one.constraint].set_state(&[0.0]);
+        }
+    }
+}
+
+/// How long the way from a start to the present pose is, in the metric of the weights.
+pub(crate) fn distance(workspace: &Workspace, start: &[Point], x: &[Point]) -> f64 {
+    let (mut here, mut way) = (Vec::new(), Vec::new());
+    workspace.equations.gather(x, &mut here);
+    workspace.equations.way(start, &here, &mut way);
+    norm(&way)
 }
 
 /// Ranges that were left when a solve began, as they were.

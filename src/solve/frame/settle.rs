@@ -1,7 +1,8 @@
 //! A pose that does not follow from the one before: a first solve, a place out of reach, or
 //! the way back from there.
 
-use super::nearest::{self, Held};
+use super::attempt::motion_since;
+use super::nearest::{self, Held, Undecided};
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
 use crate::solve::method::coefficient::Coefficient;
@@ -11,12 +12,20 @@ use crate::solve::method::{Limits, Outcome, Pose, Workspace};
 use crate::solve::method::{conjugate_gradient, newton};
 use crate::solve::report::{Counters, Status};
 
+/// What went farther than this many times the size, or the distance to satisfaction that it started
+/// with, and did not arrive, does not.
+const OUT_OF_SIGHT: f64 = 1e3;
 /// A start this far off, relative to the size, is far: first-order steps first.
 const FAR: f64 = 1e-3;
 /// How many of them.
 const FIRST_ORDER_STEPS: u32 = 300;
 /// How far points are pushed to leave a saddle, relative to the size.
 const PUSH: f64 = 1e-4;
+/// The same where a solution is looked for before it is said that none is found: off a stop, and
+/// over to another branch.
+const FAR_PUSHES: [f64; 4] = [1e-2, -1e-2, 0.3, -0.3];
+/// So many constraints that hang together at most: each push takes a way down.
+const MOST_PUSHED: usize = 200;
 /// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
 /// between two looks at what they reached.
 const MOST_SWEPT: u32 = 200_000;
@@ -36,6 +45,13 @@ const MUCH_LESS: f64 = 1e-2;
 /// Where what moves is smaller than this part of the size, as on an arc of a radius of a million,
 /// solutions are refined beyond the tolerance.
 const SMALL_PART: f64 = 1e-3;
+/// A way of more than this many times what the start was off is looked at again, in steps that are
+/// this part as long, and so many times as many.
+const DETOUR: f64 = 2.0;
+const SMALL_STEPS: f64 = 0.1;
+const MORE_STEPS: u32 = 4;
+/// Ways whose lengths differ by no more than this part are as long.
+const SAME_WAY: f64 = 1e-9;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
 
@@ -58,6 +74,10 @@ pub(crate) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Co
         let n_sweeps = MOST_SWEPT / island.constraints.len() as u32;
         let mut workspace = island.take_workspace();
         outcome = relax_first(island, &mut workspace, &start, outcome, n_sweeps, limits, work);
+        outcome = in_sight(island, &mut workspace, &start, outcome, limits, work);
+        if !outcome.is_converged() && island.constraints.len() <= MOST_PUSHED {
+            outcome = from_elsewhere(island, &mut workspace, &start, outcome, limits, work);
+        }
         island.put_workspace(workspace);
         if outcome.is_converged() {
             mark_converged(island);
@@ -86,7 +106,7 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     let is_elsewhere = island.feasible.as_ref().is_some_and(|pose| *pose != start);
     let mut workspace = island.take_workspace();
     let mut best_is_from_feasible = false;
-    let mut best = first_descent(island, &mut workspace, &start, limits, work);
+    let mut best = either_way(island, &mut workspace, &start, limits, work);
     // What is reached from the last feasible pose does not depend on the way since then. It
     // counts unless it is worse: there and back ends where it began.
     if let Some(feasible) = island.feasible.take() {
@@ -118,10 +138,13 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     if best.is_converged() && !island.plan.is_linear() {
         let from = if best_is_from_feasible { island.feasible.take() } else { None };
         nearest::approach(island, &mut workspace, from.as_deref().unwrap_or(&start), limits, work);
+        if !best_is_from_feasible {
+            by_small_steps(island, &mut workspace, &start, best, limits, work);
+        }
         let width = extent(&island.x[..n_free]);
         if width > 0.0 && width <= SMALL_PART * limits.size {
             let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-            newton::refine(&mut workspace, &mut pose, work);
+            newton::refine(&mut workspace, &mut pose, limits, work);
         }
         best.worst = workspace.rows.worst;
         best.energy = workspace.rows.energy;
@@ -133,6 +156,39 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     best
 }
 
+/// Looks for a nearer solution by small steps from the start, where the present one is much farther
+/// away than what was off there: long steps may lead past the nearest of several.
+fn by_small_steps(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    found: Outcome,
+    limits: &Limits,
+    work: &mut Counters,
+) {
+    let here: Box<[Point]> = island.x[..start.len()].into();
+    let way = nearest::distance(workspace, start, &island.x);
+    island.x[..start.len()].copy_from_slice(start);
+    let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    workspace.evaluate(&pose, work);
+    let off = (2.0 * workspace.rows.energy).sqrt();
+    let mut nearest = Nearest(Some((way, found, here)));
+    if way > DETOUR * off {
+        let size = SMALL_STEPS * limits.size;
+        let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
+        let small = Limits { size, n_iterations, ..*limits };
+        let outcome = newton::solve_near(workspace, &mut pose, &small, work);
+        if outcome.is_converged() {
+            nearest.add(island, workspace, start, outcome, limits, work);
+        }
+    }
+    if let Some((_, _, x)) = nearest.0 {
+        island.x[..start.len()].copy_from_slice(&x);
+    }
+    let pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    workspace.evaluate(&pose, work);
+}
+
 /// The larger of width and height of some points.
 fn extent(points: &[Point]) -> f64 {
     let extent = |of: fn(&Point) -> f64| {
@@ -141,6 +197,35 @@ fn extent(points: &[Point]) -> f64 {
         hi - lo
     };
     extent(|p| p.x).max(extent(|p| p.y))
+}
+
+/// The way down from the start. Where angles begin exactly between two ways to turn, of all the
+/// ways that lead to a solution the shortest.
+fn either_way(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let undecided = Undecided::all(island);
+    let mut nearest = Nearest::default();
+    let n_ways = if undecided.is_empty() { 0 } else { 1 << undecided.len() };
+    for turned in 0..n_ways {
+        Undecided::decide(&undecided, island, turned);
+        island.x[..start.len()].copy_from_slice(start);
+        let outcome = first_descent(island, workspace, start, limits, work);
+        if outcome.is_converged() {
+            nearest.add(island, workspace, start, outcome, limits, work);
+        }
+    }
+    Undecided::release(&undecided, island);
+    let Some((_, outcome, x)) = nearest.0 else {
+        island.x[..start.len()].copy_from_slice(start);
+        return first_descent(island, workspace, start, limits, work);
+    };
+    island.x[..start.len()].copy_from_slice(&x);
+    outcome
 }
 
 /// The way down from the start; ranges that it begins outside of hold it to their stops if that
@@ -178,8 +263,45 @@ fn is_better(one: &Outcome, other: &Outcome) -> bool {
     }
 }
 
-/// Newton steps; where they do not arrive from afar, first-order steps and then again.
+/// The way down from the present pose, unless it leads out of sight.
 fn descend(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let start: Box<[Point]> = island.x[..island.n_free].into();
+    let outcome = descend_anywhere(island, workspace, limits, work);
+    in_sight(island, workspace, &start, outcome, limits, work)
+}
+
+/// Goes back to the start if what was reached is out of sight: the residual of an angle can fall for
+/// ever as its points go away, and what is reached on that way is no best fit.
+fn in_sight(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    outcome: Outcome,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let motion = motion_since(island, start);
+    if outcome.is_converged() || motion <= OUT_OF_SIGHT * limits.size {
+        return outcome;
+    }
+    let there: Box<[Point]> = island.x[..start.len()].into();
+    island.x[..start.len()].copy_from_slice(start);
+    let pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    workspace.evaluate(&pose, work);
+    if motion > OUT_OF_SIGHT * workspace.rows.worst {
+        return workspace.outcome(Status::Stalled, outcome.n_iterations);
+    }
+    island.x[..start.len()].copy_from_slice(&there);
+    outcome
+}
+
+/// Newton steps; where they do not arrive from afar, first-order steps and then again.
+fn descend_anywhere(
     island: &mut Island,
     workspace: &mut Workspace,
     limits: &Limits,
@@ -213,11 +335,7 @@ fn escape_saddle(
     let here: Box<[Point]> = island.x[..n_free].into();
     // At the end of a glider only one of two opposite ways leads anywhere.
     for way in [PUSH, -PUSH] {
-        // By place and not by handle, which a saved session gives anew.
-        for (k, x) in (0..).zip(&mut island.x[..n_free]) {
-            let push = Vector::new(noise(2 * k), noise(2 * k + 1));
-            *x += push * (way * limits.size);
-        }
+        push(&mut island.x[..n_free], way * limits.size);
         let after = descend(island, workspace, limits, work);
         if is_better(&after, &before) {
             return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
@@ -225,6 +343,75 @@ fn escape_saddle(
         island.x[..n_free].copy_from_slice(&here);
     }
     before
+}
+
+/// Looks for solutions from poses that the points are pushed to from the start, and takes the
+/// nearest; the pose stays as it is where there is none.
+fn from_elsewhere(
+    island: &mut Island,
+    workspace: &mut Workspace,
+    start: &[Point],
+    before: Outcome,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let here: Box<[Point]> = island.x[..start.len()].into();
+    let mut nearest = Nearest::default();
+    // What does not end in a solution is not asked where it ends.
+    let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
+    let many = Limits { n_iterations, ..*limits };
+    for far in FAR_PUSHES {
+        if limits.budget.is_spent() {
+            break;
+        }
+        island.x[..start.len()].copy_from_slice(start);
+        push(&mut island.x[..start.len()], far * limits.size);
+        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+        let after = newton::solve_near(workspace, &mut pose, &many, work);
+        if after.is_converged() {
+            nearest.add(island, workspace, start, after, limits, work);
+        }
+    }
+    let Some((_, outcome, x)) = nearest.0 else {
+        island.x[..start.len()].copy_from_slice(&here);
+        return before;
+    };
+    island.x[..start.len()].copy_from_slice(&x);
+    let n_iterations = before.n_iterations.saturating_add(outcome.n_iterations);
+    Outcome { n_iterations, ..outcome }
+}
+
+/// Of some solutions the one with the shortest way from the start: its length, how it was found, and
+/// where.
+#[derive(Default)]
+struct Nearest(Option<(f64, Outcome, Box<[Point]>)>);
+
+impl Nearest {
+    /// Takes in the solution that is the present pose.
+    fn add(
+        &mut self,
+        island: &mut Island,
+        workspace: &mut Workspace,
+        start: &[Point],
+        outcome: Outcome,
+        limits: &Limits,
+        work: &mut Counters,
+    ) {
+        nearest::approach(island, workspace, start, limits, work);
+        let way = nearest::distance(workspace, start, &island.x);
+        if self.0.as_ref().is_none_or(|(least, ..)| way < (1.0 - SAME_WAY) * least) {
+            let outcome = workspace.outcome(outcome.status, outcome.n_iterations);
+            self.0 = Some((way, outcome, island.x[..start.len()].into()));
+        }
+    }
+}
+
+/// Moves each point in a direction of its own by up to this much.
+fn push(points: &mut [Point], most: f64) {
+    // By place and not by handle, which a saved session gives anew.
+    for (k, x) in (0..).zip(points) {
+        *x += Vector::new(noise(2 * k), noise(2 * k + 1)) * most;
+    }
 }
 
 /// Relaxes from the start, in so many sweeps, before the Newton steps: of the many best fits of a
@@ -256,6 +443,7 @@ fn relax_first(
         }
     }
     let after = descend(island, workspace, limits, work);
+    let after = in_sight(island, workspace, start, after, limits, work);
     if is_better(&after, &before) {
         return Outcome { n_iterations: before.n_iterations + after.n_iterations, ..after };
     }

@@ -11,6 +11,7 @@ pub mod snapshot;
 pub mod structure;
 pub mod workspaces;
 
+use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use super::frame::branch::Watch;
@@ -29,8 +30,8 @@ use structure::Structure;
 
 /// A set of points that are not frozen, connected by constraints, and the frozen points that
 /// these constraints hold too. Points have local indices here: free ones first, each group by
-/// handle; constraints lie by kind, then points, then handle. So an island does not know in
-/// what order its constraints were made.
+/// handle; constraints lie by kind, then points, then values that do not change by themselves. So an
+/// island does not know in what order its constraints were made.
 #[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(crate) struct Island {
     /// The handles of the points, by local index.
@@ -106,6 +107,35 @@ pub(crate) struct Member<'a> {
     pub constraint: &'a Constraint,
     /// Its own coefficient.
     pub rho: Option<f64>,
+    /// Whether its values change with time or with other values.
+    pub is_live: bool,
+}
+
+impl<'a> Member<'a> {
+    /// A constraint of the world, by its handle.
+    pub fn new(id: ConstraintId, record: &'a Record) -> Self {
+        let is_live = !record.drivers().is_empty();
+        Self { id, constraint: &record.constraint, rho: record.rho(), is_live }
+    }
+
+    /// What tells it from another one of its kind on the same points for good; nothing where that
+    /// changes by itself.
+    fn rank(&self) -> Vec<u64> {
+        let mut rank = vec![self.rho.map_or(0, f64::to_bits)];
+        if !self.is_live && self.constraint.traits().carried == Carried::Nothing {
+            self.constraint.content(&mut |word| rank.push(word));
+        }
+        rank
+    }
+
+    fn order(&self, other: &Self) -> Ordering {
+        let (one, two) = (self.constraint, other.constraint);
+        let kinds = one.kind().cmp(&two.kind());
+        kinds
+            .then_with(|| one.points().cmp(two.points()))
+            .then_with(|| self.rank().cmp(&other.rank()))
+            .then_with(|| self.id.cmp(&other.id))
+    }
 }
 
 /// The evaluations of a constraint that a first visit is expected to make.
@@ -118,11 +148,7 @@ impl Island {
         at: impl Fn(PointId) -> Point,
         w: impl Fn(PointId) -> f64,
     ) -> Self {
-        members.sort_by(|a, b| {
-            let (one, other) = (a.constraint, b.constraint);
-            let kinds = one.kind().cmp(&other.kind());
-            kinds.then_with(|| one.points().cmp(other.points())).then_with(|| a.id.cmp(&b.id))
-        });
+        members.sort_by(Member::order);
         let mut handles: Vec<u32> =
             members.iter().flat_map(|m| m.constraint.points().iter().copied()).collect();
         handles.sort_unstable();
@@ -196,8 +222,16 @@ impl Island {
     }
 
     /// Whether a record differs from the constraint `c` that stands here for it at most in its
-    /// values: same points, equality or not as before, same coefficient.
+    /// values: same points, equality or not as before, same coefficient; and it stands alone here,
+    /// as where there are two of a kind on the same points their values tell which comes first.
     pub fn has_same(&self, c: usize, record: &Record) -> bool {
+        let is_alike = |k: usize| {
+            let (one, other) = (&self.constraints[c], &self.constraints[k]);
+            one.kind() == other.kind() && one.points() == other.points()
+        };
+        if c > 0 && is_alike(c - 1) || c + 1 < self.constraints.len() && is_alike(c + 1) {
+            return false;
+        }
         let here = Structure {
             constraint: &self.constraints[c],
             rho: self.own_rho.get(c).copied().flatten(),

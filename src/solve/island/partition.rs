@@ -257,7 +257,7 @@ impl Partition {
                 .iter()
                 .map(|&(_, id)| {
                     let record = world.constraint(id).expect("a loose constraint lives");
-                    Member { id, constraint: &record.constraint, rho: record.rho() }
+                    Member::new(id, record)
                 })
                 .collect();
             let island = Island::new(&mut group, |p| points.at(p), |p| points.inverse_mass(p));

@@ -21,6 +21,9 @@ const LEAST_DAMPING_STRETCHED: f64 = 1e-6;
 const FLOOR: f64 = 1e-11;
 /// The same where a solution is refined: it is near, and so is the rounding of its slope.
 const REFINED_FLOOR: f64 = 1e-14;
+/// What is off by no more than this part of the size, and yet comes nearer slowly, has rows that
+/// become dependent at the solution: their singular values are the roots of what they are off.
+const NEAR: f64 = 1e-8;
 /// How many steps a refinement takes at most; it converges quadratically.
 const MOST_REFINED: u32 = 8;
 /// A step longer than this part of the size is no longer a small change.
@@ -98,12 +101,17 @@ pub(crate) fn solve_near(
 
 /// Takes steps that are hardly damped from a solution, as long as each is less than half as long as
 /// the one before. The tolerance is a part of the whole; what moves may be so small a part of it
-/// that residuals far below still leave it open.
-pub(crate) fn refine(workspace: &mut Workspace, pose: &mut Pose, work: &mut Counters) {
+/// that residuals far below still leave it open, and are less than the rounding of others: it is
+/// the steps that tell, as long as everything still holds.
+pub(crate) fn refine(
+    workspace: &mut Workspace,
+    pose: &mut Pose,
+    limits: &Limits,
+    work: &mut Counters,
+) {
     workspace.evaluate(pose, work);
     let mut before = f64::INFINITY;
     for _ in 0..MOST_REFINED {
-        let energy = workspace.rows.energy;
         workspace.assemble(Stiffness::None);
         workspace.update_slope();
         workspace.remember(pose);
@@ -111,7 +119,8 @@ pub(crate) fn refine(workspace: &mut Workspace, pose: &mut Pose, work: &mut Coun
             return;
         }
         let reach = workspace.equations.reach(&workspace.step);
-        if reach >= 0.5 * before || workspace.try_step(pose, 1.0, work) > energy {
+        let is_nearer = reach < 0.5 * before && workspace.try_step(pose, 1.0, work).is_finite();
+        if !is_nearer || !workspace.is_met(limits) {
             workspace.reject(pose, work);
             return;
         }
@@ -122,6 +131,8 @@ pub(crate) fn refine(workspace: &mut Workspace, pose: &mut Pose, work: &mut Coun
 /// How far a solve has come.
 struct Way {
     stiffness: Stiffness,
+    /// What is added to the matrix in any case.
+    floor: f64,
     /// The damping, relative to the distance to satisfaction.
     nu: f64,
     n_iterations: u32,
@@ -132,7 +143,8 @@ struct Way {
 impl Way {
     /// A way begins with the shortest steps that meet the rows.
     fn new() -> Self {
-        Self { stiffness: Stiffness::None, nu: FIRST_DAMPING, n_iterations: 0, n_before: 0 }
+        let (stiffness, floor) = (Stiffness::None, FLOOR);
+        Self { stiffness, floor, nu: FIRST_DAMPING, n_iterations: 0, n_before: 0 }
     }
 
     fn least_damping(&self) -> f64 {
@@ -196,8 +208,14 @@ fn descend(
     way: &mut Way,
     work: &mut Counters,
 ) -> End {
-    let end = descend_by(workspace, pose, limits, way, work);
-    if way.stiffness == Stiffness::None && matches!(end, End::Slow | End::Stuck) {
+    let is_slow = |end| matches!(end, End::Slow | End::Stuck);
+    let mut end = descend_by(workspace, pose, limits, way, work);
+    if is_slow(end) && way.floor == FLOOR && workspace.rows.worst <= NEAR * limits.size {
+        way.floor = REFINED_FLOOR;
+        way.nu = LEAST_DAMPING;
+        end = descend_by(workspace, pose, limits, way, work);
+    }
+    if is_slow(end) && way.stiffness == Stiffness::None {
         way.stiffness = Stiffness::Stretched;
         way.nu = FIRST_DAMPING;
         return descend_by(workspace, pose, limits, way, work);
@@ -234,7 +252,7 @@ fn descend_by(
         let rms = (2.0 * before / workspace.rows.n_active().max(1) as f64).sqrt();
         let unit = (rms / limits.size).min(1.0);
         loop {
-            let damping = if is_affine { REFINED_FLOOR } else { way.nu * unit + FLOOR };
+            let damping = if is_affine { REFINED_FLOOR } else { way.nu * unit + way.floor };
             let Some(promised) = solve_step(workspace, damping, work) else {
                 return End::Stuck;
             };

@@ -162,7 +162,8 @@ pub(crate) struct Rows {
     gradient: Vec<f64>,
     /// `sqrt(f / l)` of a stretched length: how much stiffer than its rows it is crosswise.
     bend: Vec<f64>,
-    /// The largest absolute normalised value; not to be trusted while `energy` is not finite.
+    /// The largest distance of a constraint to satisfaction, all its rows together: that does not
+    /// depend on the axes. Not to be trusted while `energy` is not finite.
     pub worst: f64,
     /// Half the sum of their squares.
     pub energy: f64,
@@ -217,10 +218,17 @@ impl Rows {
         self.energy = 0.0;
         let mut r = 0;
         for &c in &equations.constraints {
+            let first = r;
+            let (mut distance, mut squares) = (0.0, 0.0);
             all[c as usize].jacobian(x, &mut |row| {
                 note(r, row.f, self.set(equations, r, &row));
+                // A row without a gradient is as far from satisfaction as its value says.
+                distance = if self.scale[r] > 0.0 { self.f[r].abs() } else { row.f.abs() };
+                squares += distance * distance;
                 r += 1;
             });
+            let of_one = if r - first == 1 { distance } else { squares.sqrt() };
+            self.worst = self.worst.max(of_one);
         }
         debug_assert_eq!(r, n_rows, "a constraint gives as many rows as it says");
         self.energy *= 0.5;
@@ -252,9 +260,6 @@ impl Rows {
         self.f[r] = f;
         let is_stretched = row.span > 0.0 && row.f > 0.0;
         self.bend[r] = if is_stretched { (row.f / row.span).sqrt() } else { 0.0 };
-        // A row without a gradient is as far from satisfaction as its value says.
-        let distance = if scale > 0.0 { f.abs() } else { row.f.abs() };
-        self.worst = self.worst.max(distance);
         self.energy += f * f;
         scale
     }

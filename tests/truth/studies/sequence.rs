@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Count;
-use crate::program::{Program, Verdict, has_missed};
+use crate::program::{Program, Said, Verdict, has_missed, verdict};
 use crate::reference::constraint::{Kind, Range as Allowed};
 use crate::reference::make::{Recipe, scene};
 use crate::reference::plane::{Place, distance};
@@ -124,17 +124,32 @@ pub fn run(seeds: Range<u64>) -> Vec<Count> {
         "after any sequence, a solve: converged but wrong (violation over the tolerance)",
         "0",
     );
+    let mut screen = Count::new(
+        "after any statement: `check` calls a pose converged that is not (the same)",
+        "0",
+    );
+    let mut refused = Count::new("sequences that end with a live value that there cannot be", "");
     for seed in seeds {
         let mut random = Random::new("sequence", seed);
         let mut state = State::random(&mut random);
         let mut program = Program::after(&state.script()).expect("the script has no mistake");
+        let mut ends_early = false;
         for _ in 0..N_STATEMENTS {
             let (text, next) = state.changed(&mut random);
             // A refusal changes nothing.
             if program.run(&text).is_ok() {
                 state = next;
             }
-            let told = program.must("step").told;
+            let check = program.check();
+            if check.verdict == Some(Verdict::Converged) && !check.is_drawn_unsolved {
+                let off = state.off(&program.places(&state.scene.names()));
+                screen.add(seed, off > SLACK, off);
+            }
+            // A length that is measured on the pose may become less than 0 as points move.
+            let Ok(Said { told, .. }) = program.run("step") else {
+                ends_early = true;
+                break;
+            };
             if !has_missed(&told) {
                 let off = state.off(&program.places(&state.scene.names()));
                 frames.add(seed, off > SLACK, off);
@@ -142,11 +157,19 @@ pub fn run(seeds: Range<u64>) -> Vec<Count> {
             if random.chance(0.1) {
                 program.must("undo");
             }
-            if random.chance(0.3) && program.solve() == Verdict::Converged {
+            if !random.chance(0.3) {
+                continue;
+            }
+            let Ok(Said { told, .. }) = program.run("solve") else {
+                ends_early = true;
+                break;
+            };
+            if verdict(&told) == Some(Verdict::Converged) {
                 let off = state.off(&program.places(&state.scene.names()));
                 solves.add(seed, off > SLACK, off);
             }
         }
+        refused.add(seed, ends_early, 0.0);
     }
-    vec![frames, solves]
+    vec![frames, solves, screen, refused]
 }
