@@ -28,13 +28,17 @@ pub enum Field {
     Value,
     /// The vertical coordinate of the vector that is measured.
     ValueY,
+    /// What something measured is compared with.
+    Wanted,
+    /// How far something is beyond its end stop.
+    Beyond,
     /// What the values that are measured on the pose are given from outside, by its place.
     Input(u16),
 }
 
 impl Field {
     /// All that a statement may give.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Lo,
         Self::Hi,
         Self::X,
@@ -47,6 +51,8 @@ impl Field {
         Self::SecondTeeth,
         Self::Value,
         Self::ValueY,
+        Self::Wanted,
+        Self::Beyond,
     ];
 
     /// Whether it says how two wheels are geared.

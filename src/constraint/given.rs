@@ -15,6 +15,8 @@ pub struct Given<'a> {
     pub values: &'a [(Field, f64)],
     /// The words that stand for no value.
     pub flags: &'a [Flag],
+    /// The circles and arcs that it names, by their handles.
+    pub curves: &'a [u32],
     /// Where all points are.
     pub x: &'a [Point],
     /// Whether it was there before and is made again: whatever pose it has come to since, what it

@@ -99,6 +99,8 @@ pub enum Flaw {
     NegativeLength,
     /// No radius is so small.
     NegativeRadius,
+    /// A circle of radius 0, or less.
+    NoRadius,
     /// No wheel rolls on that.
     ZeroRadius,
     /// Wheels, one of which would have the radius 0.
@@ -118,7 +120,7 @@ impl Flaw {
     pub const fn field(self) -> Field {
         match self {
             Self::EmptyRange | Self::WiderThanATurn | Self::NegativeLength => Field::Hi,
-            Self::NegativeRadius | Self::ZeroRadius => Field::Radius,
+            Self::NegativeRadius | Self::ZeroRadius | Self::NoRadius => Field::Radius,
             Self::ZeroRatio | Self::RatioNotAboveZero | Self::NegativeBeltRatio => Field::Ratio,
             Self::FirstTeeth => Field::FirstTeeth,
             Self::SecondTeeth => Field::SecondTeeth,
@@ -132,6 +134,7 @@ impl Flaw {
             Self::WiderThanATurn => "a range of angles wider than one turn",
             Self::NegativeLength => "a negative length",
             Self::NegativeRadius => "a negative radius",
+            Self::NoRadius => "a circle without size",
             Self::ZeroRadius => "a radius of 0",
             Self::ZeroRatio => "a ratio of 0",
             Self::NegativeBeltRatio => "a negative ratio",

@@ -26,6 +26,10 @@ pub struct Constraint {
 pub enum Part {
     /// `A`, `A B`, `A B C`
     Points(Vec<Name>),
+    /// `c =`: the name of what the statement makes.
+    Defined(Name),
+    /// `through P`, `from P`, `to P`, `at P`: one point; `on c`: a circle or an arc.
+    Point(Role, Name),
     /// What is held: a number, or a vector.
     Measure(Expr),
     /// `on A B`, `to A B`, `about A B`, `from A B`
@@ -69,6 +73,8 @@ pub enum Role {
     Crossed,
     /// `unbounded`
     Unbounded,
+    /// `through P`: a point of a circle.
+    Through,
 }
 
 impl Role {
@@ -88,6 +94,7 @@ impl Role {
             Self::Inside => "inside",
             Self::Crossed => "crossed",
             Self::Unbounded => "unbounded",
+            Self::Through => "through",
         }
     }
 }

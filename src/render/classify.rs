@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::figure::Key;
 use super::symbols::{
-    Angle, Arrows, AxisMark, Belt, Construction, Cord, Crank, Cross, Dimension, Gears, Joint, Link,
-    Multiple, Plate, Rail, Ring, Rod, Sense, Support, Symbol, SymbolForm, Symmetry, Telescope,
-    Ticks, Web,
+    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Gears,
+    Joint, Link, Multiple, Plate, Rail, Ring, Rod, Round, Sense, Support, Symbol, SymbolForm,
+    Symmetry, Telescope, Ticks, TouchMark, Toucher, Web,
 };
 use crate::constraint::{
-    Bounds, Constraint, ConstraintKind, Contact, Equal, Field, Length, Orientation, Point, PointIdx,
+    Bounds, Constraint, ConstraintKind, Contact, Curve, Equal, Field, Length, Orientation, Point,
+    PointIdx, Touch,
 };
 use crate::diag::format_rounded;
 use crate::linalg::DisjointSets;
@@ -237,6 +238,14 @@ impl<'a> Classifier<'a> {
                 self.connection(id, record, c.points);
                 self.add(id, record, AxisMark { points: c.points, direction: c.direction });
             }
+            Constraint::Curve(c) => {
+                let mut curve = c.clone();
+                if let Curve::Circle { radius, .. } = &mut curve {
+                    *radius = self.world.radius_now(id);
+                }
+                self.add(id, record, Round { curve });
+            }
+            Constraint::Touch(c) => self.touch(id, record, c),
             Constraint::Hold(_) => {}
             Constraint::Measured(_) => unreachable!("what is stated measures nothing"),
         }
@@ -276,6 +285,27 @@ impl<'a> Classifier<'a> {
         let [a, b, ..] = points;
         let n_chevrons = self.parallel.n_strokes([a, b]);
         self.add(id, record, Arrows { points, n_chevrons });
+    }
+
+    fn touch(&mut self, id: ConstraintId, record: &Record, touch: &Touch) {
+        let curve = |k: usize| self.world.curve(ConstraintId(touch.curves()[k]));
+        let Some(first) = curve(0).cloned() else { return };
+        if touch.is_glider() {
+            let (block, centre) = (touch.points()[0], first.points()[0]);
+            return self.add(id, record, Block { block, centre });
+        }
+        let other = match (touch.at(), touch.line()) {
+            (Some(p), _) => Toucher::At(p),
+            (None, Some(ends)) => {
+                self.connection(id, record, ends);
+                Toucher::Line(ends)
+            }
+            (None, None) => match touch.curves().get(1).and_then(|_| curve(1)) {
+                Some(second) => Toucher::Circle(second.points()[0]),
+                None => return,
+            },
+        };
+        self.add(id, record, TouchMark { curve: first, other });
     }
 
     fn length(&mut self, id: ConstraintId, record: &Record, length: &Length) {

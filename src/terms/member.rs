@@ -9,11 +9,13 @@ pub enum Member {
     Value,
     /// By how much a constraint is missed, with its sign.
     Residual,
+    /// The radius of a circle or an arc.
+    Radius,
 }
 
 impl Member {
     /// Every member, in the order of the reference.
-    pub const ALL: [Self; 3] = [Self::Angle, Self::Value, Self::Residual];
+    pub const ALL: [Self; 4] = [Self::Angle, Self::Value, Self::Residual, Self::Radius];
 
     /// How it is asked for.
     pub const fn word(self) -> &'static str {
@@ -21,6 +23,7 @@ impl Member {
             Self::Angle => "angle",
             Self::Value => "value",
             Self::Residual => "residual",
+            Self::Radius => "radius",
         }
     }
 

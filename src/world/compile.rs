@@ -4,12 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::environments::Here;
-use super::{Drivers, Formula, Mention, Node, ParameterId, PointId, Record, World};
+use super::{ConstraintId, Drivers, Formula, Mention, Node, ParameterId, PointId, Record, World};
 use crate::constraint::{
-    Constraint, ConstraintKind as _, Field, Measured, Operation, PointIdx, Program, Register,
+    Constraint, ConstraintKind as _, Curve, Field, Measured, Operation, PointIdx, Program, Register,
 };
 use crate::diag::Diagnostic;
-use crate::terms::{Function, Operator, Shape};
+use crate::terms::{Function, Member, Operator, Shape};
 
 /// Where the result of a formula is.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +44,8 @@ impl World {
         for (field, formula) in record.drivers() {
             // What wheels and speeds turn by is of the pose that a frame begins with.
             let is_rate = *field == Field::Speed || constraint.traits().is_wheel;
-            let is_measured = !is_rate && self.depends(formula).on_points;
+            let has_rows = constraint.n_rows() > 0;
+            let is_measured = has_rows && !is_rate && self.depends(formula).on_points;
             let list = if is_measured { &mut measured } else { &mut live };
             list.push((*field, formula.clone()));
         }
@@ -138,6 +139,9 @@ impl<'a> Compiler<'a> {
         let mut open = vec![formula.clone()];
         while let Some(formula) = open.pop() {
             formula.mentions(&mut |mention| {
+                if let Mention::Member(id, Member::Radius) = mention {
+                    open.extend(self.world.radius_driver(id).cloned());
+                }
                 if let Mention::Parameter(id) = mention
                     && let Some(parameter) = self.world.parameter(id)
                     && parameter.depends.on_points
@@ -272,10 +276,27 @@ impl<'a> Compiler<'a> {
                 let before = self.input(formula);
                 Place::Number(self.push(Operation::NearestTurn(place.number(), before)))
             }
+            Node::Member(id, Member::Radius) => self.radius(*id),
             Node::Member(..) | Node::Time => {
                 unreachable!("what does not measure the pose is an input")
             }
         }
+    }
+
+    /// The radius of a circle or an arc.
+    fn radius(&mut self, id: ConstraintId) -> Place {
+        let ends = match *self.world.curve(id).expect("only a circle or an arc has a radius") {
+            Curve::Through { points: [o, p] } | Curve::Arc { points: [o, p, _] } => [o, p],
+            Curve::Circle { radius, .. } => {
+                return match self.world.radius_driver(id) {
+                    Some(formula) => self.compile(formula),
+                    None => Place::Number(self.push(Operation::Constant(radius))),
+                };
+            }
+        };
+        let [o, p] = ends.map(|p| self.point(PointId(p)));
+        let (x, y) = self.subtract(p, o);
+        Place::Number(self.push(Operation::Norm(x, y)))
     }
 
     fn call(&mut self, function: Function, arguments: &[Formula]) -> Place {

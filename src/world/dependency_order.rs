@@ -44,7 +44,7 @@ impl World {
                     note_parameters(&parameter.formula, &mut used);
                     parameter.formula.mentions(&mut |mention| {
                         // By how much it is missed depends on what drives it.
-                        if let Mention::Member(id, Member::Residual) = mention {
+                        if let Mention::Member(id, Member::Residual | Member::Radius) = mention {
                             let record = self.constraint(id).expect("a used constraint lives");
                             let drivers = record.drivers().iter();
                             drivers.for_each(|(_, formula)| note_parameters(formula, &mut used));
@@ -109,6 +109,10 @@ impl World {
                 Mention::Parameter(id) => {
                     self.parameter(id).is_some_and(|p| self.follows_motion(&p.formula))
                 }
+                Mention::Member(id, Member::Radius) => match self.radius_driver(id) {
+                    Some(formula) => self.follows_motion(formula),
+                    None => self.radius_depends(id).on_points,
+                },
                 Mention::Member(..) => false,
             };
         });
@@ -125,12 +129,16 @@ impl World {
     pub fn depends(&self, formula: &Formula) -> Depends {
         let mut depends = formula.depends();
         if depends.on_parameters {
-            formula.mentions(&mut |mention| {
-                if let Mention::Parameter(id) = mention
-                    && let Some(parameter) = self.parameter(id)
-                {
-                    depends = depends.or(parameter.depends);
+            formula.mentions(&mut |mention| match mention {
+                Mention::Parameter(id) => {
+                    if let Some(parameter) = self.parameter(id) {
+                        depends = depends.or(parameter.depends);
+                    }
                 }
+                Mention::Member(id, Member::Radius) => {
+                    depends = depends.or(self.radius_depends(id));
+                }
+                Mention::Member(..) | Mention::Point(_) => {}
             });
         }
         depends

@@ -226,6 +226,9 @@ impl Environment<Jet> for Moving<'_> {
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {
+        if member == Member::Radius {
+            return self.world.radius(id, self);
+        }
         debug_assert_eq!(member, Member::Angle, "the others drive nothing");
         Ok(self.angles.get(&id).copied().unwrap_or_else(|| {
             let record = self.world.constraint(id).expect("a mentioned constraint lives");

@@ -1,5 +1,7 @@
 //! Evaluating live expressions: when looked at, when a parameter changes, and frame by frame.
 
+use std::collections::BTreeSet;
+
 use super::environments::{Here, Moving};
 use super::{
     ConstraintId, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User, Value,
@@ -45,10 +47,38 @@ impl World {
             return Ok(());
         }
         self.refresh_parameters();
-        let (parameters, constraints) = self.affected(id);
+        let (parameters, constraints) = self.affected(self.dependencies.users(id));
         if depends.on_constraints && !constraints.is_empty() {
             return Err(self.follows_from_a_constraint(id));
         }
+        self.evaluate_anew(parameters, constraints, undo)
+    }
+
+    /// Brings what uses a member of a constraint up to date with it; what takes it back is added to
+    /// `undo` edit by edit.
+    ///
+    /// # Errors
+    /// Where a value cannot be had. The caller takes back what `undo` lists.
+    pub fn rebind_users_of(
+        &mut self,
+        id: ConstraintId,
+        undo: &mut Vec<Edit>,
+    ) -> Result<(), Diagnostic> {
+        if self.dependencies.member_users(id).next().is_none() {
+            return Ok(());
+        }
+        self.refresh_parameters();
+        let (parameters, constraints) = self.affected(self.dependencies.member_users(id));
+        self.evaluate_anew(parameters, constraints, undo)
+    }
+
+    /// Evaluates parameters, each after those it mentions, and then constraints.
+    fn evaluate_anew(
+        &mut self,
+        parameters: Vec<ParameterId>,
+        constraints: Vec<ConstraintId>,
+        undo: &mut Vec<Edit>,
+    ) -> Result<(), Diagnostic> {
         for id in parameters {
             let mut record = self.parameter(id).expect("a listed parameter lives").clone();
             record.depends = self.depends(&record.formula);
@@ -88,33 +118,36 @@ impl World {
             .help("use it in `print`, `assert`, or a parameter that these use")
     }
 
-    /// Parameters that depend on one, each after those it mentions, and the constraints.
-    fn affected(&self, id: ParameterId) -> (Vec<ParameterId>, Vec<ConstraintId>) {
+    /// Parameters that some users are or depend on, each after those it mentions, and the
+    /// constraints; what names a circle goes with it.
+    fn affected(&self, users: impl Iterator<Item = User>) -> (Vec<ParameterId>, Vec<ConstraintId>) {
         let mut finished: Vec<ParameterId> = Vec::new();
-        let mut constraints: Vec<ConstraintId> = Vec::new();
+        let mut constraints: BTreeSet<ConstraintId> = BTreeSet::new();
         let mut is_seen = vec![false; self.parameters.n_handles()];
         // Depth first: a parameter is finished after all its users, so that the reverse order
         // is the order of evaluation.
-        let mut stack = vec![(id, self.dependencies.users(id))];
+        let mut stack: Vec<(Option<ParameterId>, Vec<User>)> = vec![(None, users.collect())];
         while let Some((at, users)) = stack.last_mut() {
-            match users.next() {
+            match users.pop() {
                 None => {
-                    finished.push(*at);
+                    finished.extend(*at);
                     stack.pop();
                 }
-                Some(User::Constraint(c)) => constraints.push(c),
+                Some(User::Constraint(c)) => {
+                    if constraints.insert(c) {
+                        let further: Vec<User> = self.dependencies.member_users(c).collect();
+                        users.extend(further);
+                    }
+                }
                 Some(User::Parameter(p)) => {
                     if !std::mem::replace(&mut is_seen[p.idx()], true) {
-                        stack.push((p, self.dependencies.users(p)));
+                        stack.push((Some(p), self.dependencies.users(p).collect()));
                     }
                 }
             }
         }
-        finished.pop();
         finished.reverse();
-        constraints.sort_unstable();
-        constraints.dedup();
-        (finished, constraints)
+        (finished, constraints.into_iter().collect())
     }
 
     /// Evaluates live parameters and driven constraints anew, for the time and the pose as

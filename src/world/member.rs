@@ -1,9 +1,11 @@
 //! What the members of things are worth: `crank.angle`, `coupler.value`, `coupler.residual`.
 
 use super::environments::Here;
-use super::{ConstraintId, Formula, Mention, World};
+use super::{ConstraintId, Depends, Environment, Formula, Mention, PointId, World};
 use crate::constraint::geometry::wrap;
-use crate::constraint::{Carried, Constraint, ConstraintKind as _, Field, Quantity};
+use crate::constraint::{
+    Carried, Constraint, ConstraintKind as _, Curve, Field, Quantity, Real, length,
+};
 use crate::diag::Diagnostic;
 use crate::terms::Member;
 
@@ -33,6 +35,7 @@ impl World {
             Member::Angle => traits.carried == Carried::ByClock,
             Member::Value => traits.bounds.is_some(),
             Member::Residual => true,
+            Member::Radius => self.curve(id).is_some(),
         })
     }
 
@@ -45,6 +48,7 @@ impl World {
         let x = self.points.column();
         Ok(match member {
             Member::Angle => self.motor_angle(id),
+            Member::Radius => self.radius(id, &Here::new(self, None))?,
             Member::Value => {
                 // What it measures is what is left of it where 0 is asked for.
                 let mut at_zero = record.constraint.at(x).into_owned();
@@ -61,6 +65,57 @@ impl World {
                 now.constraint.residual(x)
             }
         })
+    }
+
+    /// The circle or arc that a constraint is, if it is one.
+    pub fn curve(&self, id: ConstraintId) -> Option<&Curve> {
+        match self.constraint(id)?.constraint.stated() {
+            Constraint::Curve(curve) => Some(curve),
+            _ => None,
+        }
+    }
+
+    /// The radius of a circle or an arc, over any kind of number.
+    ///
+    /// # Errors
+    /// Where its expression has no value now.
+    pub(super) fn radius<T: Real>(
+        &self,
+        id: ConstraintId,
+        env: &impl Environment<T>,
+    ) -> Result<T, Diagnostic> {
+        let curve = self.curve(id).expect("only a circle or an arc has a radius");
+        let at = |p: u32| env.position(PointId(p));
+        Ok(match *curve {
+            Curve::Circle { radius, .. } => match self.radius_driver(id) {
+                Some(formula) => formula.evaluate(env)?.number(),
+                None => T::constant(radius),
+            },
+            Curve::Through { points: [o, p] } | Curve::Arc { points: [o, p, _] } => {
+                length(at(p) - at(o))
+            }
+        })
+    }
+
+    /// The radius of a circle or an arc in the present pose; 0 where its expression has no value.
+    pub fn radius_now(&self, id: ConstraintId) -> f64 {
+        self.radius(id, &Here::new(self, None)).unwrap_or_default()
+    }
+
+    /// The expression behind the radius of a circle, if there is one.
+    pub(super) fn radius_driver(&self, id: ConstraintId) -> Option<&Formula> {
+        self.constraint(id)?.driver(Field::Radius)
+    }
+
+    /// What can change the radius of a circle or an arc.
+    pub(super) fn radius_depends(&self, id: ConstraintId) -> Depends {
+        let measured = Depends { on_points: true, ..Depends::default() };
+        match self.curve(id) {
+            Some(Curve::Circle { .. }) => {
+                self.radius_driver(id).map_or_else(Depends::default, |f| self.depends(f))
+            }
+            _ => measured,
+        }
     }
 
     /// The angle of a motor with its phase, whole turns included, radians.

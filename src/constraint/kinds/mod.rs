@@ -5,6 +5,7 @@ mod cog;
 mod cog_velocity;
 mod coincidence;
 mod coordinate;
+mod curve;
 mod distance;
 mod equal;
 mod equivalence;
@@ -18,12 +19,14 @@ mod orientation;
 mod rack;
 mod rigid;
 mod symmetric;
+mod touch;
 
 pub use aligned::{Aligned, AxisDirection};
 pub use cog::{Cog, Contact};
 pub use cog_velocity::CogVelocity;
 pub use coincidence::Coincidence;
 pub use coordinate::Coordinate;
+pub use curve::Curve;
 pub use distance::Distance;
 pub use equal::Equal;
 pub use equivalence::Equivalence;
@@ -37,6 +40,7 @@ pub use orientation::{Orientation, Period};
 pub use rack::Rack;
 pub use rigid::Rigid;
 pub use symmetric::Symmetric;
+pub use touch::{Sort, Stops, Touch};
 
 use std::borrow::Cow;
 
@@ -235,6 +239,8 @@ define! {
     Aligned (Aligned),
     Symmetric (Symmetric),
     Hold (Hold),
+    Curve (Curve),
+    Touch (Box<Touch>),
 }
 
 impl Constraint {
@@ -260,6 +266,14 @@ impl Constraint {
         match self {
             Self::Measured(c) => Cow::Owned(c.at(x)),
             _ => Cow::Borrowed(self),
+        }
+    }
+
+    /// The circles and arcs that its statement names, by their handles.
+    pub fn curves(&self) -> &[u32] {
+        match self.stated() {
+            Self::Touch(c) => c.curves(),
+            _ => &[],
         }
     }
 

@@ -24,6 +24,12 @@ pub enum Slot {
     Points(usize),
     /// All the points there are.
     AllPoints,
+    /// The name of what is made.
+    Defined,
+    /// One point, said by a word, or with `on` a circle or an arc.
+    Point(Role),
+    /// The points of a line, or a circle or an arc.
+    Touching,
     /// An expression that is held.
     Measure,
     /// Two points of a line; that which angles are measured from may be left out.
@@ -60,6 +66,7 @@ impl Pattern {
                 Slot::Value(role) | Slot::Optional(role, _) | Slot::Place(role),
                 Part::Value(given, _),
             )
+            | (Slot::Point(role), Part::Point(given, _))
             | (Slot::Flag(role), Part::Flag(given)) => role == given,
             (Slot::Gearing, Part::Value(given, _)) => *given == Role::Ratio,
             (Slot::Gearing, Part::Values(given, _)) => *given == Role::Teeth,
@@ -133,7 +140,10 @@ macro_rules! constraints {
     };
 }
 
-use Slot::{AllPoints, Flag, Gearing, Line, Measure, Optional, Place, Points, Relation, Value};
+use Slot::{
+    AllPoints, Defined, Flag, Gearing, Line, Measure, Optional, Place, Point, Points, Relation,
+    Touching, Value,
+};
 
 /// What is said of one that is points and nothing else.
 const NOTHING: &str = "this constraint has no part that can be changed";
@@ -217,13 +227,15 @@ constraints! {
              motor E H speed 1rev from S E",
     }
     Glider glider {
-        slots: [Points(1), Line(Role::On), Flag(Role::Unbounded)],
+        slots: [Points(1), Line(Role::On), Point(Role::On), Flag(Role::Unbounded)],
         takes: "a glider takes `on A B` and `unbounded`",
-        usage: "glider P on A B [unbounded]",
-        summary: "P slides on the segment AB, or on the whole line (3.8)",
-        help: "",
+        usage: "glider P on A B|CURVE [unbounded]",
+        summary: "P slides on the segment AB, on the whole line (3.8), or on a circle or an arc",
+        help: "The ends of a segment and of an arc are end stops; `unbounded` stands for the whole line, and\n\
+             for the whole circle of an arc.",
         example: "glider P on A B\n\
-             glider P on A B unbounded",
+             glider P on A B unbounded\n\
+             glider P on c",
     }
     Hinge hinge {
         slots: [Points(1), Line(Role::On), Value(Role::At)],
@@ -335,5 +347,36 @@ constraints! {
              hold A.x = 4\n\
              hold P = midpoint(A, B)\n\
              hold angle(A, B) in -30deg..30deg",
+    }
+    Circle circle {
+        slots: [Defined, Points(1), Optional(Role::Radius, None), Point(Role::Through)],
+        takes: "a circle takes `radius r`",
+        usage: "circle NAME = O radius R | through P",
+        summary: "a circle, to be named by others",
+        help: "It asks for nothing by itself: P is free to turn round O and to change the radius, unless others\n\
+             hold it. `glider` and `tangent` name it, and `NAME.radius` is its radius.",
+        example: "circle c = O radius 5\n\
+             circle d = O through R",
+    }
+    Arc arc {
+        slots: [Defined, Points(1), Point(Role::From), Point(Role::To)],
+        takes: NOTHING,
+        usage: "arc NAME = O from P to Q",
+        summary: "the part of a circle round O from P counter-clockwise to Q",
+        help: "It keeps OP and OQ equal. `glider` and `tangent` name it, and `NAME.radius` is its radius.",
+        example: "arc a = O from P to Q",
+    }
+    Tangent tangent {
+        slots: [Touching, Touching, Flag(Role::Inside), Point(Role::At)],
+        takes: NOTHING,
+        usage: "tangent A B|CURVE to CURVE|A B [inside] [at P]",
+        summary: "a line touches a circle, or two circles each other",
+        help: "A line touches on the side where it is at the start; two circles touch outside, or with\n\
+             `inside` one in the other. An arc means its whole circle.\n\
+             With `at P`, P is on both already, as a common end or a glider: only the common direction is\n\
+             asked for, with the sense of the start.",
+        example: "tangent A B to c\n\
+             tangent c to d inside\n\
+             tangent A B to a at B",
     }
 }

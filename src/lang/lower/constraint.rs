@@ -38,6 +38,14 @@ pub(in crate::lang) fn parts<'a>(
                 let pair = c.pair()?;
                 parts.push(Part::Points(vec![pair.from, pair.to]));
             }
+            Rule::defined => {
+                let read = c.take(rule).expect("it is the next thing");
+                parts.push(Part::Defined(c.within(read).name()?));
+            }
+            Rule::touching | Rule::touched => {
+                let read = c.take(rule).expect("it is the next thing");
+                parts.push(Part::Points(c.within(read).names()?));
+            }
             Rule::expr => parts.push(Part::Measure(c.expr()?)),
             _ => {
                 let spot = c.spot(rule);
@@ -63,6 +71,7 @@ fn part(rule: Rule, c: &mut Cursor) -> Result<Part, Diagnostic> {
     let mut inner = c.within(read);
     Ok(match inner.peek() {
         Some(Rule::pair) => Part::Line(role, inner.pair()?),
+        Some(Rule::name) => Part::Point(role, inner.name()?),
         Some(_) => {
             let first = inner.expr()?;
             match inner.peek() {
@@ -77,14 +86,15 @@ fn part(rule: Rule, c: &mut Cursor) -> Result<Part, Diagnostic> {
 /// What a part is for, by its rule.
 pub(super) fn role(rule: Rule) -> Option<Role> {
     Some(match rule {
-        Rule::on_line => Role::On,
-        Rule::to_line => Role::To,
+        Rule::on_line | Rule::on_curve => Role::On,
+        Rule::to_line | Rule::to_point => Role::To,
         Rule::about_line => Role::About,
-        Rule::from_line => Role::From,
+        Rule::from_line | Rule::from_point => Role::From,
+        Rule::through_point => Role::Through,
         Rule::radius => Role::Radius,
         Rule::speed => Role::Speed,
         Rule::phase => Role::Phase,
-        Rule::at => Role::At,
+        Rule::at | Rule::at_point => Role::At,
         Rule::ratio => Role::Ratio,
         Rule::teeth => Role::Teeth,
         Rule::kw_inside => Role::Inside,

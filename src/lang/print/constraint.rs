@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::Names;
-use crate::lang::ast::{Constraint, Pair, Part};
+use crate::lang::ast::{Constraint, ConstraintWord, Pair, Part};
 
 impl Display for Constraint {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -12,7 +12,12 @@ impl Display for Constraint {
         for part in &self.parts {
             // Points behind points are another group of them.
             let is_points = matches!(part, Part::Points(_));
-            let gap = if is_behind_points && is_points { ", " } else { " " };
+            let is_further = is_behind_points && is_points;
+            let gap = match self.word {
+                ConstraintWord::Tangent if is_further => " to ",
+                _ if is_further => ", ",
+                _ => " ",
+            };
             is_behind_points = is_points;
             write!(f, "{gap}{part}")?;
         }
@@ -24,6 +29,8 @@ impl Display for Part {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Points(names) => write!(f, "{}", Names { names, stop: "" }),
+            Self::Defined(name) => write!(f, "{name} ="),
+            Self::Point(role, name) => write!(f, "{} {name}", role.word()),
             Self::Measure(value) => write!(f, "{value}"),
             Self::Line(role, points) => write!(f, "{} {points}", role.word()),
             Self::Relation(relation) => write!(f, "{relation}"),

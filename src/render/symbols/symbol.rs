@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::draw::Draw;
 use super::{
-    Angle, Arrows, AxisMark, Belt, Construction, Cord, Crank, Cross, Dimension, Joint, Link,
-    Multiple, Plate, Rail, Ring, Rod, Symmetry, Telescope, Ticks, Train, Web,
+    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Joint, Link,
+    Multiple, Plate, Rail, Ring, Rod, Round, Symmetry, Telescope, Ticks, TouchMark, Train, Web,
 };
 use crate::constraint::{Point, PointIdx};
 use crate::render::canvas::Canvas;
@@ -47,7 +47,7 @@ macro_rules! forms {
 forms! {
     Rod Cord Telescope Link Plate Web Crank Rail Train Joint
     Cross Ring Ticks Arrows Angle Dimension Construction AxisMark
-    Symmetry Multiple Belt
+    Symmetry Multiple Belt Round Block TouchMark
 }
 
 /// One thing to be drawn.

@@ -57,6 +57,7 @@ impl Execution<'_> {
         if is_made_anew {
             self.begin_at_start(id);
         }
+        self.rebind_users_of(id)?;
         Ok(())
     }
 
@@ -97,7 +98,7 @@ impl Resolver<'_> {
         let mut values = Vec::new();
         let mut is_made_anew = true;
         match part {
-            Part::Points(_) | Part::Measure(_) => {}
+            Part::Points(_) | Part::Measure(_) | Part::Defined(_) | Part::Point(..) => {}
             Part::Relation(relation) if record.constraint.get(Field::ValueY).is_some() => {
                 let at = self.held_target(relation, &mut drivers)?;
                 values.extend([(Field::X, at.x), (Field::Y, at.y)]);

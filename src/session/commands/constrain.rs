@@ -5,7 +5,7 @@ use crate::constraint::{
 };
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::lang::ast::{
-    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation,
+    Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation, Role,
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
@@ -26,7 +26,16 @@ impl Execution<'_> {
         if !self.state.is_restoring {
             self.note_slips(&constraint, &stated.parts, &drivers);
         }
-        let name = match &declaration.label {
+        let defined = stated.parts.iter().find_map(|part| match part {
+            Part::Defined(name) => Some(name),
+            _ => None,
+        });
+        if let (Some(label), Some(name)) = (&declaration.label, defined) {
+            let text = self.resolve().text(name.span).to_owned();
+            return Err(Diagnostic::error(format!("this has a name already: `{text}`"))
+                .at(label.span, "no label belongs here"));
+        }
+        let name = match declaration.label.as_ref().or(defined) {
             Some(label) => self.resolve().declare(label)?,
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
         };
@@ -54,9 +63,13 @@ impl Resolver<'_> {
         let mut said = self.say(pattern, parts, &mut drivers)?;
         said.is_restored = self.state.is_restoring;
         let word = pattern.entry.keyword;
+        if word == "tangent" || parts.iter().any(|part| matches!(part, Part::Point(Role::On, _))) {
+            self.say_touch(parts, &mut said, &mut drivers, span)?;
+        }
         let kind = Kind::stated_by(word).expect("each word states a kind");
         let kind = match (kind, self.state.preferences.solve.cog) {
             // A belt has no such form.
+            (Kind::Glider, _) if !said.curves.is_empty() => Kind::Touch,
             (Kind::Cog, CogForm::Velocity) if word == "cog" => Kind::CogVelocity,
             _ => kind,
         };
@@ -83,6 +96,11 @@ impl Resolver<'_> {
         }
         for part in parts {
             match part {
+                Part::Point(Role::Through | Role::From | Role::To, name) => {
+                    said.groups.push(vec![self.idx(name)?]);
+                }
+                // Lines, circles and arcs are looked up by who knows which is which.
+                Part::Points(_) if pattern.slots.contains(&Slot::Touching) => {}
                 Part::Points(names) => {
                     let points = names.iter().map(|name| self.idx(name));
                     said.groups.push(points.collect::<Result<_, _>>()?);
@@ -98,7 +116,7 @@ impl Resolver<'_> {
                     self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
                 }
                 Part::Values(_, teeth) => said.values.extend(self.teeth(teeth, drivers)?),
-                Part::Measure(_) => {}
+                Part::Defined(_) | Part::Point(..) | Part::Measure(_) => {}
             }
         }
         Ok(said)
@@ -175,7 +193,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn idx(&mut self, name: &Name) -> Result<PointIdx, Diagnostic> {
+    pub(super) fn idx(&mut self, name: &Name) -> Result<PointIdx, Diagnostic> {
         Ok(self.point(name)?.0)
     }
 
@@ -246,6 +264,7 @@ fn refused(refusal: &Refusal, parts: &[Part], statement: Span) -> Diagnostic {
     let groups = parts.iter().filter_map(|part| match part {
         Part::Points(names) => Some(names.iter().map(|name| name.span).collect()),
         Part::Line(_, pair) => Some(vec![pair.from.span, pair.to.span]),
+        Part::Point(_, name) => Some(vec![name.span]),
         _ => None,
     });
     let groups: Vec<Vec<Span>> = groups.collect();
@@ -320,6 +339,7 @@ pub(super) fn refuse_flaw(
         (Flaw::NegativeLength, _) => {
             ("a length cannot be negative", span, format!("this is {now}"))
         }
+        (Flaw::NoRadius, _) => ("a circle needs a radius above 0", span, format!("this is {now}")),
         (Flaw::NegativeRadius, _) => {
             ("a radius cannot be negative", span, format!("this is {now}"))
         }

@@ -21,4 +21,5 @@ pub mod setting_table;
 pub mod settings;
 pub mod show;
 mod slips;
-pub mod trace_record;
+pub mod touch;
+mod trace_record;

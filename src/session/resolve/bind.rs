@@ -275,8 +275,11 @@ impl Resolver<'_> {
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
         let follows = member.follows();
+        let is_radius = member == Member::Radius;
         let depends = Depends {
-            on_angles: !follows,
+            on_angles: !follows && !is_radius,
+            // What it depends on is known where it is looked up, as of a parameter.
+            on_parameters: is_radius,
             on_constraints: follows,
             on_points: follows,
             ..Depends::default()

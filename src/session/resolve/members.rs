@@ -33,6 +33,7 @@ impl Resolver<'_> {
         let others: Vec<String> = others.collect();
         let label = match member {
             Member::Angle => "only a motor has an angle",
+            Member::Radius => "only a circle or an arc has a radius",
             _ => "it measures no single number",
         };
         Err(Diagnostic::error(format!("`{name}` has no `.{word}`"))

@@ -19,6 +19,8 @@ pub(crate) struct Said {
     pub values: Vec<(Field, f64)>,
     /// The words that stand alone.
     pub flags: Vec<Flag>,
+    /// The circles and arcs, by their handles.
+    pub curves: Vec<u32>,
     /// Whether it was there before.
     pub is_restored: bool,
 }
@@ -33,6 +35,7 @@ impl Said {
                 Slot::Points(n) => *n,
                 Slot::AllPoints => usize::MAX,
                 Slot::Line(_) => 2,
+                Slot::Point(role) if *role != Role::On => 1,
                 _ => return None,
             };
             let group: Vec<PointIdx> = points.by_ref().take(n_points).collect();
@@ -46,6 +49,7 @@ impl Said {
             bounds,
             values: values.collect(),
             flags: flags.to_vec(),
+            curves: constraint.stated().curves().to_vec(),
             is_restored: false,
         }
     }
@@ -55,9 +59,9 @@ impl Said {
     /// # Errors
     /// Points or a pose that allow none.
     pub fn declare(&self, kind: Kind, word: &str, x: &[Point]) -> Result<Constraint, Refusal> {
-        let Self { groups, bounds, values, flags, is_restored } = self;
+        let Self { groups, bounds, values, flags, curves, is_restored } = self;
         let (bounds, is_restored) = (*bounds, *is_restored);
-        kind.declare(&Given { word, groups, bounds, values, flags, x, is_restored })
+        kind.declare(&Given { word, groups, bounds, values, flags, curves, x, is_restored })
     }
 }
 
@@ -85,7 +89,8 @@ pub(crate) fn field_of(role: Role) -> Field {
         | Role::Teeth
         | Role::Inside
         | Role::Crossed
-        | Role::Unbounded => {
+        | Role::Unbounded
+        | Role::Through => {
             unreachable!("`{}` has no value", role.word())
         }
     }

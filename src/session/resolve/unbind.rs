@@ -63,6 +63,18 @@ impl<'a> Unbind<'a> {
         named(self.world.points().name(PointId(p)))
     }
 
+    fn curve_name(&self, curve: u32) -> Name {
+        named(self.world.name_of(Entity::Constraint(ConstraintId(curve))))
+    }
+
+    /// What touches what: a line by its points, circles and arcs by their names.
+    fn touching(&self, record: &Record) -> Vec<Vec<Name>> {
+        let Constraint::Touch(touch) = record.constraint.stated() else { return Vec::new() };
+        let line = touch.line().map(|ends| ends.map(|p| self.point_name(p)).to_vec());
+        let curves = touch.curves().iter().map(|&curve| vec![self.curve_name(curve)]);
+        line.into_iter().chain(curves).collect()
+    }
+
     /// The expression behind a value of a constraint: what drives it, or the number itself.
     fn field(&self, record: &Record, field: Field, value: f64) -> Expr {
         record.driver(field).map_or_else(|| literal(value), |formula| self.unbind(formula))
@@ -95,6 +107,13 @@ impl<'a> Unbind<'a> {
     pub(crate) fn constraint_statement(&self, record: &Record) -> Command {
         let word = word_of(&record.constraint);
         let mut groups = Said::of(&record.constraint).groups.into_iter();
+        let mut touching = self.touching(record).into_iter();
+        if let Constraint::Touch(touch) = record.constraint.stated() {
+            // What touches is said by itself: a point that slides is left, or one behind `at`.
+            let left = if touch.is_glider() { touch.points().to_vec() } else { Vec::new() };
+            let left = touch.at().map_or(left, |p| vec![p]);
+            groups = vec![left].into_iter();
+        }
         let mut names = || groups.next().into_iter().flatten().map(|p| self.point_name(p));
         let slots = word.pattern().slots.iter();
         let parts = slots.filter_map(|slot| {
@@ -104,6 +123,13 @@ impl<'a> Unbind<'a> {
                     let mut ends = names();
                     Part::Line(role, Pair { from: ends.next()?, to: ends.next()? })
                 }
+                Slot::Defined => Part::Defined(named(&record.name)),
+                Slot::Point(Role::On) => {
+                    let curve = record.constraint.curves().first()?;
+                    Part::Point(Role::On, self.curve_name(*curve))
+                }
+                Slot::Point(role) => Part::Point(role, names().next()?),
+                Slot::Touching => Part::Points(touching.next()?),
                 Slot::Measure => Part::Measure(self.held(record)?),
                 Slot::Relation { .. } if record.constraint.get(Field::ValueY).is_some() => {
                     Part::Relation(Relation::Equal(self.place_of(record)?))
@@ -136,7 +162,8 @@ impl<'a> Unbind<'a> {
             })
         });
         let constraint = Stated { word, parts: parts.collect() };
-        let label = Some(named(&record.name));
+        let is_named_within = word.pattern().slots.contains(&Slot::Defined);
+        let label = (!is_named_within).then(|| named(&record.name));
         Command::Constrain(Box::new(ConstraintDecl { label, constraint }))
     }
 

@@ -231,6 +231,10 @@ impl Partition {
         let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.constraints.len());
         for &id in &loose.constraints {
             let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
+            if constraint.n_rows() == 0 {
+                // A circle asks for nothing.
+                continue;
+            }
             let mut free = constraint.points().iter().copied().filter(|&p| is_free(p));
             let Some(first) = free.next() else {
                 self.of_constraint[id.idx()] = CHECKED;

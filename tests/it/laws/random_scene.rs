@@ -99,8 +99,23 @@ fn constraint() -> impl Strategy<Value = String> {
             .prop_map(|(m, r)| format!("hold {m} {}", if r.is_empty() { "= 1" } else { &*r })),
         1 => [point(), point(), point()]
             .prop_map(|[a, b, c]| format!("hold {a} = midpoint({b}, {c})")),
+        1 => (point(), constraint_name()).prop_map(|(a, c)| format!("glider {a} on {c}")),
+        1 => (point(), point(), constraint_name())
+            .prop_map(|(a, b, c)| format!("tangent {a} {b} to {c}")),
+        1 => (constraint_name(), constraint_name(), any::<bool>()).prop_map(|(c, d, is_inside)| {
+            format!("tangent {c} to {d} {}", if is_inside { "inside" } else { "" })
+        }),
     ];
-    (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"))
+    let curve = prop_oneof![
+        (constraint_name(), point(), number())
+            .prop_map(|(c, o, r)| format!("circle {c} = {o} radius abs({r})")),
+        (constraint_name(), point(), point())
+            .prop_map(|(c, o, p)| format!("circle {c} = {o} through {p}")),
+        (constraint_name(), point(), point(), point())
+            .prop_map(|(c, o, p, q)| format!("arc {c} = {o} from {p} to {q}")),
+    ];
+    let named = (constraint_name(), body).prop_map(|(name, body)| format!("{name}: {body}"));
+    prop_oneof![9 => named, 1 => curve]
 }
 
 /// A constraint with an expression that has no value, or none that it could have, in some poses.

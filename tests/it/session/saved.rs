@@ -26,14 +26,33 @@ fn statement(word: ConstraintWord) -> String {
             Slot::Value(role) | Slot::Optional(role, _) => format!("{} 2", role.word()),
             Slot::Place(role) => format!("{} (2, 3)", role.word()),
             Slot::Gearing => "ratio 2".to_owned(),
+            Slot::Defined | Slot::Touching => unreachable!("stated by hand"),
             Slot::Measure => "distance(p0, p1) + angle(p0, p1, p2, p3)".to_owned(),
             Slot::Relation { .. } if word == ConstraintWord::Hold => "= 2".to_owned(),
-            Slot::Relation { .. } | Slot::Flag(_) => String::new(),
+            Slot::Relation { .. } | Slot::Flag(_) | Slot::Point(_) => String::new(),
         };
         text.push_str(&part);
         before = Some(*slot);
     }
     text
+}
+
+/// The statements of circles, arcs, and of what slides on them or touches them.
+const CURVES: [&str; 7] = [
+    "circle it = p0 radius 2",
+    "circle it = p0 through p1",
+    "arc it = p0 from p1 to p2",
+    "circle z = p0 radius 2; it: tangent p1 p2 to z",
+    "circle z = p0 through p1; circle y = p2 radius 1; it: tangent z to y inside",
+    "circle z = p0 through p1; it: glider p2 on z",
+    "arc z = p0 from p1 to p2; it: glider p3 on z",
+];
+
+/// A statement of each constraint.
+fn statements() -> Vec<String> {
+    let by_hand = [ConstraintWord::Circle, ConstraintWord::Arc, ConstraintWord::Tangent];
+    let others = ConstraintWord::ALL.iter().filter(|word| !by_hand.contains(word));
+    others.map(|&word| statement(word)).chain(CURVES.map(str::to_owned)).collect()
 }
 
 /// Saves a world and loads it; both then go on alike.
@@ -53,7 +72,7 @@ fn check(talking: &mut Talking, what: &str) {
 
 #[test]
 fn a_constraint_of_any_kind_whose_points_were_moved_onto_each_other_is_loaded_again() {
-    for word in ConstraintWord::ALL {
+    for statement in statements() {
         for form in ["holonomic", "velocity"] {
             for moves in ["p1 to p0", "p2 to p3", "p0 to p2", "p1 to p3", "p2 to p0; move p3 to p0"]
             {
@@ -63,9 +82,9 @@ fn a_constraint_of_any_kind_whose_points_were_moved_onto_each_other_is_loaded_ag
                         places.map(|(k, at)| format!("point p{k} = {at}")).collect();
                     let mut talking = Talking::after(&format!("set cog {form}"));
                     talking.run(&points.join("; "));
-                    talking.run(&statement(*word));
+                    talking.run(&statement);
                     talking.run(&format!("{before}move {moves}"));
-                    check(&mut talking, &format!("{}: {before}{moves}", statement(*word)));
+                    check(&mut talking, &format!("{statement}: {before}{moves}"));
                 }
             }
         }

@@ -100,6 +100,19 @@ fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
         Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
+        Slot::Defined => name().prop_map(|name| Some(Part::Defined(name))).boxed(),
+        Slot::Point(Role::On) => Just(None).boxed(),
+        Slot::Point(role) if word == ConstraintWord::Arc => {
+            name().prop_map(move |name| Some(Part::Point(role, name))).boxed()
+        }
+        Slot::Point(role) if word == ConstraintWord::Tangent => {
+            of(name()).prop_map(move |name| Some(Part::Point(role, name?))).boxed()
+        }
+        Slot::Point(_) => Just(None).boxed(),
+        Slot::Touching => vec(name(), 1..3).prop_map(|names| Some(Part::Points(names))).boxed(),
+        Slot::Optional(role, _) if word == ConstraintWord::Circle => {
+            expr().prop_map(move |value| Some(Part::Value(role, value))).boxed()
+        }
         Slot::Measure => expr().prop_map(|value| Some(Part::Measure(value))).boxed(),
         Slot::Relation { .. } if word == ConstraintWord::Hold => {
             relation().prop_map(|relation| Some(Part::Relation(relation))).boxed()
