@@ -34,6 +34,6 @@ impl Member {
 
     /// Whether it follows from the constraints, so that none of them can be made of it.
     pub const fn follows(self) -> bool {
-        matches!(self, Self::Value | Self::Residual)
+        matches!(self, Self::Residual)
     }
 }

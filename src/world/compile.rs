@@ -139,8 +139,12 @@ impl<'a> Compiler<'a> {
         let mut open = vec![formula.clone()];
         while let Some(formula) = open.pop() {
             formula.mentions(&mut |mention| {
-                if let Mention::Member(id, Member::Radius) = mention {
-                    open.extend(self.world.radius_driver(id).cloned());
+                match mention {
+                    Mention::Member(id, Member::Radius) => {
+                        open.extend(self.world.radius_driver(id).cloned());
+                    }
+                    Mention::Member(id, Member::Value) => open.push(self.world.measure(id)),
+                    _ => {}
                 }
                 if let Mention::Parameter(id) = mention
                     && let Some(parameter) = self.world.parameter(id)
@@ -277,6 +281,7 @@ impl<'a> Compiler<'a> {
                 Place::Number(self.push(Operation::NearestTurn(place.number(), before)))
             }
             Node::Member(id, Member::Radius) => self.radius(*id),
+            Node::Member(id, Member::Value) => self.compile(&self.world.measure(*id)),
             Node::Member(..) | Node::Time => {
                 unreachable!("what does not measure the pose is an input")
             }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::dependencies::{LiveConstraints, Ramp, is_motor};
-use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, World};
+use super::{ConstraintId, Depends, Entity, Formula, Mention, ParameterId, Record, World};
 use crate::constraint::{ConstraintKind as _, Field};
 use crate::terms::Member;
 
@@ -44,7 +44,11 @@ impl World {
                     note_parameters(&parameter.formula, &mut used);
                     parameter.formula.mentions(&mut |mention| {
                         // By how much it is missed depends on what drives it.
-                        if let Mention::Member(id, Member::Residual | Member::Radius) = mention {
+                        if let Mention::Member(
+                            id,
+                            Member::Residual | Member::Radius | Member::Value,
+                        ) = mention
+                        {
                             let record = self.constraint(id).expect("a used constraint lives");
                             let drivers = record.drivers().iter();
                             drivers.for_each(|(_, formula)| note_parameters(formula, &mut used));
@@ -113,6 +117,7 @@ impl World {
                     Some(formula) => self.follows_motion(formula),
                     None => self.radius_depends(id).on_points,
                 },
+                Mention::Member(id, Member::Value) => self.follows_motion(&self.measure(id)),
                 Mention::Member(..) => false,
             };
         });
@@ -138,40 +143,58 @@ impl World {
                 Mention::Member(id, Member::Radius) => {
                     depends = depends.or(self.radius_depends(id));
                 }
+                Mention::Member(id, Member::Value) => {
+                    depends = depends.or(self.depends(&self.measure(id)));
+                }
                 Mention::Member(..) | Mention::Point(_) => {}
             });
         }
         depends
     }
 
-    /// How parameter `id` would come to depend on itself through `formula`: the parameters on
-    /// the way, itself last. None where it would not.
-    pub fn cycle(&self, id: ParameterId, formula: &Formula) -> Option<Vec<ParameterId>> {
-        let mut pending: Vec<ParameterId> = Vec::new();
-        // Through which parameter each was reached; itself, where by the formula.
-        let mut reached: BTreeMap<ParameterId, ParameterId> = BTreeMap::new();
-        let mut look = |formula: &Formula, from, pending: &mut Vec<ParameterId>| {
+    /// How a parameter, or the radius of a circle, would come to depend on itself through `formula`:
+    /// what is on the way, itself last. None where it would not.
+    pub fn cycle(&self, of: Entity, formula: &Formula) -> Option<Vec<Entity>> {
+        let mut pending: Vec<Entity> = Vec::new();
+        // Through what each was reached; itself, where by the formula.
+        let mut reached: BTreeMap<Entity, Entity> = BTreeMap::new();
+        let mut look = |formula: &Formula, from, pending: &mut Vec<Entity>| {
             formula.mentions(&mut |mention| {
-                if let Mention::Parameter(used) = mention {
-                    reached.entry(used).or_insert_with(|| {
-                        pending.push(used);
-                        from
-                    });
-                }
+                let used = match mention {
+                    Mention::Parameter(used) => Entity::Parameter(used),
+                    Mention::Member(used, Member::Radius | Member::Value) => {
+                        Entity::Constraint(used)
+                    }
+                    Mention::Member(..) | Mention::Point(_) => return,
+                };
+                reached.entry(used).or_insert_with(|| {
+                    pending.push(used);
+                    from
+                });
             });
         };
-        look(formula, id, &mut pending);
+        look(formula, of, &mut pending);
         while let Some(used) = pending.pop() {
-            if used == id {
+            if used == of {
                 break;
             }
-            if let Some(parameter) = self.parameter(used) {
-                look(&parameter.formula, used, &mut pending);
+            let formula = match used {
+                Entity::Parameter(id) => {
+                    self.parameter(id).map(|parameter| parameter.formula.clone())
+                }
+                Entity::Constraint(id) if self.curve(id).is_some() => {
+                    self.radius_driver(id).cloned()
+                }
+                Entity::Constraint(id) => Some(self.measure(id)),
+                Entity::Point(_) => None,
+            };
+            if let Some(formula) = formula {
+                look(&formula, used, &mut pending);
             }
         }
-        let mut path = vec![id];
-        let mut at = *reached.get(&id)?;
-        while at != id {
+        let mut path = vec![of];
+        let mut at = *reached.get(&of)?;
+        while at != of {
             path.push(at);
             at = reached[&at];
         }

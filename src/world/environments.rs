@@ -226,8 +226,10 @@ impl Environment<Jet> for Moving<'_> {
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {
-        if member == Member::Radius {
-            return self.world.radius(id, self);
+        match member {
+            Member::Radius => return self.world.radius(id, self),
+            Member::Value => return Ok(self.world.measure(id).evaluate(self)?.number()),
+            Member::Angle | Member::Residual => {}
         }
         debug_assert_eq!(member, Member::Angle, "the others drive nothing");
         Ok(self.angles.get(&id).copied().unwrap_or_else(|| {

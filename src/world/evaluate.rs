@@ -99,14 +99,35 @@ impl World {
         Ok(())
     }
 
-    /// Makes a parameter that was there before, whether or not it has a value now; gives the edit
-    /// that takes it back.
-    pub fn restore_parameter(&mut self, id: ParameterId, name: NameText, formula: Formula) -> Edit {
+    /// Makes a parameter that was there before, whether or not it has a value now, and binds what
+    /// mentions it; what takes it back is added to `undo` edit by edit.
+    pub fn restore_parameter(
+        &mut self,
+        id: ParameterId,
+        name: NameText,
+        formula: Formula,
+        undo: &mut Vec<Edit>,
+    ) {
         let depends = self.depends(&formula);
         let value = (!depends.on_rates).then(|| self.evaluate(&formula, None).ok()).flatten();
         // Why it has none is noted once it is asked for.
         self.dependencies.note_change();
-        self.apply(Edit::Parameter(id, Some(Box::new(Parameter { name, formula, value, depends }))))
+        let parameter = Parameter { name, formula, value, depends };
+        undo.push(self.apply(Edit::Parameter(id, Some(Box::new(parameter)))));
+        let (parameters, constraints) = self.affected(self.dependencies.users(id));
+        for id in parameters {
+            let mut record = self.parameter(id).expect("a listed parameter lives").clone();
+            record.depends = self.depends(&record.formula);
+            undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
+        }
+        self.sort_parameters();
+        for id in constraints {
+            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
+            self.bind(&mut record);
+            // What has no value now is given the one that it had last.
+            let _ = record.drive(&Here::new(self, None));
+            undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
+        }
     }
 
     /// Why a parameter cannot drive a constraint.

@@ -124,6 +124,11 @@ impl Formula {
         Self::new(Node::Number(value), Shape::Number, Depends::default(), NOWHERE)
     }
 
+    /// A node that stands in no text.
+    pub(super) fn without_place(node: Node, shape: Shape, depends: Depends) -> Self {
+        Self::new(node, shape, depends, NOWHERE)
+    }
+
     /// A node with its shape, what it depends on and its place in the text.
     pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
         Self(Arc::new(Inner { node, shape, depends, span }))

@@ -1,13 +1,14 @@
 //! What the members of things are worth: `crank.angle`, `coupler.value`, `coupler.residual`.
 
+use std::collections::BTreeSet;
+
 use super::environments::Here;
-use super::{ConstraintId, Depends, Environment, Formula, Mention, PointId, World};
-use crate::constraint::geometry::wrap;
+use super::{ConstraintId, Depends, Environment, Formula, Mention, Node, PointId, World};
 use crate::constraint::{
-    Carried, Constraint, ConstraintKind as _, Curve, Field, Quantity, Real, length,
+    Carried, Constraint, ConstraintKind as _, Curve, Equal, Field, Real, length,
 };
 use crate::diag::Diagnostic;
-use crate::terms::Member;
+use crate::terms::{Function, Member, Operator, Shape};
 
 impl World {
     /// The first member that a formula mentions, at any depth, and that follows from the
@@ -49,15 +50,7 @@ impl World {
         Ok(match member {
             Member::Angle => self.motor_angle(id),
             Member::Radius => self.radius(id, &Here::new(self, None))?,
-            Member::Value => {
-                // What it measures is what is left of it where 0 is asked for.
-                let mut at_zero = record.constraint.at(x).into_owned();
-                at_zero.set(Field::Lo, 0.0);
-                at_zero.set(Field::Hi, 0.0);
-                let value = at_zero.residual(x);
-                let is_angle = at_zero.traits().quantity == Quantity::Angle;
-                if is_angle { wrap(value) } else { value }
-            }
+            Member::Value => self.measure(id).evaluate(&Here::new(self, None))?.number(),
             Member::Residual if record.live().is_empty() => record.constraint.residual(x),
             Member::Residual => {
                 let mut now = record.clone();
@@ -65,6 +58,50 @@ impl World {
                 now.constraint.residual(x)
             }
         })
+    }
+
+    /// What a constraint measures, as a formula.
+    pub(super) fn measure(&self, id: ConstraintId) -> Formula {
+        let record = self.constraint(id).expect("a mentioned constraint lives");
+        let depends = Depends { on_points: true, ..Depends::default() };
+        let new = |node, shape| Formula::without_place(node, shape, depends);
+        let call = |function, points: &[u32]| {
+            let points = points.iter().map(|&p| new(Node::Point(PointId(p)), Shape::Vector));
+            new(Node::Call(function, points.collect()), Shape::Number)
+        };
+        match record.constraint.stated() {
+            Constraint::Length(c) => call(Function::Distance, &c.points),
+            Constraint::Distance(c) => call(Function::DistanceToLine, &c.points),
+            Constraint::Orientation(c) => call(Function::AngleBetween, &c.points),
+            Constraint::Equal(Equal { points: [a, b, c, d], ratio, .. }) => {
+                let [first, second] = [[*a, *b], [*c, *d]].map(|p| call(Function::Distance, &p));
+                let driver = record.driver(Field::Ratio).cloned();
+                let ratio = driver.unwrap_or_else(|| Formula::constant(*ratio));
+                let second = new(Node::Binary(Operator::Multiply, second, ratio), Shape::Number);
+                new(Node::Binary(Operator::Subtract, first, second), Shape::Number)
+            }
+            other => {
+                let value = || Formula::constant(other.get(Field::Value).unwrap_or_default());
+                record.driver(Field::Value).cloned().unwrap_or_else(value)
+            }
+        }
+    }
+
+    /// Whether a formula mentions a member of a constraint, at any depth.
+    pub fn mentions_members(&self, formula: &Formula) -> bool {
+        let mut seen = BTreeSet::new();
+        let mut open = vec![formula.clone()];
+        let mut is_found = false;
+        while let Some(formula) = open.pop().filter(|_| !is_found) {
+            formula.mentions(&mut |mention| match mention {
+                Mention::Member(..) => is_found = true,
+                Mention::Parameter(id) if seen.insert(id) => {
+                    open.extend(self.parameter(id).map(|parameter| parameter.formula.clone()));
+                }
+                Mention::Parameter(_) | Mention::Point(_) => {}
+            });
+        }
+        is_found
     }
 
     /// The circle or arc that a constraint is, if it is one.

@@ -24,18 +24,48 @@ const OF_A_KIND: [&str; 4] =
 const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What other tools call it, and what is likely meant instead.
     (Kind::Coincidence, &["lang/lower/prefix.rs"]),
-    (Kind::Glider, &["lang/lower/prefix.rs", "solve/frame/dyad.rs"]),
+    // One on a circle is of another kind.
+    (
+        Kind::Glider,
+        &[
+            "constraint/kinds/touch.rs",
+            "lang/lower/prefix.rs",
+            "session/commands/constrain.rs",
+            "session/commands/touch.rs",
+            "solve/frame/dyad.rs",
+        ],
+    ),
+    (Kind::Hinge, &["session/commands/touch.rs"]),
+    // What of a circle others name; an SVG document has circles of its own.
+    (
+        Kind::Curve,
+        &[
+            "render/document.rs",
+            "render/symbols/round.rs",
+            "session/commands/touch.rs",
+            "world/compile.rs",
+            "world/member.rs",
+        ],
+    ),
+    (
+        Kind::Touch,
+        &[
+            "session/commands/constrain.rs",
+            "session/commands/touch.rs",
+            "session/resolve/unbind.rs",
+        ],
+    ),
     // What is likely a slip in a distance, an angle or a phase is noted.
     // What a constraint measures is said by a function that measures the same.
     (
         Kind::Distance,
-        &["lang/lower/errors/mistake.rs", "session/commands/slips.rs", "session/resolve/unbind.rs"],
+        &["lang/lower/errors/mistake.rs", "session/commands/slips.rs", "world/member.rs"],
     ),
     // Bars are found by the meeting of two circles, and swept in shares.
     (
         Kind::Equal,
         // The spokes of an arc are of one length.
-        &["constraint/kinds/curve.rs", "session/resolve/unbind.rs", "solve/frame/dyad.rs"],
+        &["constraint/kinds/curve.rs", "solve/frame/dyad.rs", "world/member.rs"],
     ),
     (
         Kind::Length,
@@ -43,6 +73,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "lang/lower/errors/refusal.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
+            "world/member.rs",
             "solve/frame/branch.rs",
             "solve/frame/decomposition.rs",
             "solve/frame/dyad.rs",
@@ -57,6 +88,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "session/commands/diagnose.rs",
             "session/commands/slips.rs",
             "session/resolve/unbind.rs",
+            "world/member.rs",
         ],
     ),
     // A motor is what drives: its turn is an input, its end is what `limits` asks for.
@@ -184,7 +216,7 @@ fn a_function_touches_two_files() {
             "terms/function.rs" => true,
             // What is of vectors falls apart into numbers there, and what a tangent measures is said
             // in terms of the language.
-            "world/compile.rs" | "session/commands/touch.rs" => false,
+            "world/compile.rs" | "world/member.rs" | "session/commands/touch.rs" => false,
             _ => has_word(&source.code(), &path),
         };
         let found = naming(names);

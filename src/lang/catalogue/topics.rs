@@ -43,12 +43,12 @@ pub(super) const TOPICS: &[Entry] = &[
     Entry {
         keyword: "members",
         section: Section::Topics,
-        usage: "crank.angle, coupler.value, coupler.residual",
+        usage: "crank.angle, coupler.value, coupler.residual, c.radius",
         summary: "what a thing says of itself",
         help: "`.angle` is that of a motor with its phase; it goes on past half a turn. `.value` is what a\n\
              constraint measures now, whatever is asked of it; `.residual` is by how much it is missed,\n\
              with its sign. What is declared under such a name comes first.\n\
-             A constraint may follow an angle; what follows from the constraints cannot drive one.",
+             A constraint may follow an angle, a value, or the `.radius` of a circle; a residual drives none.",
         example: "length A B = 3 + sin(2 * crank.angle)\n\
              print coupler.value, coupler.residual",
     },

@@ -47,6 +47,11 @@ impl Execution<'_> {
         for part in lines.into_iter().chain(others) {
             is_made_anew |= self.resolve().change_part(&mut record, name, part)?;
         }
+        if let Some(radius) = record.driver(Field::Radius)
+            && self.state.world.curve(id).is_some()
+        {
+            self.refuse_cycle(Entity::Constraint(id), radius, radius.span())?;
+        }
         self.state.world.bind(&mut record);
         // What has no value now is given the one that it had last.
         if !self.state.is_restoring {

@@ -41,8 +41,8 @@ impl Execution<'_> {
         };
         let mut record = Record::new(name, constraint, drivers);
         self.state.world.bind(&mut record);
-        refuse_idle(&record.constraint, span)?;
         if !self.state.is_restoring {
+            refuse_idle(&record.constraint, span)?;
             refuse_flaw(&record.constraint, &stated.parts, span)?;
         }
         let id = self.state.world.next_constraint();

@@ -1,6 +1,6 @@
 //! Points and parameters: making, moving, freezing.
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::{ALL, RESERVED};
@@ -49,17 +49,7 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let old = self.state.world.parameter(id).expect("a named parameter lives");
         let text = old.name.clone();
-        if let Some(path) = self.state.world.cycle(id, &formula) {
-            let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
-                .at(value.span, format!("this leads back to `{text}`"));
-            let path = path.into_iter().map(|id| self.state.world.name_of(Entity::Parameter(id)));
-            let path: Vec<String> = path.map(|name| format!("`{name}`")).collect();
-            return Err(if path.len() == 1 {
-                problem.help("an expression stays live; to count on, give the number itself")
-            } else {
-                problem.note(format!("`{text}` from {}", path.join(", that from ")))
-            });
-        }
+        self.refuse_cycle(Entity::Parameter(id), &formula, value.span)?;
         let (was, is) = (old.formula.shape(), formula.shape());
         if was != is && !self.state.world.users(&[Entity::Parameter(id)]).is_empty() {
             return Err(Diagnostic::error(format!("`{text}` is a {} and used as one", was.noun()))
@@ -75,9 +65,8 @@ impl Execution<'_> {
         formula: Formula,
     ) -> Result<(), Diagnostic> {
         let mut undo = Vec::new();
-        let is_new = self.state.world.parameter(id).is_none();
-        let result = if self.state.is_restoring && is_new {
-            undo.push(self.state.world.restore_parameter(id, name, formula));
+        let result = if self.state.is_restoring {
+            self.state.world.restore_parameter(id, name, formula, &mut undo);
             Ok(())
         } else {
             self.state.world.set_parameter(id, name, formula, &mut undo)
@@ -86,6 +75,27 @@ impl Execution<'_> {
             self.history.keep(&self.state.world, inverse);
         }
         result
+    }
+
+    /// Refuses an expression by which something would depend on itself.
+    pub(super) fn refuse_cycle(
+        &self,
+        of: Entity,
+        formula: &Formula,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let world = &self.state.world;
+        let Some(path) = world.cycle(of, formula) else { return Ok(()) };
+        let text = world.name_of(of);
+        let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
+            .at(span, format!("this leads back to `{text}`"));
+        let path: Vec<String> =
+            path.into_iter().map(|entity| format!("`{}`", world.name_of(entity))).collect();
+        Err(if path.len() == 1 {
+            problem.help("an expression stays live; to count on, give the number itself")
+        } else {
+            problem.note(format!("`{text}` from {}", path.join(", that from ")))
+        })
     }
 
     /// The points of a selection.

@@ -7,13 +7,14 @@ use super::setting_table::SETTINGS;
 use crate::constraint::{Constraint, ConstraintKind as _, Field};
 use crate::diag::Diagnostic;
 use crate::lang::ast::{
-    Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
+    Binding, Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
 };
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
 use crate::session::state::State;
 use crate::solve::CogForm;
-use crate::world::{Depends, Drivers, ParameterId, Record};
+use crate::terms::Shape;
+use crate::world::{ConstraintId, Drivers, Mention, ParameterId, Record};
 
 /// How a file that `save` wrote begins.
 const FIRST_WORDS: &str = "# A linkwork session.";
@@ -48,15 +49,11 @@ impl State {
         self.save_points(&mut script);
         self.save_turn_counts(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
-        // What mentions members of constraints comes after these.
-        let (late, early): (Vec<_>, Vec<_>) =
-            self.parameters_in_order().into_iter().partition(|id| {
-                let parameter = self.world.parameter(*id).expect("a listed parameter lives");
-                has_members(parameter.depends)
-            });
-        self.save_parameters(&early, &mut script);
+        // What mentions members of constraints is a number until these are there.
+        let parameters = self.parameters_in_order();
+        self.save_parameters(&parameters, &mut script);
         self.save_constraints(&mut script);
-        self.save_parameters(&late, &mut script);
+        self.save_late_parameters(&parameters, &mut script);
         self.save_late_values(&mut script);
         self.save_start_states(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[0.0]));
@@ -133,7 +130,7 @@ impl State {
     fn save_constraints(&self, script: &mut String) {
         let now = self.preferences.solve.cog;
         let mut form = now;
-        for (_, record) in self.world.constraints() {
+        for (id, record) in self.world.constraints() {
             let wanted = match &record.constraint {
                 Constraint::Cog(_) => CogForm::Holonomic,
                 Constraint::CogVelocity(_) => CogForm::Velocity,
@@ -142,14 +139,14 @@ impl State {
             if std::mem::replace(&mut form, wanted) != wanted {
                 set_cog(script, wanted);
             }
-            let late = self.late_fields(record);
+            let late = self.late_fields(id, record);
             line(script, Unbind::of(&self.world).constraint_statement(&without(record, &late)));
             if let Some(rho) = record.rho() {
                 let targets = vec![named(&record.name)];
                 let value = literal(rho);
                 line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
-            if late.is_empty() {
+            if !self.follows_members(record) {
                 save_state(record, script);
             }
         }
@@ -160,14 +157,40 @@ impl State {
 
     fn save_parameters(&self, ids: &[ParameterId], script: &mut String) {
         for id in ids {
-            script.push_str(&Unbind::of(&self.world).parameter_text(*id));
-            script.push('\n');
+            let parameter = self.world.parameter(*id).expect("a listed parameter lives");
+            if self.world.mentions_members(&parameter.formula) {
+                let value = match parameter.formula.shape() {
+                    Shape::Number => literal(1.0),
+                    Shape::Vector => vector(1.0, 1.0),
+                };
+                let binding = Binding { name: named(&parameter.name), value };
+                line(script, Making::Let(vec![binding]));
+            } else {
+                script.push_str(&Unbind::of(&self.world).parameter_text(*id));
+                script.push('\n');
+            }
         }
     }
 
-    /// The values of a constraint that mention members of constraints, which may come after it,
-    /// and those that stand in the same part of its statement.
-    fn late_fields(&self, record: &Record) -> Vec<Field> {
+    /// Makes parameters live that mention members of constraints.
+    fn save_late_parameters(&self, ids: &[ParameterId], script: &mut String) {
+        for id in ids {
+            let parameter = self.world.parameter(*id).expect("a listed parameter lives");
+            if self.world.mentions_members(&parameter.formula) {
+                script.push_str(&Unbind::of(&self.world).parameter_text(*id));
+                script.push('\n');
+            }
+        }
+    }
+
+    /// Whether some value of a constraint depends on members of constraints.
+    fn follows_members(&self, record: &Record) -> bool {
+        record.drivers().iter().any(|(_, formula)| self.world.mentions_members(formula))
+    }
+
+    /// The values of a constraint that mention members of itself or of such as come after it, and
+    /// those that stand in the same part of its statement.
+    fn late_fields(&self, id: ConstraintId, record: &Record) -> Vec<Field> {
         let parts: [&[Field]; 6] = [
             &[Field::Lo, Field::Hi],
             &[Field::X, Field::Y],
@@ -177,8 +200,13 @@ impl State {
             &[Field::Ratio],
         ];
         let is_late = |field: &Field| {
-            let driver = record.driver(*field);
-            driver.is_some_and(|formula| has_members(self.world.depends(formula)))
+            let mut is_late = false;
+            if let Some(formula) = record.driver(*field) {
+                formula.mentions(&mut |mention| {
+                    is_late |= matches!(mention, Mention::Member(used, _) if used >= id);
+                });
+            }
+            is_late
         };
         let late = parts.into_iter().filter(|part| part.iter().any(is_late)).flatten();
         late.copied().filter(|field| record.driver(*field).is_some()).collect()
@@ -186,11 +214,11 @@ impl State {
 
     /// Makes live what had to wait for the members it mentions.
     fn save_late_values(&self, script: &mut String) {
-        for (_, record) in self.world.constraints() {
-            let late = self.late_fields(record);
-            if late.is_empty() {
+        for (id, record) in self.world.constraints() {
+            if !self.follows_members(record) {
                 continue;
             }
+            let late = self.late_fields(id, record);
             let unbind = Unbind::of(&self.world);
             let parts = |record: &Record| match unbind.constraint_statement(record) {
                 Command::Constrain(declaration) => declaration.constraint.parts,
@@ -247,11 +275,6 @@ impl State {
             line(script, Drawing::Expose(Expose::Every(literal(every as f64))));
         }
     }
-}
-
-/// Whether something mentions members of constraints.
-const fn has_members(depends: Depends) -> bool {
-    depends.on_angles || depends.on_constraints
 }
 
 /// A constraint with the numbers of now in the place of the expressions behind these values.

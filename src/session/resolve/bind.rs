@@ -275,13 +275,12 @@ impl Resolver<'_> {
         mode: Mode,
     ) -> Result<Term, Diagnostic> {
         let follows = member.follows();
-        let is_radius = member == Member::Radius;
         let depends = Depends {
-            on_angles: !follows && !is_radius,
+            on_angles: member == Member::Angle,
             // What it depends on is known where it is looked up, as of a parameter.
-            on_parameters: is_radius,
+            on_parameters: matches!(member, Member::Radius | Member::Value),
             on_constraints: follows,
-            on_points: follows,
+            on_points: follows || member == Member::Value,
             ..Depends::default()
         };
         let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);

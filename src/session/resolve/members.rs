@@ -1,7 +1,6 @@
 //! Members of things: which there are, and what they cannot be used for.
 
 use super::scope::{Meaning, Resolver};
-use super::unbind::Unbind;
 use crate::diag::{Diagnostic, Span};
 use crate::terms::Member;
 use crate::world::{ConstraintId, Entity, Formula};
@@ -53,15 +52,9 @@ impl Resolver<'_> {
                 .at(span, "velocities follow from the constraints"));
         }
         let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
-        let unbind = Unbind::of(&self.state.world);
         let name =
             format!("{}.{}", self.state.world.name_of(Entity::Constraint(id)), member.word());
-        let problem = Diagnostic::error(format!("`{name}` cannot drive a constraint"));
-        Err(match (member, unbind.measure_text(id)) {
-            (Member::Value, Some(measure)) => problem
-                .at(span, "it follows from the constraints")
-                .help(format!("write what it measures: `{measure}`")),
-            _ => problem.at(span, "it follows from the constraints"),
-        })
+        Err(Diagnostic::error(format!("`{name}` cannot drive a constraint"))
+            .at(span, "it follows from the constraints"))
     }
 }

@@ -244,23 +244,6 @@ impl<'a> Unbind<'a> {
         }
     }
 
-    /// The expression that measures what a constraint measures, if there is one.
-    pub(crate) fn measure_text(&self, id: ConstraintId) -> Option<String> {
-        let constraint = self.world.constraint(id)?.constraint.stated();
-        let names: Vec<&str> =
-            constraint.points().iter().map(|&p| self.world.points().name(PointId(p))).collect();
-        Some(match (constraint, &names[..]) {
-            (Constraint::Length(_) | Constraint::Distance(_), names) => {
-                format!("distance({})", names.join(", "))
-            }
-            (Constraint::Orientation(_), names) => format!("angle({})", names.join(", ")),
-            (Constraint::Equal(_), [a, b, c, d]) => {
-                format!("distance({a}, {b}) - distance({c}, {d})")
-            }
-            _ => return None,
-        })
-    }
-
     /// A formula as the language writes it.
     pub(crate) fn unbind(&self, formula: &Formula) -> Expr {
         let two = |a: &Formula, b: &Formula| Box::new([self.unbind(a), self.unbind(b)]);

@@ -136,3 +136,20 @@ fn a_count_of_turns_is_held_beyond_half_a_turn() {
     talking.run("assert turn(O, A) = 0.5rev within 1e-9; assert A = (-1, 0) within 1e-9");
     talking.run("step 36; assert turn(O, A) = 1rev within 1e-9; assert A = (1, 0) within 1e-9");
 }
+
+#[test]
+fn what_a_constraint_measures_is_a_measure_like_others() {
+    // A rod, another twice as long, and a third that is as long as what is held.
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen, A = (1, 0), B = (4, 0), C = (0, 3)
+         a: length O A in 1..3
+         b: length A B = 2 * a.value
+         sum: hold distance(O, A) + distance(A, B) = 6
+         length O C = sum.value
+         hold A.y = 0; hold B.y = 0
+         solve",
+    );
+    talking.run("assert A = (2, 0) within 1e-9; assert B = (6, 0) within 1e-9");
+    talking.run("assert distance(O, C) = 6 within 1e-9; change sum = 9; solve");
+    talking.run("assert A = (3, 0) within 1e-9; assert distance(O, C) = 9 within 1e-9");
+}

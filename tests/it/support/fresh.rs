@@ -28,6 +28,19 @@ impl Environment<f64> for Fresh<'_> {
     }
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
+        let x = self.0.points().column();
+        let record = self.0.constraint(id).expect("a mentioned constraint lives");
+        if let (Member::Radius, Constraint::Curve(curve)) = (member, record.constraint.stated()) {
+            let driver = record.driver(Field::Radius);
+            let radius = driver.map(|formula| formula.evaluate(self).map(Value::number));
+            return radius.unwrap_or(Ok(curve.radius_at(x)));
+        }
+        if member == Member::Value {
+            let mut at_zero = record.constraint.at(x).into_owned();
+            at_zero.set(Field::Lo, 0.0);
+            at_zero.set(Field::Hi, 0.0);
+            return Ok(at_zero.residual(x));
+        }
         match self.0.constraint(id).map(|record| &record.constraint) {
             Some(Constraint::Motor(motor)) if member == Member::Angle => Ok(motor.total()),
             other => unreachable!("{member:?} of {other:?} drives nothing"),

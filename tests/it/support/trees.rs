@@ -94,11 +94,20 @@ fn constraint() -> BoxedStrategy<Constraint> {
     select(ConstraintWord::ALL).prop_flat_map(parts).boxed()
 }
 
+/// A name that is no word of a statement with gliders or tangents.
+fn plain_name() -> BoxedStrategy<Name> {
+    let words = ["inside", "unbounded", "at", "to"];
+    name().prop_filter("a word", move |name| !words.contains(&&*name.to_string())).boxed()
+}
+
 /// What may stand in a slot of a statement.
 fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
     match slot {
         Slot::Points(n) => vec(name(), n).prop_map(|names| Some(Part::Points(names))).boxed(),
         Slot::AllPoints => vec(name(), 2..5).prop_map(|names| Some(Part::Points(names))).boxed(),
+        Slot::Line(role) if word == ConstraintWord::Glider => (name(), plain_name())
+            .prop_map(move |(from, to)| Some(Part::Line(role, Pair { from, to })))
+            .boxed(),
         Slot::Line(role) => pair().prop_map(move |pair| Some(Part::Line(role, pair))).boxed(),
         Slot::Defined => name().prop_map(|name| Some(Part::Defined(name))).boxed(),
         Slot::Point(Role::On) => Just(None).boxed(),
@@ -109,7 +118,10 @@ fn slot_part(word: ConstraintWord, slot: Slot) -> BoxedStrategy<Option<Part>> {
             of(name()).prop_map(move |name| Some(Part::Point(role, name?))).boxed()
         }
         Slot::Point(_) => Just(None).boxed(),
-        Slot::Touching => vec(name(), 1..3).prop_map(|names| Some(Part::Points(names))).boxed(),
+        // What may be a word of the statement is taken for one.
+        Slot::Touching => {
+            vec(plain_name(), 1..3).prop_map(|names| Some(Part::Points(names))).boxed()
+        }
         Slot::Optional(role, _) if word == ConstraintWord::Circle => {
             expr().prop_map(move |value| Some(Part::Value(role, value))).boxed()
         }
