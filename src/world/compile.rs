@@ -37,7 +37,8 @@ impl Place {
 impl World {
     /// Makes the expressions of a constraint that measure the pose part of it, to be solved with it;
     /// the others are to be evaluated before it is solved.
-    pub fn bind(&self, record: &mut Record) {
+    pub fn bind(&mut self, record: &mut Record) {
+        self.sort_parameters();
         let constraint = record.constraint.stated().clone();
         let mut live = Drivers::new();
         let mut measured = Drivers::new();
