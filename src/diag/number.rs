@@ -36,6 +36,9 @@ pub fn format_digits(value: f64, n_digits: usize) -> String {
 
 /// A number for talk: three digits say enough.
 pub fn format_rounded(value: f64) -> String {
+    if !value.is_finite() {
+        return "unknown".to_owned();
+    }
     format_digits(value, 3)
 }
 

@@ -111,6 +111,10 @@ pub fn analyse(scene: &ConstraintSystem, tolerance: f64) -> Analysis {
     for island in rows.islands() {
         analysis.add(scene, &island, tolerance);
     }
+    for constraint in scene.identities(tolerance) {
+        analysis.n_redundant += 1;
+        analysis.redundant.push(Redundant { constraint, depends_on: Vec::new() });
+    }
     analysis.redundant.sort_by_key(|redundant| redundant.constraint);
     analysis.redundant.dedup_by(|later, first| {
         let is_same = later.constraint == first.constraint;

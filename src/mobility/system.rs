@@ -149,12 +149,28 @@ impl ConstraintSystem<'_> {
         let mut unsatisfiable = Vec::new();
         let all = 0..self.constraints.len();
         let rows = self.rows_and_rest(points, all, &mut |constraint, row| {
-            if row.distance(self.w) > tolerance {
+            // What has no value here may have one where its points can go.
+            if row.f.is_finite() && row.distance(self.w) > tolerance {
                 unsatisfiable.push(constraint);
             }
         });
         unsatisfiable.dedup();
         (rows, unsatisfiable)
+    }
+
+    /// The constraints that hold whatever the pose: they are met, and no point, frozen or not, has a
+    /// part in any of their rows.
+    pub fn identities(&self, tolerance: f64) -> Vec<usize> {
+        let is_identity = |constraint: &Constraint| {
+            let mut is_one = constraint.n_rows() > 0;
+            constraint.jacobian(self.x, &mut |row| {
+                let is_felt = row.terms().any(|(_, g)| g != Vector::ZERO);
+                is_one &= row.is_active && !is_felt && row.f.abs() <= tolerance;
+            });
+            is_one
+        };
+        let all = self.constraints.iter().enumerate();
+        all.filter(|(_, constraint)| is_identity(constraint)).map(|(k, _)| k).collect()
     }
 
     /// The places of all constraints that hang together with one through points that move,

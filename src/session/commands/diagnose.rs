@@ -88,7 +88,7 @@ impl Check {
         let mut lines = vec![format!("degrees of freedom: {}", self.degrees_of_freedom)];
         for (name, depends_on) in self.redundant.iter().take(MOST_REDUNDANT) {
             lines.push(match &depends_on[..] {
-                [] => format!("redundant: {name}"),
+                [] => format!("redundant: {name}, which holds whatever the pose"),
                 others => format!("redundant: {name}, implied by {}", others.join(", ")),
             });
         }
@@ -243,8 +243,11 @@ impl State {
                 let mut lines = vec![off];
                 for r in found.redundant.iter().filter(|r| r.constraint == place) {
                     let others = listed(&subject.names(&r.depends_on), "and");
-                    let verb = if r.depends_on.len() == 1 { "implies" } else { "imply" };
-                    lines.push(format!("it is redundant: {others} {verb} it"));
+                    lines.push(match r.depends_on.len() {
+                        0 => "it is redundant: it holds whatever the pose".to_owned(),
+                        1 => format!("it is redundant: {others} implies it"),
+                        _ => format!("it is redundant: {others} imply it"),
+                    });
                 }
                 lines
             }

@@ -153,3 +153,29 @@ fn what_a_constraint_measures_is_a_measure_like_others() {
     talking.run("assert distance(O, C) = 6 within 1e-9; change sum = 9; solve");
     talking.run("assert A = (3, 0) within 1e-9; assert distance(O, C) = 9 within 1e-9");
 }
+
+#[test]
+fn an_equation_that_holds_whatever_the_pose_is_named_redundant() {
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (4, 0), C = (1, 1)
+         h: hold B.x - B.x = 0
+         same: hold distance(B, C) = distance(C, B)
+         hold B.x + C.x = 5",
+    );
+    let told = talking.ask("check");
+    assert_eq!(
+        told[..3],
+        [
+            "degrees of freedom: 3",
+            "redundant: h, which holds whatever the pose",
+            "redundant: same, which holds whatever the pose"
+        ]
+    );
+}
+
+#[test]
+fn no_number_is_said_of_what_has_no_value() {
+    let mut talking = Talking::after("point B = (4, 0)\nh: hold sqrt(B.x) = 2\nmove B to (-3, 0)");
+    let told = [talking.ask("check"), talking.ask("show h"), talking.ask("why h")].concat();
+    assert!(!told.concat().contains("inf"), "{told:?}");
+}
