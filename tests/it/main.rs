@@ -10,6 +10,7 @@ mod examples;
 mod expressions;
 mod front_door;
 mod golden;
+mod guide;
 mod habits;
 mod hard_cases;
 mod laws;

@@ -1,6 +1,7 @@
 //! What the program says is true, and how far it moves and which branch it takes is right: held
 //! against solutions of an independent reference, over random scenes with fixed seeds.
 
+mod constructions;
 mod findings;
 mod program;
 mod reference;
