@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::constraint::parts::content::add_all;
-use crate::constraint::parts::program::{Program, Register, Slope, with_room};
+use crate::constraint::parts::program::{Program, ROUNDING, Register, Slope, with_room};
 use crate::constraint::{
     Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Stateful, Traits, Vec2,
     Vector,
@@ -289,7 +289,7 @@ impl ConstraintKind for Measured {
                     if of_base.is_active {
                         for (p, g) in of_base.terms() {
                             let place = self.points.iter().position(|&q| q == p);
-                            slopes[place.expect("it holds it")].add(g);
+                            slopes[place.expect("it holds it")].add(g, g.norm());
                         }
                         let values = self.values.iter().zip(&by_values[part]);
                         let mut weights = [(0, 0.0); MOST_VALUES];
@@ -299,7 +299,12 @@ impl ConstraintKind for Measured {
                         let weights = &weights[..self.values.len()];
                         self.program.pull_back(results, weights, slopes);
                     }
-                    self.give(of_base, slopes, row);
+                    // An equation that nothing changes holds or does not, but for its rounding.
+                    let is_still = slopes.iter().all(|slope| slope.gradient() == Vector::ZERO);
+                    let rounding = |of: f64| ROUNDING * of.abs();
+                    let holds = || results.iter().any(|&r| of_base.f.abs() <= rounding(r));
+                    let f = if is_still && holds() { 0.0 } else { of_base.f };
+                    self.give(Row { f, ..of_base }, slopes, row);
                 });
                 part += 1;
             });

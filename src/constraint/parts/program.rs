@@ -82,23 +82,23 @@ impl Program {
     /// Adds the derivatives of the sum of some results, each times its weight, to the slopes of
     /// the points; `results` are all of them at the pose.
     pub fn pull_back(&self, results: &[f64], weights: &[(Register, f64)], slopes: &mut [Slope]) {
-        with_room(self.operations.len(), 0.0, |adjoint: &mut [f64]| {
+        with_room(self.operations.len(), Adjoint::default(), |adjoint: &mut [Adjoint]| {
             for &(register, weight) in weights {
-                adjoint[register as usize] += weight;
+                adjoint[register as usize].add(Adjoint { value: weight, size: weight.abs() }, 1.0);
             }
             for (k, operation) in self.operations.iter().enumerate().rev() {
                 let s = adjoint[k];
-                if s == 0.0 {
+                if s.value == 0.0 {
                     continue;
                 }
                 let at = |register: Register| results[register as usize];
                 match *operation {
                     Operation::Constant(_) | Operation::Input(_) => {}
-                    Operation::X(p) => slopes[p as usize].add(Vector::new(s, 0.0)),
-                    Operation::Y(p) => slopes[p as usize].add(Vector::new(0.0, s)),
+                    Operation::X(p) => slopes[p as usize].add(Vector::new(s.value, 0.0), s.size),
+                    Operation::Y(p) => slopes[p as usize].add(Vector::new(0.0, s.value), s.size),
                     Operation::Negate(a) | Operation::Of(_, a) => {
                         let moving = Jet::new(at(a), 1.0, 0.0);
-                        adjoint[a as usize] += s * operation.apply(moving, moving).d;
+                        adjoint[a as usize].add(s, operation.apply(moving, moving).d);
                     }
                     Operation::Binary(_, a, b)
                     | Operation::Norm(a, b)
@@ -106,8 +106,8 @@ impl Program {
                     | Operation::NearestTurn(a, b) => {
                         let still = [at(a), at(b)].map(Jet::constant);
                         let moving = [at(a), at(b)].map(|v| Jet::new(v, 1.0, 0.0));
-                        adjoint[a as usize] += s * operation.apply(moving[0], still[1]).d;
-                        adjoint[b as usize] += s * operation.apply(still[0], moving[1]).d;
+                        adjoint[a as usize].add(s, operation.apply(moving[0], still[1]).d);
+                        adjoint[b as usize].add(s, operation.apply(still[0], moving[1]).d);
                     }
                 }
             }
@@ -191,6 +191,27 @@ impl Operation {
     }
 }
 
+/// What is less than this part of what it was worked out from is nothing but rounding. A part comes
+/// through some ten operations, each with a rounding of its own; with 4 units of the last place the
+/// law of cosines, which says nothing of a triangle, took a freedom away at every other pose.
+pub(in crate::constraint) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The derivative by a result, and how large the parts were that it was added up from: results are
+/// shared, so that they may cancel long before they come to a point.
+#[derive(Debug, Clone, Copy, Default)]
+struct Adjoint {
+    value: f64,
+    size: f64,
+}
+
+impl Adjoint {
+    /// Adds what comes of another through a derivative.
+    fn add(&mut self, other: Self, derivative: f64) {
+        self.value += other.value * derivative;
+        self.size += other.size * derivative.abs();
+    }
+}
+
 /// The derivative by a point, and how large the parts were that it was added up from.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Slope {
@@ -199,16 +220,16 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Adds a part.
-    pub fn add(&mut self, part: Vector) {
+    /// Adds a part, which was itself added up from parts of this size.
+    pub fn add(&mut self, part: Vector, size: f64) {
         self.gradient += part;
-        self.size += part.norm();
+        self.size += size;
     }
 
     /// The derivative; 0 where the parts cancel but for their rounding: dividing by that would
     /// throw the point across the plane.
     pub fn gradient(self) -> Vector {
-        let is_rounding = self.gradient.norm() <= 4.0 * f64::EPSILON * self.size;
+        let is_rounding = self.gradient.norm() <= ROUNDING * self.size;
         if is_rounding { Vector::ZERO } else { self.gradient }
     }
 }
