@@ -193,6 +193,18 @@ fn a_root_ends_where_it_has_no_value() {
 }
 
 #[test]
+fn a_root_that_folds_at_nothing_ends_there() {
+    // The bar A C is drawn into a point, and out of it again on the other side.
+    let talking = Talking::after(
+        "let k = 3
+         point A = (0, 0) frozen, B = (2, 0) frozen, C = (1, 1)
+         length A C = sqrt(k); length B C = 2
+         solve within 1e-11",
+    );
+    check_dead_points(&talking, "k", 0.0, 16.0);
+}
+
+#[test]
 fn an_actuator_folds_a_lid_between_its_dead_points() {
     let lid = "point A = (0, 0) frozen, D = (1, -0.5) frozen, C = polar(2, 30deg)
                length A C = 2";
