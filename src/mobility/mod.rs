@@ -6,6 +6,7 @@
 
 mod conflict;
 mod dependence;
+mod driver;
 mod freedom;
 mod motions;
 mod pose_class;
@@ -18,10 +19,11 @@ mod tracer;
 mod travel;
 
 pub use conflict::{Conflict, Repair, conflict_with};
+pub use driver::{Driven, Driver};
 pub use freedom::{Directions, Freedom, freedom};
 pub use motions::motion_of;
 pub use pose_class::PoseClass;
-pub use range::{MotorRange, RangeEnd, Reach, dead_end, range};
+pub use range::{DriverRange, RangeEnd, Reach, dead_end, range};
 pub use repair::repair;
 pub use system::ConstraintSystem;
 

@@ -1,66 +1,82 @@
-//! How far a motor can turn: its mechanism is followed both ways until the motion folds back,
-//! runs into a stop, or comes round.
+//! How far a driver can go: its mechanism is followed both ways until the motion folds back, runs
+//! into a stop, or comes round.
 
 use std::f64::consts::TAU;
 
+use super::driver::Driver;
 use super::system::ConstraintSystem;
-use super::travel::{Mechanism, Waypoint};
-use crate::constraint::{Constraint, Point};
+use super::travel::{Mechanism, NoValue, Waypoint};
+use crate::constraint::{Constraint, Field, Flaw, Point};
 
-/// What ends the way of a motor in one direction.
+/// What ends the way of a driver in one direction, and at which value of it; that of an angle is in
+/// radians, whole turns included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RangeEnd {
-    /// The motion folds back: the motor is at its farthest angle.
+    /// The motion folds back: the driver is at its farthest.
     DeadPoint(f64),
     /// An inequality comes into play, the constraint at this place of the scene.
     Stop(f64, usize),
-    /// The angle is as far as the motion could be followed; what comes after is not known.
+    /// Beyond it a value of a constraint is one that no pose could have, or none at all.
+    NoValue(f64, Option<Flaw>),
+    /// This is as far as the motion could be followed; what comes after is not known.
     Lost(f64),
-    /// It was followed up to this angle, and never came back to where it began.
+    /// It was followed so far and met no end; an angle never came back to where it began.
     Endless(f64),
 }
 
 impl RangeEnd {
-    /// The angle against the x axis, radians, whole turns included.
-    pub const fn angle(self) -> f64 {
+    /// The value of the driver.
+    pub const fn value(self) -> f64 {
         match self {
-            Self::DeadPoint(angle)
-            | Self::Stop(angle, _)
-            | Self::Lost(angle)
-            | Self::Endless(angle) => angle,
+            Self::DeadPoint(value)
+            | Self::Stop(value, _)
+            | Self::NoValue(value, _)
+            | Self::Lost(value)
+            | Self::Endless(value) => value,
+        }
+    }
+
+    /// The same end at another value.
+    const fn at(self, value: f64) -> Self {
+        match self {
+            Self::DeadPoint(_) => Self::DeadPoint(value),
+            Self::Stop(_, by) => Self::Stop(value, by),
+            Self::NoValue(_, flaw) => Self::NoValue(value, flaw),
+            Self::Lost(_) => Self::Lost(value),
+            Self::Endless(_) => Self::Endless(value),
         }
     }
 }
 
-/// How far a motor can turn.
+/// How far a driver can go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
     /// All the way round; after this many turns the pose is the one it began with.
     Full(u32),
-    /// From here, clockwise, to there, counter-clockwise.
+    /// From here down, of an angle clockwise, to there.
     Between(RangeEnd, RangeEnd),
-    /// What the motor drives does not satisfy its constraints now.
+    /// What it drives does not satisfy its constraints now.
     Unsatisfied,
-    /// The motor cannot turn at all: what it drives is rigid.
+    /// It cannot change at all: what it drives is rigid.
     Rigid,
-    /// The motor does not say where everything goes: so many other freedoms are left.
+    /// It does not say where everything goes: so many other freedoms are left.
     Open(usize),
     /// It holds wheels whose motion depends on how they got there.
     Nonholonomic,
 }
 
-/// What is known of a motor's way.
+/// What is known of a driver's way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MotorRange {
-    /// The angle now, radians in (-pi, pi].
+pub struct DriverRange {
+    /// What it is now; an angle in radians, that of a motor in (-pi, pi].
     pub now: f64,
-    /// How far it can turn.
+    /// How far it can go.
     pub reach: Reach,
-    /// Where several motions cross, as angles like those of the ends; ascending.
+    /// Where several motions cross, as values like those of the ends; ascending.
     pub change_points: Vec<f64>,
 }
 
-/// The farthest turn in one step, radians: a dead point and the return from it do not fit in.
+/// The farthest turn in one step, radians or other units of the driver: a dead point and the return from it do not fit in.
 const LONGEST_TURN: f64 = 0.05;
 /// The most that the direction of the motion may change in one step, as the sine of the angle.
 const SHARPEST_BEND: f64 = 0.1;
@@ -68,7 +84,12 @@ const SHARPEST_BEND: f64 = 0.1;
 const LONGEST_CORRECTION: f64 = 0.05;
 /// Steps shorter than this part of the size get nowhere: something stops the motion.
 const SHORTEST_STEP: f64 = 1e-13;
-/// Branches nearer than this, in radians of the motor, count as crossing: the squares of singular values
+/// How far one that is no angle is followed, in its units: so many times as far as the mechanism is
+/// large. It may go on for ever.
+const FARTHEST: f64 = 100.0;
+/// Ends nearer than this are one, in units of the driver.
+const SAME_END: f64 = 1e-7;
+/// Branches nearer than this, in radians of a motor, count as crossing: the squares of singular values
 /// below 1e-5 are rounding. A four-bar off by 1e-8 from one that folds flat keeps them apart.
 const CROSSING: f64 = 1e-4;
 /// Crossings are looked for only where rows are as nearly dependent as that.
@@ -81,15 +102,12 @@ const MOST_STEPS: usize = 15_000;
 /// Poses nearer than this part of the size are the same.
 const SAME: f64 = 1e-6;
 
-/// How far the motor at place `motor` of a scene can turn, everything else standing as it is.
-/// Distances up to `tolerance`, a part of the size of what it drives, count as none.
-pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRange {
-    let Constraint::Motor(it) = scene.constraints[motor].stated() else {
-        unreachable!("the range of a motor was asked for")
-    };
-    let mut range =
-        MotorRange { now: it.angle(), reach: Reach::Full(1), change_points: Vec::new() };
-    let mut mechanism = Mechanism::new(scene, motor);
+/// How far a driver of a scene can go, everything else standing as it is. Distances up to
+/// `tolerance`, a part of the size of what it drives, count as none.
+pub fn range(scene: &ConstraintSystem, driver: &Driver, tolerance: f64) -> DriverRange {
+    let now = driver.now;
+    let mut range = DriverRange { now, reach: Reach::Full(1), change_points: Vec::new() };
+    let mut mechanism = Mechanism::new(scene, driver);
     if !mechanism.can_move() {
         range.reach = Reach::Rigid;
         return range;
@@ -103,16 +121,18 @@ pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRan
         range.reach = if is_solved { Reach::Rigid } else { Reach::Unsatisfied };
         return range;
     };
+    let value = |turn: f64| now + turn * mechanism.unit;
+    let farthest = if driver.is_angle { f64::INFINITY } else { FARTHEST };
     let mut ends = [RangeEnd::Lost(0.0); 2];
     for (end, way) in ends.iter_mut().zip([1.0, -1.0]) {
-        let mut tour = Tour::new(Mechanism::new(scene, motor), first.clone(), way);
-        let arrived = tour.go(f64::INFINITY);
-        let crossed = tour.change_points.iter().map(|turn| range.now + turn);
+        let mut tour = Tour::new(Mechanism::new(scene, driver), first.clone(), way);
+        let arrived = tour.go(farthest);
+        let crossed = tour.change_points.iter().map(|turn| value(*turn));
         range.change_points.extend(crossed);
         match arrived {
             Arrival::Home(turns) => {
                 range.reach = Reach::Full(turns);
-                range.change_points = tour.change_points.iter().map(|t| range.now + t).collect();
+                range.change_points = tour.change_points.iter().map(|turn| value(*turn)).collect();
                 range.change_points.sort_by(f64::total_cmp);
                 return range;
             }
@@ -120,13 +140,19 @@ pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRan
                 range.reach = Reach::Open(n);
                 return range;
             }
-            Arrival::End(found) => *end = turned(found, range.now),
+            Arrival::End(found) => *end = found.at(value(found.value())),
         }
     }
     range.change_points.sort_by(f64::total_cmp);
-    range.change_points.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    range.change_points.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * mechanism.unit);
     let [upper, lower] = ends;
-    range.reach = Reach::Between(lower, upper);
+    let is_stuck = |end: RangeEnd| matches!(end, RangeEnd::DeadPoint(_) | RangeEnd::Lost(_));
+    let width = (upper.value() - lower.value()).abs();
+    range.reach = if is_stuck(lower) && is_stuck(upper) && width < SAME_END * mechanism.unit {
+        Reach::Rigid
+    } else {
+        Reach::Between(lower, upper)
+    };
     range
 }
 
@@ -134,41 +160,33 @@ pub fn range(scene: &ConstraintSystem, motor: usize, tolerance: f64) -> MotorRan
 /// if nothing does, or if it cannot be told. Its angle is counted with whole turns.
 pub fn dead_end(scene: &ConstraintSystem, motor: usize, way: f64) -> Option<RangeEnd> {
     let Constraint::Motor(it) = scene.constraints[motor].stated() else { return None };
-    let mut mechanism = Mechanism::new(scene, motor);
+    let total = it.total();
+    let driver = Driver::of_values(scene.constraints[motor], motor, &[Field::Phase], total, true);
+    let mut mechanism = Mechanism::new(scene, &driver);
     if !mechanism.can_move() || mechanism.has_velocities() {
         return None;
     }
     let first = mechanism.begin(scene.x)?;
     let mut tour = Tour::new(mechanism, first, way.signum());
     match tour.go(way.abs()) {
-        Arrival::End(end @ (RangeEnd::DeadPoint(_) | RangeEnd::Stop(..))) => {
-            Some(turned(end, it.total()))
+        Arrival::End(end @ (RangeEnd::DeadPoint(turn) | RangeEnd::Stop(turn, _))) => {
+            Some(end.at(total + turn))
         }
         _ => None,
     }
 }
 
-/// The end with its angle counted from the x axis instead of from the start.
-fn turned(end: RangeEnd, start: f64) -> RangeEnd {
-    match end {
-        RangeEnd::DeadPoint(turn) => RangeEnd::DeadPoint(start + turn),
-        RangeEnd::Stop(turn, by) => RangeEnd::Stop(start + turn, by),
-        RangeEnd::Lost(turn) => RangeEnd::Lost(start + turn),
-        RangeEnd::Endless(turn) => RangeEnd::Endless(start + turn),
-    }
-}
-
-/// Where following a motor led.
+/// Where following a driver led.
 enum Arrival {
     /// To the first pose again, after so many turns.
     Home(u32),
-    /// To an end, at a turn from the start.
+    /// To an end, so far from the start in units of the driver.
     End(RangeEnd),
     /// To where so many freedoms decide what comes next.
     Open(usize),
 }
 
-/// The way of a motor in one direction.
+/// The way of a driver in one direction.
 struct Tour<'a> {
     mechanism: Mechanism<'a>,
     home: Vec<Point>,
@@ -176,7 +194,7 @@ struct Tour<'a> {
     way: f64,
     /// The step to be tried next.
     h: f64,
-    /// Turn and regularity at the poses before this one.
+    /// How far it was, and the regularity, at the poses before this one.
     trail: Vec<(f64, f64)>,
     n_turns: u32,
     change_points: Vec<f64>,
@@ -199,7 +217,7 @@ impl<'a> Tour<'a> {
         }
     }
 
-    /// Follows the motion for a turn of at most `most`.
+    /// Follows the motion for at most so many units of the driver.
     fn go(&mut self, most: f64) -> Arrival {
         let size = self.mechanism.size;
         for _ in 0..MOST_STEPS {
@@ -210,9 +228,14 @@ impl<'a> Tour<'a> {
             let pace = self.waypoint.pace().abs() / size;
             let h = if is_leap { LEAP * size } else { self.h.min(LONGEST_TURN / pace.max(1e-3)) };
             let Some(next) = self.try_step(h, is_leap) else {
+                if is_leap {
+                    let crossing = self.change_points[self.change_points.len() - 1];
+                    return self.stopped(crossing, h);
+                }
                 self.h = 0.5 * h;
                 if self.h < SHORTEST_STEP * size {
-                    return self.stopped();
+                    // A little beyond, what comes into play is seen.
+                    return self.stopped(self.waypoint.stand.turn, 1e-6 * size);
                 }
                 continue;
             };
@@ -254,7 +277,7 @@ impl<'a> Tour<'a> {
         }
         let along: f64 = next.tangent.iter().zip(&self.waypoint.tangent).map(|(a, b)| a * b).sum();
         let is_straight = along * along > 1.0 - SHARPEST_BEND * SHARPEST_BEND && along > 0.0;
-        // Freedoms besides the motor's turn the motion as they like.
+        // Freedoms besides the driver's turn the motion as they like.
         let is_safe = is_straight || next.n_freedoms > 1;
         // A step that rounding could take back is none.
         let longest = (LONGEST_CORRECTION * h).max(self.mechanism.noise().min(0.5 * h));
@@ -299,6 +322,9 @@ impl<'a> Tour<'a> {
 
     /// Whether a whole turn ends within this step, and that is the end of the way.
     fn passes_home(&mut self, h: f64, next: &Waypoint) -> Option<Arrival> {
+        if !self.mechanism.is_turned() {
+            return None;
+        }
         let goal = TAU * f64::from(self.n_turns + 1);
         let left = |waypoint: &Waypoint| waypoint.stand.turn.abs() - goal;
         if left(next) < 0.0 {
@@ -306,7 +332,7 @@ impl<'a> Tour<'a> {
         }
         self.n_turns += 1;
         if next.n_freedoms > 1 {
-            // The other freedoms do not come home, but the motor did.
+            // The other freedoms do not come home, but the driver did.
             return Some(Arrival::Home(1));
         }
         let (mechanism, waypoint) = (&mut self.mechanism, &self.waypoint);
@@ -319,12 +345,16 @@ impl<'a> Tour<'a> {
         (self.n_turns == MOST_TURNS).then_some(Arrival::End(RangeEnd::Endless(next.stand.turn)))
     }
 
-    /// What to say where no step is short enough.
-    fn stopped(&mut self) -> Arrival {
-        let turn = self.waypoint.stand.turn;
-        let size = self.mechanism.size;
-        // A little beyond, what comes into play is seen.
-        let active = self.mechanism.active_beyond(&self.waypoint, 1e-6 * size);
+    /// What to say of an end so far from the start, where no step is short enough, by what comes into
+    /// play within a step of `h`.
+    fn stopped(&mut self, turn: f64, h: f64) -> Arrival {
+        let active = match self.mechanism.active_beyond(&self.waypoint, h) {
+            Ok(active) => active,
+            Err(NoValue { flaw }) => {
+                let last = self.mechanism.last_value(&self.waypoint, h);
+                return Arrival::End(RangeEnd::NoValue(last, flaw));
+            }
+        };
         let new = active.into_iter().find(|row| !self.waypoint.active.contains(row));
         match new {
             Some((constraint, _)) => Arrival::End(RangeEnd::Stop(turn, constraint)),

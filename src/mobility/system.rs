@@ -1,5 +1,7 @@
 //! A scene at rest, as the analysis takes it, and its rows of length 1.
 
+use std::collections::BTreeSet;
+
 use smallvec::SmallVec;
 
 use crate::constraint::{Constraint, ConstraintKind, Jet, Point, PointIdx, Row, Vec2, Vector};
@@ -173,9 +175,9 @@ impl ConstraintSystem<'_> {
         all.filter(|(_, constraint)| is_identity(constraint)).map(|(k, _)| k).collect()
     }
 
-    /// The places of all constraints that hang together with one through points that move,
-    /// itself included, ascending.
-    pub fn neighbours(&self, constraint: usize) -> Vec<usize> {
+    /// The places of all constraints that hang together with some through points that move,
+    /// themselves included, ascending.
+    pub fn neighbours(&self, of: &BTreeSet<usize>) -> Vec<usize> {
         let mut sets = DisjointSets::default();
         let moves = |p: &&PointIdx| self.w[**p as usize] > 0.0;
         for constraint in self.constraints {
@@ -185,9 +187,9 @@ impl ConstraintSystem<'_> {
         let mut root = |k: usize| {
             self.constraints[k].points().iter().find(moves).map(|&p| sets.least(p as usize))
         };
-        let here = root(constraint);
+        let here: BTreeSet<usize> = of.iter().filter_map(|&k| root(k)).collect();
         let all = 0..self.constraints.len();
-        all.filter(|&k| k == constraint || here.is_some() && root(k) == here).collect()
+        all.filter(|k| of.contains(k) || root(*k).is_some_and(|k| here.contains(&k))).collect()
     }
 
     /// The rows of an island as they are at this pose.

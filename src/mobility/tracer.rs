@@ -1,5 +1,7 @@
 //! Points that only follow others: where a mechanism goes does not depend on them.
 
+use std::collections::BTreeSet;
+
 use super::system::ConstraintSystem;
 use crate::constraint::{ConstraintKind, PointIdx, Vector};
 
@@ -7,12 +9,12 @@ use crate::constraint::{ConstraintKind, PointIdx, Vector};
 /// this.
 const PARALLEL: f64 = 1e-6;
 
-/// Of the constraints that hang together with a motor, all given by their places in a scene, those
-/// that are left when points are left out, again and again, that hang on the others by exactly two
+/// Of the constraints that hang together with those that are driven, all given by their places in a
+/// scene, those that are left when points are left out, again and again, that hang on the others by exactly two
 /// linear equations: wherever the others are, there is one place for such a point, however far
 /// away.
-pub fn without_tracers(scene: &ConstraintSystem, motor: usize) -> Vec<usize> {
-    let sources = scene.neighbours(motor);
+pub fn without_tracers(scene: &ConstraintSystem, driven: &BTreeSet<usize>) -> Vec<usize> {
+    let sources = scene.neighbours(driven);
     let mut at: Vec<Vec<usize>> = vec![Vec::new(); scene.x.len()];
     for &c in &sources {
         for &p in scene.constraints[c].points() {
@@ -26,7 +28,7 @@ pub fn without_tracers(scene: &ConstraintSystem, motor: usize) -> Vec<usize> {
     while let Some(p) = open.pop() {
         let holders = at[p as usize].iter().copied();
         let holders: Vec<usize> = holders.filter(|&c| !is_left_out[c]).collect();
-        let may_follow = scene.w[p as usize] > 0.0 && !holders.contains(&motor);
+        let may_follow = scene.w[p as usize] > 0.0 && !holders.iter().any(|c| driven.contains(c));
         if may_follow && only_follows(scene, p, &holders) {
             for c in holders {
                 is_left_out[c] = true;

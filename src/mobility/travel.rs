@@ -1,11 +1,14 @@
-//! A mechanism followed along its motion, the angle of a motor being one of the unknowns, so
-//! that nothing is special about a pose at which the motor can go no further.
+//! A mechanism followed along its motion, the driver being one of the unknowns, so that nothing is
+//! special about a pose at which it can go no further.
 
+use std::collections::BTreeSet;
+
+use super::driver::{Driven, Driver, set_values, slopes};
 use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRows};
 use super::tracer::without_tracers;
 use crate::constraint::{
-    Activity, Carried, Constraint, ConstraintKind, Field, Point, PointIdx, Vector,
+    Activity, Carried, Constraint, ConstraintKind, Field, Flaw, Point, PointIdx, Vector,
 };
 
 /// Newton steps near a solution double the digits; more than this are none.
@@ -18,29 +21,40 @@ const NOTHING: f64 = 1e-13;
 /// Newton steps that leave less than this part of the size are enough.
 const EXACT: f64 = 1e-14;
 
-/// A mechanism with a motor whose angle is free.
+/// A mechanism with a driver that is free.
 pub struct Mechanism<'a> {
     /// The constraints, those that carry something on as of the last pose that counted.
     constraints: Vec<Constraint>,
     /// Their places in the scene.
     pub sources: Vec<usize>,
     w: &'a [f64],
-    motor: usize,
+    driver: &'a Driver<'a>,
+    /// The places of the constraints that are driven among those here.
+    driven: Vec<usize>,
     /// The points that move.
     points: Vec<PointIdx>,
     /// How large it is, length units.
     pub size: f64,
-    phase: f64,
+    /// What counts as one of the driver: about what moves something by the size, and a radian of
+    /// angles.
+    pub unit: f64,
     tolerance: f64,
 }
 
-/// Where the points are, and how far the motor has turned from where it was.
+/// Where the points are, and how far the driver has gone from where it was.
 #[derive(Debug, Clone)]
 pub struct Stand {
     /// The positions of all points of the scene.
     pub x: Vec<Point>,
-    /// The turn, radians.
+    /// How far it has gone, in its units: the turn, radians, of an angle.
     pub turn: f64,
+}
+
+/// A value of a constraint is none there.
+#[derive(Debug, Clone, Copy)]
+pub struct NoValue {
+    /// What is wrong with it; none if it cannot be evaluated.
+    pub flaw: Option<Flaw>,
 }
 
 /// A pose on the motion, with the direction in which the motion goes on.
@@ -51,7 +65,7 @@ pub struct Waypoint {
     /// The unit tangent over the unknowns: (x, y) of each point, then the turn times the size,
     /// then an idle place.
     pub tangent: Vec<f64>,
-    /// The freedoms there are, the motor's own included.
+    /// The freedoms there are, the driver's own included.
     pub n_freedoms: usize,
     /// A measure of how far the rows are from being more dependent than elsewhere.
     pub regularity: f64,
@@ -60,18 +74,17 @@ pub struct Waypoint {
 }
 
 impl Waypoint {
-    /// How fast the motor turns along the motion, in units of the size.
+    /// How fast the driver goes along the motion, in units of the size.
     pub fn pace(&self) -> f64 {
         self.tangent[self.tangent.len() - 2]
     }
 }
 
 impl<'a> Mechanism<'a> {
-    /// What hangs together with the constraint at place `motor` of a scene, which is a motor, but
-    /// for points that only follow.
-    pub fn new(scene: &ConstraintSystem<'a>, motor: usize) -> Self {
+    /// What hangs together with the constraints that are driven, but for points that only follow.
+    pub fn new(scene: &ConstraintSystem<'a>, driver: &'a Driver<'a>) -> Self {
         let moves = |p: &&PointIdx| scene.w[**p as usize] > 0.0;
-        let sources = without_tracers(scene, motor);
+        let sources = without_tracers(scene, &driver.constraints);
         let constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
         let mut held: Vec<_> =
@@ -79,30 +92,50 @@ impl<'a> Mechanism<'a> {
         held.sort_unstable();
         held.dedup();
         // What moves says how large it is: the ends of a rail may be far away.
-        let driven = scene.constraints[motor].points();
-        let moved = held.iter().filter(|p| moves(p) || driven.contains(p));
+        let stated = || driver.constraints.iter().map(|&k| scene.constraints[k]);
+        let of_driven: BTreeSet<_> = stated().flat_map(ConstraintKind::points).collect();
+        let moved = held.iter().filter(|p| moves(p) || of_driven.contains(p));
         let extent = |of: fn(&Point) -> f64| {
             let values = moved.clone().map(|&p| of(&scene.x[p as usize]));
             let ends = |(lo, hi): (f64, f64), v: f64| (lo.min(v), hi.max(v));
             let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), ends);
             hi - lo
         };
-        let radius = scene.constraints[motor].get(Field::Radius).unwrap_or(0.0).abs();
+        let radii = stated().filter_map(|c| c.get(Field::Radius));
+        let radius = radii.fold(0.0, |most: f64, radius| most.max(radius.abs()));
         let size = extent(|p| p.x).max(extent(|p| p.y)).max(radius);
         let size = if size > 0.0 { size } else { 1.0 };
         let farthest = held.iter().map(|&p| scene.x[p as usize].to_vector().norm());
         let rounding = 8.0 * f64::EPSILON * farthest.fold(0.0, f64::max);
         let points = held.iter().filter(moves).copied().collect();
-        Self {
-            motor: sources.iter().position(|&k| k == motor).unwrap_or(0),
-            phase: scene.constraints[motor].get(Field::Phase).unwrap_or(0.0),
+        let places = driver.constraints.iter();
+        let mut mechanism = Self {
+            driven: places.filter_map(|k| sources.binary_search(k).ok()).collect(),
             constraints,
             sources,
             w: scene.w,
+            driver,
             points,
             size,
+            unit: 1.0,
             tolerance: rounding.max(NOTHING * size),
+        };
+        if !driver.is_angle {
+            mechanism.unit = mechanism.natural_unit(scene.x);
         }
+        mechanism
+    }
+
+    /// How much of the driver changes the distances that are asked for by the size.
+    fn natural_unit(&mut self, x: &[Point]) -> f64 {
+        let n = 2 * self.points.len();
+        let rows = self.rows(&Stand { x: x.to_vec(), turn: 0.0 });
+        let mut turning = vec![0.0; n + 2];
+        turning[n] = 1.0;
+        let along = rows.iter().flat_map(|rows| &rows.rows).map(|row| row.dot(&turning));
+        // Rows have it in units of the size.
+        let slope = along.map(|g| g * g).sum::<f64>().sqrt();
+        if slope.is_finite() && slope > 0.0 { 1.0 / slope } else { self.driver.now.abs().max(1.0) }
     }
 
     /// Corrections up to this are rounding.
@@ -112,15 +145,26 @@ impl<'a> Mechanism<'a> {
 
     /// Whether everything holds at this pose, up to a part of the size.
     pub fn holds(&mut self, x: &[Point], tolerance: f64) -> bool {
-        self.rows(&Stand { x: x.to_vec(), turn: 0.0 }).worst() <= tolerance * self.size
+        let rows = self.rows(&Stand { x: x.to_vec(), turn: 0.0 });
+        rows.is_ok_and(|rows| rows.worst() <= tolerance * self.size)
     }
 
-    /// Whether anything of it can move.
+    /// Whether anything of it can move: all that is driven to a value has a point that does.
     pub fn can_move(&self) -> bool {
-        !self.points.is_empty()
+        let moves = |p: &PointIdx| self.w[*p as usize] > 0.0;
+        let is_movable = |c: &Constraint| {
+            let binds = c.n_rows() > 0 && c.traits().activity == Activity::Always;
+            !binds || c.points().iter().any(moves)
+        };
+        !self.points.is_empty() && self.driven.iter().all(|&c| is_movable(&self.constraints[c]))
     }
 
-    /// The constraints of a kind that depends on more than the pose.
+    /// Whether the driver is an angle.
+    pub const fn is_turned(&self) -> bool {
+        self.driver.is_angle
+    }
+
+    /// Whether a constraint is of a kind that depends on more than the pose.
     pub fn has_velocities(&self) -> bool {
         self.constraints.iter().any(|c| c.traits().carried == Carried::ByFrame)
     }
@@ -130,13 +174,25 @@ impl<'a> Mechanism<'a> {
         self.constraints.iter_mut().for_each(|c| c.accept(&stand.x));
     }
 
-    fn rows(&mut self, stand: &Stand) -> UnitRows {
-        let motor = &mut self.constraints[self.motor];
-        motor.set(Field::Phase, self.phase + stand.turn);
-        let slopes = match motor {
-            Constraint::Motor(motor) => motor.slopes(&stand.x),
-            _ => [0.0; 2],
-        };
+    /// Gives the constraints that are driven the values that they have for a driver; how the rows of
+    /// each change with it.
+    fn drive(&mut self, stand: &Stand) -> Result<Vec<(usize, Vec<f64>)>, NoValue> {
+        let all = self.driver.values(stand.turn * self.unit).ok_or(NoValue { flaw: None })?;
+        let mut of_each = Vec::with_capacity(self.driven.len());
+        for driven in all.chunk_by(|a: &Driven, b: &Driven| a.constraint == b.constraint) {
+            let Ok(place) = self.sources.binary_search(&driven[0].constraint) else { continue };
+            let constraint = &mut self.constraints[place];
+            set_values(constraint, driven).map_err(|flaw| NoValue { flaw: Some(flaw) })?;
+            of_each.push((place, slopes(constraint, driven, &stand.x)));
+        }
+        // What is measured on the pose may have none there.
+        let has_value = |c: &Constraint| c.residual(&stand.x).is_finite();
+        let all_have = self.constraints.iter().all(has_value);
+        if all_have { Ok(of_each) } else { Err(NoValue { flaw: None }) }
+    }
+
+    fn rows(&mut self, stand: &Stand) -> Result<UnitRows, NoValue> {
+        let driven = self.drive(stand)?;
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
         let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: self.w };
         let all: Vec<usize> = (0..constraints.len()).collect();
@@ -149,10 +205,18 @@ impl<'a> Mechanism<'a> {
         });
         let turn = rows.points.len() as u32;
         rows.points.push(PointIdx::MAX);
-        for row in rows.rows.iter_mut().filter(|row| row.source.0 == self.motor) {
-            row.add_unknown(turn, slopes[row.source.1] * (1.0 / self.size) * row.scale);
+        for row in &mut rows.rows {
+            if let Ok(k) = driven.binary_search_by_key(&row.source.0, |(place, _)| *place) {
+                let slope = driven[k].1[row.source.1];
+                let slope = slope * (self.unit / self.size) * row.scale;
+                row.add_unknown(turn, slope);
+                // One that changes beyond all measure, as a root does at 0, is told by the driver.
+                if slope.abs() > 1.0 {
+                    row.count(1.0 / slope.abs());
+                }
+            }
         }
-        rows
+        Ok(rows)
     }
 
     fn displace(&self, stand: &mut Stand, t: f64, y: &[f64]) {
@@ -169,7 +233,7 @@ impl<'a> Mechanism<'a> {
         let mut way = 0.0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let rows = self.rows(stand);
+            let rows = self.rows(stand).ok()?;
             let worst = rows.worst();
             // As exact as it gets: the last steps gain nothing.
             if worst <= EXACT * self.size || (worst <= self.tolerance && worst > 0.3 * before) {
@@ -189,7 +253,7 @@ impl<'a> Mechanism<'a> {
     }
 
     /// The waypoint at a pose that is a solution nearly; its tangent leans to `direction`, or is
-    /// the one that turns the motor most for its length. None if no solution is within
+    /// the one along which the driver goes farthest for its length. None if no solution is within
     /// `reach` or nothing can move there.
     fn waypoint(
         &mut self,
@@ -207,7 +271,7 @@ impl<'a> Mechanism<'a> {
         projector.onto_motions(&mut turning);
         let is_free = n_freedoms > 1;
         let mut tangent = match direction {
-            // Freedoms besides the motor's are left alone as far as they can be.
+            // Freedoms besides the driver's are left alone as far as they can be.
             Some(direction) if is_free && norm(&turning) > 1e-6 => {
                 let k = direction[n - 2].signum();
                 turning.iter_mut().for_each(|t| *t *= k);
@@ -220,7 +284,7 @@ impl<'a> Mechanism<'a> {
             }
             None if norm(&turning) > 1e-6 => turning,
             None => {
-                // The motor stands at an end already: any motion there is.
+                // The driver stands at an end already: any motion there is.
                 let mut tangent: Vec<f64> = (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect();
                 tangent[n - 1] = 0.0;
                 projector.onto_motions(&mut tangent);
@@ -256,11 +320,36 @@ impl<'a> Mechanism<'a> {
 
 impl Mechanism<'_> {
     /// The rows a way `h` on from a waypoint, solved or not, as places in the scene and parts.
-    pub fn active_beyond(&mut self, from: &Waypoint, h: f64) -> Vec<(usize, usize)> {
+    ///
+    /// # Errors
+    /// If values have none there.
+    pub fn active_beyond(
+        &mut self,
+        from: &Waypoint,
+        h: f64,
+    ) -> Result<Vec<(usize, usize)>, NoValue> {
         let mut stand = from.stand.clone();
         self.displace(&mut stand, h, &from.tangent);
-        let rows = self.rows(&stand);
-        rows.rows.iter().map(|row| (self.sources[row.source.0], row.source.1)).collect()
+        let rows = self.rows(&stand)?;
+        Ok(rows.rows.iter().map(|row| (self.sources[row.source.0], row.source.1)).collect())
+    }
+
+    /// How far the driver is where the last values are on a straight way `h` on from a waypoint at
+    /// whose end there are none.
+    pub fn last_value(&mut self, from: &Waypoint, h: f64) -> f64 {
+        let [mut known, mut none] = [0.0, h];
+        let mut last = from.stand.turn;
+        for _ in 0..60 {
+            let middle = 0.5 * (known + none);
+            let mut stand = from.stand.clone();
+            self.displace(&mut stand, middle, &from.tangent);
+            if self.rows(&stand).is_ok() {
+                (known, last) = (middle, stand.turn);
+            } else {
+                none = middle;
+            }
+        }
+        last
     }
 }
 

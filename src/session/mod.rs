@@ -45,13 +45,13 @@ pub use silent::Silent;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
-pub use crate::mobility::{MotorRange, PoseClass, RangeEnd, Reach};
+pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
 
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
 use crate::solve::present;
-use crate::world::{ConstraintId, Entity, Value, World};
+use crate::world::{Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
 use state::State;
@@ -256,9 +256,10 @@ impl Session {
         self.state.effects_on(host)
     }
 
-    /// How far a motor that is switched on can turn, the rest held as it is now.
-    pub fn range(&self, motor: ConstraintId) -> Option<MotorRange> {
-        self.state.range(motor)
+    /// How far what drives can go, a motor, a constraint with a value or a parameter, the rest held as
+    /// it is now; none if it drives nothing.
+    pub fn range(&self, driver: Entity) -> Option<DriverRange> {
+        self.state.range(driver)
     }
 
     /// The script that makes this world, its settings and its state.

@@ -141,7 +141,10 @@ impl World {
 
     /// Parameters that some users are or depend on, each after those it mentions, and the
     /// constraints; what names a circle goes with it.
-    fn affected(&self, users: impl Iterator<Item = User>) -> (Vec<ParameterId>, Vec<ConstraintId>) {
+    pub(super) fn affected(
+        &self,
+        users: impl Iterator<Item = User>,
+    ) -> (Vec<ParameterId>, Vec<ConstraintId>) {
         let mut finished: Vec<ParameterId> = Vec::new();
         let mut constraints: BTreeSet<ConstraintId> = BTreeSet::new();
         let mut is_seen = vec![false; self.parameters.n_handles()];
@@ -292,7 +295,7 @@ impl Record {
 }
 
 /// The number that a value gives to a field: the value, or the coordinate of it that the field is.
-fn given<T: Real>(field: Field, value: Value<T>) -> T {
+pub(super) fn given<T: Real>(field: Field, value: Value<T>) -> T {
     match (field, value) {
         (Field::X | Field::Value, Value::Vector(v)) => v.x,
         (Field::Y | Field::ValueY, Value::Vector(v)) => v.y,

@@ -60,6 +60,11 @@ impl World {
         })
     }
 
+    /// What a constraint measures now, that is stated by what it measures.
+    pub fn measured_value(&self, id: ConstraintId) -> Option<f64> {
+        self.has_member(id, Member::Value).then(|| self.member(id, Member::Value).ok()).flatten()
+    }
+
     /// What a constraint measures, as a formula.
     pub(super) fn measure(&self, id: ConstraintId) -> Formula {
         let record = self.constraint(id).expect("a mentioned constraint lives");

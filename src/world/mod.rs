@@ -25,6 +25,7 @@ mod arithmetic;
 mod compile;
 mod dependencies;
 mod dependency_order;
+mod driving;
 mod environments;
 mod evaluate;
 mod formula;
@@ -47,6 +48,7 @@ pub(crate) use arithmetic::{call, operate};
 #[doc(hidden)]
 pub use batch::{Batch, BatchRecords};
 pub use clock::Clock;
+pub(crate) use driving::Driving;
 pub use edit::Edit;
 #[doc(hidden)]
 pub use environments::Rates;

@@ -96,9 +96,9 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
-            "mobility/travel.rs",
             "render/style.rs",
-            "session/commands/motor_range.rs",
+            "session/commands/driver.rs",
+            "session/commands/driver_range.rs",
             "session/resolve/unbind.rs",
             "solve/dead_point.rs",
             "solve/frame/dyad.rs",

@@ -133,18 +133,6 @@ impl Motor {
         self.heading.target
     }
 
-    /// How the values of its two rows change with its angle, at a pose.
-    pub fn slopes(&self, x: &[Point]) -> [f64; 2] {
-        match &self.points {
-            Points::Fixed(_) => {
-                let Vector { x, y } = -self.heading.target.perp();
-                [x, y]
-            }
-            Points::Between(points) => CarriedCrank::new(**points, self.angle(), x)
-                .map_or([0.0; 2], |crank| crank.slopes()),
-        }
-    }
-
     /// Says what the speed was on the average over the frame that it advances by next: that is how
     /// far it turns. Setting the speed makes it the mean too.
     pub fn set_mean_speed(&mut self, mean: f64) {

@@ -43,7 +43,7 @@ impl CarriedCrank {
     }
 
     /// How both values change as the direction turns.
-    pub const fn slopes(&self) -> [f64; 2] {
+    const fn slopes(&self) -> [f64; 2] {
         [self.across, -self.along]
     }
 }

@@ -157,9 +157,14 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
             keyword: "limits",
             section: Section::Looking,
             usage: "limits NAME",
-            summary: "how far a thing can go, and what stops it",
-            help: "",
-            example: "limits crank",
+            summary: "how far what drives can go, and what stops it",
+            help: "NAME is a motor, a constraint with one value, or a parameter that constraints follow. The\n\
+                 rest is held as it is now. The motion is followed both ways: to a dead point, where it\n\
+                 folds back; to a constraint that stops it; to where a length would be negative; or as far\n\
+                 as the search goes. Change points are where it could go on in more than one way.",
+            example: "limits crank\n\
+                 limits jack\n\
+                 limits w",
         },
     },
     Verb {

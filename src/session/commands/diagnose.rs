@@ -1,6 +1,7 @@
 //! `check` and `why`: what a mechanism can do, what contradicts what, and what would mend it.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind};
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
@@ -352,7 +353,7 @@ impl Settled {
     /// The change of one constraint that settles a conflict, if there is one that was seen to.
     fn mend(&self, conflict: &Conflict, place: usize) -> Option<Mend> {
         let field = changeable(&self.parts.constraints[place])?;
-        let island = self.with(|scene| scene.neighbours(place));
+        let island = self.with(|scene| scene.neighbours(&BTreeSet::from([place])));
         // All that hangs together with it is to hold; if other conflicts are in there, at
         // least those of this one are.
         [&island[..], &conflict.constraints[..]].into_iter().find_map(|among| {
