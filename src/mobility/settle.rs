@@ -1,9 +1,9 @@
 //! Solving a few constraints by themselves, some of them counted less than others.
 
 use super::motions::Random;
-use super::projector::Projector;
 use super::system::{ConstraintSystem, UnitRow, UnitRows};
 use crate::constraint::{Constraint, ConstraintKind, Point, PointIdx, Vector};
+use crate::linalg::NormalMatrix;
 use nalgebra::{DMatrix, DVector};
 
 const N_STEPS: usize = 60;
@@ -88,7 +88,17 @@ impl Subset {
     /// Moves the points from `x` towards where all constraints hold, by damped Gauss-Newton
     /// steps. The one at place `light.0` of the scene counts as that part of the others; 0: not at
     /// all.
-    pub fn settle(&self, mut x: Vec<Point>, light: (usize, f64), tolerance: f64) -> Reached {
+    pub fn settle(&self, x: Vec<Point>, light: (usize, f64), tolerance: f64) -> Reached {
+        self.settle_with(&mut Steps::default(), x, light, tolerance)
+    }
+
+    fn settle_with(
+        &self,
+        steps: &mut Steps,
+        mut x: Vec<Point>,
+        light: (usize, f64),
+        tolerance: f64,
+    ) -> Reached {
         let mut here = self.rows(&x, light);
         let nowhere = if light.1 == 1.0 { NOWHERE } else { NOWHERE_NEARLY };
         let mut mu = 1e-6;
@@ -98,7 +108,7 @@ impl Subset {
             }
             let mut downhill = downhill(&here);
             let slope = downhill.clone();
-            Projector::of(&here).solve_damped(mu, &mut downhill);
+            steps.solve(&here, mu, &mut downhill);
             let promised: f64 = 0.5 * downhill.iter().zip(&slope).map(|(s, d)| s * d).sum::<f64>();
             // Damping makes a step promise less, and says nothing of where it could lead.
             if promised * (1.0 + mu) <= nowhere * here.energy() {
@@ -121,6 +131,7 @@ impl Subset {
     fn hold(&self, tolerance: f64) -> Option<Vec<Point>> {
         let start = self.rows(&self.x, ALL);
         let size = self.extent().max(start.worst());
+        let mut steps = Steps::default();
         let mut random = Random::new();
         let mut direction =
             || -> Vec<f64> { (0..2 * self.points.len()).map(|_| random.next()).collect() };
@@ -136,13 +147,13 @@ impl Subset {
             x
         });
         [self.start()].into_iter().chain(pushed).find_map(|x| {
-            let mut reached = self.settle(x, ALL, tolerance);
+            let mut reached = self.settle_with(&mut steps, x, ALL, tolerance);
             for _ in 0..MOST_LEFT {
                 if reached.worst <= tolerance {
                     return Some(reached.x);
                 }
                 let lower = self.leave(&reached, size)?;
-                reached = self.settle(lower, ALL, tolerance);
+                reached = self.settle_with(&mut steps, lower, ALL, tolerance);
             }
             None
         })
@@ -223,6 +234,38 @@ impl Subset {
             rows.rows.iter_mut().filter(|row| is_light(row.source.0)).for_each(|r| r.count(counts));
         }
         rows
+    }
+}
+
+/// The normal matrix of some rows, kept as long as they stand between the same points: most of the
+/// work of a step between a few is to see who has to do with whom.
+#[derive(Default)]
+struct Steps {
+    /// The points of each row.
+    pattern: Vec<Vec<u32>>,
+    normal: Option<NormalMatrix>,
+}
+
+impl Steps {
+    /// Replaces a right-hand side by the solution of J^T J + `mu` I.
+    fn solve(&mut self, island: &UnitRows, mu: f64, rhs: &mut [f64]) {
+        let of_rows = || island.rows.iter().map(UnitRow::points);
+        let normal = match self.normal.take() {
+            Some(mut normal) if of_rows().eq(self.pattern.iter().map(Vec::as_slice)) => {
+                normal.clear();
+                normal
+            }
+            _ => {
+                self.pattern = of_rows().map(<[u32]>::to_vec).collect();
+                NormalMatrix::new(island.points.len(), of_rows())
+            }
+        };
+        let normal = self.normal.insert(normal);
+        for (k, row) in island.rows.iter().enumerate() {
+            normal.add_row(k, row.values());
+        }
+        normal.factor(mu);
+        normal.solve(rhs);
     }
 }
 
