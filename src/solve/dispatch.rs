@@ -204,6 +204,19 @@ pub(super) fn solve(
     (outcome, lowered)
 }
 
+/// Puts an island back where the world has it: nothing was found.
+pub(super) fn take_back(island: &mut Island, world: &World) {
+    for (at, id) in island.x[..island.n_free].iter_mut().zip(&island.points) {
+        *at = world.points().at(*id);
+    }
+    island.status = Status::Stalled;
+    island.is_awake = true;
+    island.history.forget();
+    island.remembered.take();
+    let violations = island.constraints.iter().map(|c| c.violation(&island.x, &island.w));
+    island.residual = violations.fold(0.0, f64::max) / island.size();
+}
+
 /// Puts what was found back into the world.
 pub(super) fn write_back(island: &Island, world: &mut World) {
     for (id, at) in island.points[..island.n_free].iter().zip(&island.x) {

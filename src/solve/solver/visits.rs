@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Solver;
 use crate::constraint::Point;
-use crate::solve::dispatch::{Cause, Task, Visit, turn_back, visit, write_back};
+use crate::solve::dispatch::{Cause, Task, Visit, take_back, turn_back, visit, write_back};
 use crate::solve::frame::pull::{Pulled, pull};
 use crate::solve::island::Island;
 use crate::solve::parallel::{self, ISLANDS};
@@ -155,9 +155,14 @@ impl Solver {
 
     /// Takes in what a visit came to.
     fn close(&mut self, k: u32, visit: &Visit, world: &mut World, report: &mut Report) {
-        let (Some(island), Some(outcome)) = (self.partition.get_mut(k), visit.outcome) else {
+        let (Some(island), Some(mut outcome)) = (self.partition.get_mut(k), visit.outcome) else {
             return;
         };
+        if !island.x[..island.n_free].iter().all(|p| p.is_finite()) {
+            // What has run away to where there are no numbers meets nothing.
+            take_back(island, world);
+            outcome.status = Status::Stalled;
+        }
         write_back(island, world);
         let is_awake = island.is_awake;
         if let Some(p) = island.turned_over.take() {

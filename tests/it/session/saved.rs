@@ -194,3 +194,16 @@ fn a_wheel_needs_a_rim_and_a_line_with_two_ends() {
         assert_eq!(talking.world().constraints().count(), 0);
     }
 }
+
+#[test]
+fn what_ran_away_to_where_there_are_no_numbers_is_where_the_world_has_it() {
+    // The angle is measured from a direction that tends to one as p2 goes away for ever.
+    let mut talking = Talking::after(
+        "point p0 = (0, 0) frozen, p2 = (0.4, -0.2), p3 = (-0.2, -1.1) frozen
+         point p4 = (-2.5, -0.9) frozen
+         c0: motor p4 p0 radius 3.4 speed -0.1 from p3 p2
+         move p3 to (0, 0); solve",
+    );
+    talking.assert_goes_on_from_its_file("step 3");
+    assert!(talking.ask("check").iter().any(|line| line.contains("stalled")));
+}
