@@ -60,6 +60,8 @@ impl Settled {
     /// A world brought to rest.
     pub fn new(mut world: World, settings: &Settings) -> Self {
         let mut solver = Solver::new();
+        // What has no value now is not met: the verdict says so.
+        let _ = world.refresh_driven();
         let report = solver.settle(&mut world, settings, &Budget::default());
         let size = solver.size();
         let slack = settings.tolerance.max(1e-9) * size;

@@ -146,6 +146,7 @@ impl Subject<'_> {
         host: &StudyHost,
     ) -> Result<(World, Report, f64), Diagnostic> {
         let mut world = self.motion.world().clone();
+        world.refresh_driven()?;
         let mut solver = Solver::new();
         // The scene is taken in before the clock runs: a mechanism is built once and solved often.
         let at_once = || true;

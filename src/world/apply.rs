@@ -23,7 +23,11 @@ impl World {
             }
             Edit::Freeze(id, frozen) => {
                 self.touched.points.push(id);
-                Edit::Freeze(id, std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen))
+                let was = std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen);
+                if was != frozen {
+                    self.rebind_measures();
+                }
+                Edit::Freeze(id, was)
             }
             Edit::Weight(id, weight) => {
                 self.touched.points.push(id);

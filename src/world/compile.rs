@@ -46,7 +46,12 @@ impl World {
             // What wheels and speeds turn by is of the pose that a frame begins with.
             let is_rate = *field == Field::Speed || constraint.traits().is_wheel;
             let has_rows = constraint.n_rows() > 0;
-            let is_measured = has_rows && !is_rate && self.depends(formula).on_points;
+            // What is held is nothing without its points; other values are of no more than a place
+            // where nothing they mention can move.
+            let is_held =
+                matches!(field, Field::Value | Field::ValueY | Field::Wanted | Field::Beyond);
+            let gives_way = is_held || self.follows_motion(formula);
+            let is_measured = has_rows && !is_rate && gives_way && self.depends(formula).on_points;
             let list = if is_measured { &mut measured } else { &mut live };
             list.push((*field, formula.clone()));
         }
@@ -56,6 +61,30 @@ impl World {
             let (constraint, inputs) = self.compile(constraint, &measured);
             live.extend(inputs);
             record.bind(constraint, Some(live));
+        }
+    }
+
+    /// Binds anew what measures points, after one of them was frozen or thawed.
+    pub(super) fn rebind_measures(&mut self) {
+        if !self.dependencies.has_measures() {
+            return;
+        }
+        let mentions_points =
+            |record: &Record| record.drivers().iter().any(|(_, f)| self.depends(f).on_points);
+        let all: Vec<ConstraintId> =
+            self.constraints().filter(|(_, r)| mentions_points(r)).map(|(id, _)| id).collect();
+        let measured = |constraint: &Constraint| Field::ALL.map(|field| constraint.measures(field));
+        for id in all {
+            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
+            let before = measured(&record.constraint);
+            self.bind(&mut record);
+            if measured(&record.constraint) != before {
+                // What has no value now says so where it is evaluated next.
+                let _ = record.drive(&Here::new(self, None));
+                self.touched.constraints.push(id);
+                self.dependencies.note_switch();
+                self.constraints.swap(id.idx(), Some(record));
+            }
         }
     }
 

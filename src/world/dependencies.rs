@@ -27,6 +27,8 @@ pub(super) struct Dependencies {
     are_lists_dirty: bool,
     /// Whether time or points changed since the live parameters were evaluated.
     is_stale: bool,
+    /// Whether some constraint has, or had, a value that may measure points.
+    has_measures: bool,
 }
 
 /// What of constraints is live.
@@ -55,6 +57,11 @@ pub(super) struct Ramp {
 }
 
 impl Dependencies {
+    /// Whether some constraint may have a value that measures points.
+    pub const fn has_measures(&self) -> bool {
+        self.has_measures
+    }
+
     /// Time or points changed.
     pub fn note_change(&mut self) {
         self.is_stale = true;
@@ -203,6 +210,10 @@ impl Dependencies {
         for (_, formula) in new.iter().flat_map(|record| record.drivers()) {
             self.link(formula, User::Constraint(id));
         }
+        let measures = |record: &Record| {
+            record.drivers().iter().any(|(_, f)| f.depends().on_points || f.depends().on_parameters)
+        };
+        self.has_measures |= new.is_some_and(measures);
         let is_listed = |record: &Record| !record.drivers().is_empty() || is_motor(record);
         self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
         // What it measures, and by how much it is missed, may be other numbers now.

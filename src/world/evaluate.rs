@@ -196,6 +196,21 @@ impl World {
         Ok(())
     }
 
+    /// Evaluates driven constraints anew for the pose as it is now, whether or not parameters that
+    /// drive none have a value.
+    ///
+    /// # Errors
+    /// Where an expression has no value now, or one that its constraint cannot have.
+    pub fn refresh_driven(&mut self) -> Result<(), Diagnostic> {
+        self.dependencies.note_change();
+        self.refresh_parameters();
+        self.sort_constraints();
+        for k in 0..self.dependencies.driven().len() {
+            self.refresh_constraint(self.dependencies.driven()[k])?;
+        }
+        Ok(())
+    }
+
     /// Evaluates live parameters anew if time or points changed; one that has no value now
     /// fails who mentions it. Constraints keep their values: looking at a parameter never
     /// changes a run.

@@ -326,6 +326,7 @@ impl Execution<'_> {
                 flow = Flow::Stopped;
                 break;
             }
+            self.state.world.refresh_driven()?;
             let chunk = left.min(RELAX_CHUNK);
             let report = self.state.solver.relax(
                 &mut self.state.world,
@@ -351,6 +352,7 @@ impl Execution<'_> {
 
     /// Solves while the clock stands still, as long as that gets on.
     pub(super) fn settle(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
+        self.state.world.refresh_driven()?;
         let report = {
             let Self { state, host, .. } = &mut *self;
             let State { solver, world, preferences, .. } = &mut **state;

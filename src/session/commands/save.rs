@@ -1,5 +1,6 @@
 //! `save`: a script that brings the same world back to the last bit.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::restorable::{Restorable, ordinals};
@@ -14,7 +15,7 @@ use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, tex
 use crate::session::state::State;
 use crate::solve::CogForm;
 use crate::terms::Shape;
-use crate::world::{ConstraintId, Drivers, Mention, ParameterId, Record};
+use crate::world::{ConstraintId, Drivers, Formula, Mention, ParameterId, Record};
 
 /// How a file that `save` wrote begins.
 const FIRST_WORDS: &str = "# A linkwork session.";
@@ -49,11 +50,9 @@ impl State {
         self.save_points(&mut script);
         self.save_turn_counts(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
-        // What mentions members of constraints is a number until these are there.
-        let parameters = self.parameters_in_order();
-        self.save_parameters(&parameters, &mut script);
+        self.save_parameters(&mut script);
         self.save_constraints(&mut script);
-        self.save_late_parameters(&parameters, &mut script);
+        self.save_late_parameters(&mut script);
         self.save_late_values(&mut script);
         self.save_start_states(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[0.0]));
@@ -146,7 +145,7 @@ impl State {
                 let value = literal(rho);
                 line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
-            if !self.follows_members(record) {
+            if !self.follows_late(record) {
                 save_state(record, script);
             }
         }
@@ -155,10 +154,20 @@ impl State {
         }
     }
 
-    fn save_parameters(&self, ids: &[ParameterId], script: &mut String) {
-        for id in ids {
-            let parameter = self.world.parameter(*id).expect("a listed parameter lives");
-            if self.world.mentions_members(&parameter.formula) {
+    /// Whether a parameter can be made live only after others, or constraints, that come after it.
+    fn is_late(&self, id: ParameterId, formula: &Formula) -> bool {
+        let mut is_late = self.world.mentions_members(formula);
+        formula.mentions(&mut |mention| {
+            is_late |= matches!(mention, Mention::Parameter(used) if used > id);
+        });
+        is_late
+    }
+
+    /// Makes the parameters, in the order in which they were made; what has to wait for others is a
+    /// number until then.
+    fn save_parameters(&self, script: &mut String) {
+        for (id, parameter) in self.world.parameters() {
+            if self.is_late(id, &parameter.formula) {
                 let value = match parameter.formula.shape() {
                     Shape::Number => literal(1.0),
                     Shape::Vector => vector(1.0, 1.0),
@@ -166,26 +175,41 @@ impl State {
                 let binding = Binding { name: named(&parameter.name), value };
                 line(script, Making::Let(vec![binding]));
             } else {
-                script.push_str(&Unbind::of(&self.world).parameter_text(*id));
+                script.push_str(&Unbind::of(&self.world).parameter_text(id));
                 script.push('\n');
             }
         }
     }
 
-    /// Makes parameters live that mention members of constraints.
-    fn save_late_parameters(&self, ids: &[ParameterId], script: &mut String) {
-        for id in ids {
-            let parameter = self.world.parameter(*id).expect("a listed parameter lives");
-            if self.world.mentions_members(&parameter.formula) {
-                script.push_str(&Unbind::of(&self.world).parameter_text(*id));
+    /// Makes parameters live that had to wait.
+    fn save_late_parameters(&self, script: &mut String) {
+        for id in self.parameters_in_order() {
+            let parameter = self.world.parameter(id).expect("a listed parameter lives");
+            if self.is_late(id, &parameter.formula) {
+                script.push_str(&Unbind::of(&self.world).parameter_text(id));
                 script.push('\n');
             }
         }
     }
 
-    /// Whether some value of a constraint depends on members of constraints.
-    fn follows_members(&self, record: &Record) -> bool {
-        record.drivers().iter().any(|(_, formula)| self.world.mentions_members(formula))
+    /// Whether some value of a constraint is made live by what comes after it.
+    fn follows_late(&self, record: &Record) -> bool {
+        let mut open: Vec<Formula> =
+            record.drivers().iter().map(|(_, formula)| formula.clone()).collect();
+        let mut seen = BTreeSet::new();
+        let mut is_late = open.iter().any(|formula| self.world.mentions_members(formula));
+        while let Some(formula) = open.pop().filter(|_| !is_late) {
+            formula.mentions(&mut |mention| {
+                if let Mention::Parameter(id) = mention
+                    && seen.insert(id)
+                    && let Some(parameter) = self.world.parameter(id)
+                {
+                    is_late |= self.is_late(id, &parameter.formula);
+                    open.push(parameter.formula.clone());
+                }
+            });
+        }
+        is_late
     }
 
     /// The values of a constraint that mention members of itself or of such as come after it, and
@@ -215,7 +239,7 @@ impl State {
     /// Makes live what had to wait for the members it mentions.
     fn save_late_values(&self, script: &mut String) {
         for (id, record) in self.world.constraints() {
-            if !self.follows_members(record) {
+            if !self.follows_late(record) {
                 continue;
             }
             let late = self.late_fields(id, record);
