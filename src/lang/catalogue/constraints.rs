@@ -242,7 +242,8 @@ constraints! {
         takes: "a hinge takes `on A B` and `at ratio`",
         usage: "hinge P on A B at RATIO",
         summary: "P is fixed on the bar AB: P = A + ratio (B - A) (3.9)",
-        help: "",
+        help: "An engineer's pin, about which two bars turn, is a point that both share: `length A P` and\n\
+             `length P B` meet in the pin P. A hinge fixes a point on a bar, between its ends or beyond.",
         example: "hinge P on A B at 1/3",
     }
     Cog cog {
