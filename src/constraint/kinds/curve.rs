@@ -81,7 +81,8 @@ impl Declared for Curve {
                 }
                 Ok(Self::Arc { points: [o, p, q] })
             }
-            (Some(p), None) => {
+            // A radius that is said takes the place of a point.
+            (Some(p), None) if given.value(Field::Radius).is_none() => {
                 apart(p, 1)?;
                 Ok(Self::Through { points: [o, p] })
             }
