@@ -72,7 +72,7 @@ pub fn call<T: Real>(
     let value = match function {
         Function::Norm => Number(length(vector(0))),
         Function::Dot => Number(vector(0).dot(vector(1))),
-        Function::Cross => Number(cross(vector(0), vector(1))),
+        Function::Cross => Number(vector(0).cross(vector(1))),
         Function::Rotate => {
             let phi = number(1);
             Vector(vector(0).times(Vec2 { x: phi.cos(), y: phi.sin() }))
@@ -90,7 +90,7 @@ pub fn call<T: Real>(
                 return Err(Diagnostic::error("the two points of the line coincide")
                     .at(span, "no line to measure from"));
             }
-            Number(cross(b - a, p - a) / l)
+            Number((b - a).cross(p - a) / l)
         }
         Function::Angle | Function::Turn => {
             let v = vector(1) - vector(0);
@@ -98,7 +98,7 @@ pub fn call<T: Real>(
         }
         Function::AngleBetween | Function::TurnBetween => {
             let (u, v) = (vector(1) - vector(0), vector(3) - vector(2));
-            angle(u.dot(v), cross(u, v), span)?
+            angle(u.dot(v), u.cross(v), span)?
         }
         Function::Clamp => Number(clamp([0, 1, 2].map(number), span)?),
         _ if function.is_rate() => unreachable!("rates are not functions of values"),
@@ -142,8 +142,4 @@ fn clamp<T: Real>([x, lo, hi]: [T; 3], span: Span) -> Result<T, Diagnostic> {
         v if v > hi.value() => hi,
         _ => x,
     })
-}
-
-fn cross<T: Real>(a: Vec2<T>, b: Vec2<T>) -> T {
-    a.x * b.y - a.y * b.x
 }
