@@ -3,6 +3,7 @@
 mod args;
 mod examine;
 mod files;
+mod inform;
 pub(crate) mod interrupt;
 pub(crate) mod output;
 mod process_host;
@@ -11,16 +12,21 @@ mod run;
 
 use std::process::ExitCode;
 
+use args::Invocation;
+
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
     let status = match args.command {
-        Some(args::Invocation::Run(batch)) => run::batch(&batch),
-        Some(args::Invocation::Accuracy(wish)) => examine::accuracy(&wish),
-        Some(args::Invocation::Check(arguments)) => examine::check(&arguments),
-        Some(args::Invocation::Effects(arguments)) => examine::effects(&arguments),
-        None => run::session(&args.session),
+        Some(Invocation::Run(batch)) => run::batch(&batch.scripts, &batch.host),
+        Some(Invocation::Accuracy(wish)) => examine::accuracy(&wish),
+        Some(Invocation::Check(arguments)) => examine::check(&arguments),
+        Some(Invocation::Effects(arguments)) => examine::effects(&arguments),
+        Some(Invocation::Examples(wish)) => inform::examples(&wish),
+        Some(Invocation::Help(wish)) => inform::help(&wish),
+        None if args.scripts.is_empty() => run::session(&args.host),
+        None => run::batch(&args.scripts, &args.host),
     };
     output::flush();
     status.into()

@@ -1,8 +1,10 @@
 //! What the program says: answers on standard output, everything else on standard error.
 
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
+use super::progress;
 use crate::diag::{Diagnostic, Paint, Sources, render};
 
 /// Answers not yet written: to a file or a pipe they go in large pieces.
@@ -14,6 +16,7 @@ fn out() -> MutexGuard<'static, BufWriter<Stdout>> {
 
 /// Writes one line of the answer. A reader that has gone away ends the process quietly.
 pub fn answer(line: &str) {
+    progress::clear();
     let mut out = out();
     if let Err(e) = out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")) {
         end_on(&e);
@@ -46,7 +49,47 @@ pub fn show(problem: &Diagnostic, sources: &Sources) {
     complain(&text);
 }
 
+/// Writes the lines of a long answer: page by page where they are more than a terminal shows.
+pub fn page(lines: &[String]) {
+    let fits = match terminal_size::terminal_size_of(io::stdout()) {
+        Some((_, height)) => lines.len() < usize::from(height.0),
+        None => true,
+    };
+    if fits || !is_capable() || show_pages(lines).is_err() {
+        lines.iter().for_each(|line| answer(line));
+    }
+}
+
+/// Gives lines to the user's pager: `$PAGER`, or `less`.
+///
+/// # Errors
+/// Where there is none.
+fn show_pages(lines: &[String]) -> io::Result<()> {
+    flush();
+    let pager = std::env::var("PAGER").unwrap_or_else(|_| "less".to_owned());
+    let mut words = pager.split_whitespace();
+    let program = words.next().ok_or(io::ErrorKind::NotFound)?;
+    let mut command = Command::new(program);
+    command.args(words).stdin(Stdio::piped());
+    if std::env::var_os("LESS").is_none() {
+        // Ends at once where all fits, and leaves on the screen what was read.
+        command.env("LESS", "FRX");
+    }
+    let mut child = command.spawn()?;
+    if let Some(mut pages) = child.stdin.take() {
+        // Who has read enough closes the pager, which is no failure.
+        drop(lines.iter().try_for_each(|line| writeln!(pages, "{line}")));
+    }
+    child.wait().map(drop)
+}
+
+/// Whether the terminal understands more than a printer would.
+fn is_capable() -> bool {
+    std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+}
+
 fn complain(text: &str) {
+    progress::clear();
     // Nobody is left to tell if standard error is gone.
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
@@ -59,6 +102,5 @@ fn paint() -> Paint {
 /// Whether the user has nothing against colours where there is a terminal.
 pub fn wants_colours() -> bool {
     let is_unwanted = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    !is_unwanted && !is_dumb
+    !is_unwanted && is_capable()
 }

@@ -8,24 +8,29 @@ use super::args::HostArguments;
 use super::progress::ProgressBar;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::{Host, contained};
+use crate::session::{Example, Host, contained};
 
 /// The process as a session sees it.
 pub struct ProcessHost {
     out: PathBuf,
     is_quiet: bool,
     allows_any_path: bool,
+    has_pager: bool,
     begun: Instant,
     bar: ProgressBar,
 }
+
+/// Where what an example includes is looked for: no folder, it comes with the program.
+pub const EXAMPLES_FOLDER: &str = "<examples>";
 
 impl ProcessHost {
     /// The process with the user's wishes.
     pub fn new(host: &HostArguments) -> Self {
         Self {
-            out: host.out.clone(),
+            out: host.out(),
             is_quiet: host.quiet,
             allows_any_path: host.allow_any_path,
+            has_pager: !host.no_pager,
             begun: Instant::now(),
             bar: ProgressBar::default(),
         }
@@ -35,6 +40,14 @@ impl ProcessHost {
 impl Host for ProcessHost {
     fn print(&mut self, line: &str) {
         output::answer(line);
+    }
+
+    fn print_all(&mut self, lines: &[String]) {
+        if self.has_pager {
+            output::page(lines);
+        } else {
+            lines.iter().for_each(|line| output::answer(line));
+        }
     }
 
     fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
@@ -57,7 +70,12 @@ impl Host for ProcessHost {
     }
 
     fn read(&mut self, path: &Path) -> io::Result<String> {
-        files::read(path)
+        match path.strip_prefix(EXAMPLES_FOLDER) {
+            Ok(name) => Example::named(&name.to_string_lossy())
+                .map(|example| example.text.to_owned())
+                .map_err(|_| io::ErrorKind::NotFound.into()),
+            Err(_) => files::read(path),
+        }
     }
 
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {

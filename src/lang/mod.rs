@@ -15,4 +15,4 @@ mod lower;
 mod parts;
 mod print;
 
-pub use lower::{Statements, is_incomplete, parse};
+pub use lower::{Statements, is_incomplete, nearest_command, parse};

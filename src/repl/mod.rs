@@ -2,6 +2,7 @@
 
 mod editor;
 mod history;
+mod init;
 
 use rustyline::error::ReadlineError;
 
@@ -10,7 +11,7 @@ use crate::cli::output;
 use crate::session::{Flow, Host, Session, Transcript};
 
 /// Talks with the user until they leave.
-pub fn converse(session: &mut Session, host: &mut dyn Host) {
+pub fn converse(session: &mut Session, host: &mut dyn Host, no_init: bool) {
     let mut editor = match editor::open() {
         Ok(editor) => editor,
         Err(e) => {
@@ -20,12 +21,21 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     };
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
-    println!("linkwork {}; `help` for help, Ctrl-D to leave", env!("CARGO_PKG_VERSION"));
+    println!(
+        "linkwork {}; `help` and `examples` show what there is, Ctrl-D leaves",
+        env!("CARGO_PKG_VERSION")
+    );
+    if !no_init {
+        init::run(session, host);
+    }
     let mut transcript = Transcript::new("<prompt>");
+    // Ctrl-C on an empty line, one after the other.
+    let mut n_refusals = 0;
     loop {
         editor::prepare(&mut editor, session);
         match editor.readline("> ") {
             Ok(line) => {
+                n_refusals = 0;
                 history::keep(&mut editor, &line, history.as_deref());
                 interrupt::forget();
                 let outcome = transcript.enter(&line, session, host);
@@ -35,7 +45,12 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
                 }
             }
             // Ctrl-C clears the line.
-            Err(ReadlineError::Interrupted) => {}
+            Err(ReadlineError::Interrupted) => {
+                n_refusals += 1;
+                if n_refusals > 1 {
+                    println!("`quit` or Ctrl-D leaves");
+                }
+            }
             Err(ReadlineError::Eof) => return,
             Err(e) => {
                 eprintln!("error: the terminal is gone: {e}");

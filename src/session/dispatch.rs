@@ -93,6 +93,7 @@ impl Execution<'_> {
             Looking::List(what) => self.list(*what),
             Looking::Show(name) => self.show(name)?,
             Looking::Print(items) => self.print(items)?,
+            Looking::Bare(items) => self.bare(items)?,
             Looking::Check => self.check(),
             Looking::Why(name) => self.why(name)?,
             Looking::Limits(name) => self.limits(name)?,
@@ -102,6 +103,7 @@ impl Execution<'_> {
                 self.assert(left, relation, within.as_ref(), span)?;
             }
             Looking::Help(topic) => self.help(topic.as_ref())?,
+            Looking::Examples(name) => self.examples(name.as_ref())?,
             Looking::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)

@@ -14,6 +14,9 @@ use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
 
+/// Files written by one command that are told one by one.
+const MOST_FILES_NAMED: usize = 5;
+
 /// How a statement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
@@ -52,6 +55,8 @@ pub struct Execution<'a> {
     pub run: Option<Summary>,
     /// Where likely slips were found.
     pub slips: Vec<Span>,
+    /// Whether work is under way whose progress is told: what is part of it tells none.
+    is_telling_progress: bool,
 }
 
 impl<'a> Execution<'a> {
@@ -75,6 +80,7 @@ impl<'a> Execution<'a> {
             outbox: Vec::new(),
             run: None,
             slips: Vec::new(),
+            is_telling_progress: false,
         }
     }
 
@@ -163,6 +169,22 @@ impl<'a> Execution<'a> {
         self.host.tell(warning, &self.input.sources);
     }
 
+    /// Long work begins; gives whether its progress is told, which is not so where it is part of
+    /// longer work.
+    pub fn begin_work(&mut self) -> bool {
+        let is_told = !std::mem::replace(&mut self.is_telling_progress, true);
+        if is_told {
+            self.host.progress(0.0);
+        }
+        is_told
+    }
+
+    /// Work ends whose progress was told.
+    pub fn end_work(&mut self) {
+        self.is_telling_progress = false;
+        self.host.progress(1.0);
+    }
+
     /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
     pub fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
         self.outbox.retain(|(other, ..)| *other != file);
@@ -173,16 +195,36 @@ impl<'a> Execution<'a> {
     /// other back.
     pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
         let mut result = Ok(());
+        let mut written = Vec::new();
         for (path, bytes, span) in std::mem::take(&mut self.outbox) {
-            let written = self.host.resolve(&path).and_then(|at| self.host.write(&at, &bytes));
-            if let Err(e) = written
-                && result.is_ok()
-            {
-                let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
-                let why = reason(&e);
-                result = Err(problem.kind(Kind::Unreadable).at(span, why));
+            let at = self.host.resolve(&path);
+            match at.and_then(|at| self.host.write(&at, &bytes).map(|()| at)) {
+                Ok(at) => written.push(at),
+                Err(e) if result.is_ok() => {
+                    let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
+                    let why = reason(&e);
+                    result = Err(problem.kind(Kind::Unreadable).at(span, why));
+                }
+                Err(_) => {}
             }
         }
+        self.tell_written(&written);
         result
+    }
+
+    /// Tells which files were written: each, or of many the last.
+    fn tell_written(&mut self, written: &[PathBuf]) {
+        match written {
+            [] => {}
+            [others @ .., last] if others.len() > MOST_FILES_NAMED => {
+                let n = written.len();
+                self.note(format!("wrote {n} files, the last is {}", last.display()));
+            }
+            _ => {
+                for file in written {
+                    self.note(format!("wrote {}", file.display()));
+                }
+            }
+        }
     }
 }

@@ -10,6 +10,11 @@ pub trait Host {
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
 
+    /// Takes an answer of several lines that belong together: a terminal may show it page by page.
+    fn print_all(&mut self, lines: &[String]) {
+        lines.iter().for_each(|line| self.print(line));
+    }
+
     /// Takes talk: notes and warnings. An error is returned to who asked for the statement; who
     /// gave a whole text to carry out is told of it here.
     fn tell(&mut self, what: &Diagnostic, sources: &Sources);

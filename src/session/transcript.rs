@@ -19,25 +19,28 @@ pub struct Outcome {
 }
 
 impl Session {
-    /// Carries out a script up to the first error and ends the session. What was recorded up to
-    /// there is not lost.
-    pub fn run_script(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
-        let result = self.execute_all(source, host).and_then(|flow| {
-            self.finish(host)?;
-            Ok(flow)
-        });
-        match result {
+    /// Carries out a text up to the first error.
+    pub fn run_text(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
+        match self.execute_all(source, host) {
             Ok(flow) => Outcome { flow, failure: None },
             Err(problem) => {
                 host.tell(&problem, self.sources());
-                if let Err(second) = self.finish(host)
-                    && second != problem
-                {
-                    host.tell(&second, self.sources());
-                }
                 Outcome { flow: Flow::On, failure: Some(problem) }
             }
         }
+    }
+
+    /// Carries out a script up to the first error and ends the session. What was recorded up to
+    /// there is not lost.
+    pub fn run_script(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
+        let mut outcome = self.run_text(source, host);
+        if let Err(problem) = self.finish(host)
+            && outcome.failure.as_ref() != Some(&problem)
+        {
+            host.tell(&problem, self.sources());
+            outcome.failure.get_or_insert(problem);
+        }
+        outcome
     }
 }
 

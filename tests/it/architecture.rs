@@ -33,7 +33,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 14] = [
+const HOMES: [(&str, &[&str]); 15] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/args.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
@@ -48,6 +48,7 @@ const HOMES: [(&str, &[&str]); 14] = [
     ("smallvec", &["mobility/system.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
+    ("terminal_size", &["cli/output.rs"]),
 ];
 
 /// All that the library builds on without its features, where there is neither a thread nor a

@@ -8,7 +8,7 @@ use crate::lang::catalogue::{Entry, Section};
 use crate::lang::constraint::Relation;
 use crate::lang::expr::{Expr, Ident, Name, Unit};
 use crate::lang::grammar::Rule;
-use crate::lang::lower::{Cursor, refusal};
+use crate::lang::lower::{Cursor, is_bare, refusal};
 use crate::lang::parts::{Promise, Text};
 use crate::lang::print::{Clause, commas};
 
@@ -21,6 +21,8 @@ pub enum Looking {
     Show(Name),
     /// `print C, distance(A, C), "text"`
     Print(Vec<PrintItem>),
+    /// `C`, `distance(A, C), "text"`: values alone print; the lone name of a thing shows it.
+    Bare(Vec<PrintItem>),
     /// `check`
     Check,
     /// `why C`
@@ -42,6 +44,8 @@ pub enum Looking {
     },
     /// `help`, `help motor`
     Help(Option<Ident>),
+    /// `examples`, `examples four-bar`
+    Examples(Option<Ident>),
     /// `quit`, `exit`
     Quit,
 }
@@ -219,6 +223,18 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         },
     },
     Verb {
+        rule: Rule::examples,
+        entry: Entry {
+            keyword: "examples",
+            section: Section::Looking,
+            usage: "examples [NAME]",
+            summary: "list the mechanisms that come with the program, or print one",
+            help: "",
+            example: "examples\n\
+                 examples four-bar",
+        },
+    },
+    Verb {
         rule: Rule::quit,
         entry: Entry {
             keyword: "quit",
@@ -260,6 +276,8 @@ impl Looking {
                 within: c.clause(Rule::within)?,
             },
             Rule::help => Self::Help(c.setting_if_any()),
+            Rule::examples => Self::Examples(c.example_if_any()),
+            Rule::bare => Self::Bare(print_items(c)?),
             Rule::quit => Self::Quit,
             _ => return Ok(None),
         }))
@@ -272,6 +290,7 @@ impl Looking {
             Self::List(Some(what)) => write!(f, "list {}", what.word()),
             Self::Show(name) => write!(f, "show {name}"),
             Self::Print(items) => write!(f, "print {}", commas(items)),
+            Self::Bare(items) => write!(f, "{}", Bare(items)),
             Self::Check => f.write_str("check"),
             Self::Why(name) => write!(f, "why {name}"),
             Self::Limits(name) => write!(f, "limits {name}"),
@@ -282,6 +301,7 @@ impl Looking {
             }
             Self::Help(None) => f.write_str("help"),
             Self::Help(Some(word)) => write!(f, "help {word}"),
+            Self::Examples(name) => write!(f, "examples{}", Clause(" ", name)),
             Self::Quit => f.write_str("quit"),
         }
     }
@@ -317,6 +337,26 @@ fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {
     let Some(word) = c.ident_if_any() else { return Ok(None) };
     let what = ListWhat::ALL.into_iter().find(|what| what.word() == &*word.text);
     what.map(Some).ok_or_else(|| refusal::unknown_list(&word, &ListWhat::ALL.map(ListWhat::word)))
+}
+
+/// Values alone; in parentheses where the first would be taken for a command.
+struct Bare<'a>(&'a [PrintItem]);
+
+impl Display for Bare<'_> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let text = commas(self.0).to_string();
+        match self.0 {
+            [PrintItem::Value(value), rest @ ..] if !is_bare(&text) => {
+                write!(f, "({value}){}", if rest.is_empty() { "" } else { ", " })?;
+                write!(f, "{}", commas(rest))
+            }
+            [PrintItem::InUnit(value, unit), rest @ ..] if !is_bare(&text) => {
+                write!(f, "({value}) in {}", unit.suffix())?;
+                write!(f, "{}{}", if rest.is_empty() { "" } else { ", " }, commas(rest))
+            }
+            _ => f.write_str(&text),
+        }
+    }
 }
 
 impl Display for PrintItem {

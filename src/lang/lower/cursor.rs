@@ -133,6 +133,12 @@ impl<'a> Cursor<'a> {
         Some(self.ident_of(&pair))
     }
 
+    /// The name of an example: words and numbers joined by hyphens.
+    pub fn example_if_any(&mut self) -> Option<Ident> {
+        let pair = self.take(Rule::example)?;
+        Some(self.ident_of(&pair))
+    }
+
     /// The name of a setting: words joined by hyphens.
     pub fn setting_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::setting)?;

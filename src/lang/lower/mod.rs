@@ -25,6 +25,8 @@ use super::layout::{Flaw, Layout, Piece};
 pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
+pub(super) use prefix::is_bare;
+pub use prefix::nearest_command;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///
@@ -120,7 +122,9 @@ impl<'a> Reader<'a> {
             (Some(block), false) => return Err(self.needless_block(word, block.start - 1)),
             (None, true) => return Err(self.missing_block(word, piece.head.end)),
         };
-        cursor.pass_verb();
+        if rule != Rule::bare {
+            cursor.pass_verb();
+        }
         let command = Command::read(rule, &mut cursor, prefix.label, block)?;
         Ok(Statement { command, span: self.span(piece.whole.clone()) })
     }

@@ -82,12 +82,19 @@ impl Execution<'_> {
             let slot = execution.scopes.bind(variable.text.clone(), from);
             let mut flow = Flow::On;
             let mut value = from;
+            let is_told = n_rounds > 1.0 && execution.begin_work();
             while value <= to && flow == Flow::On {
+                if is_told {
+                    execution.host.progress((value - from) / n_rounds);
+                }
                 execution.scopes.rebind(slot, value);
                 flow = execution.perform_all(body)?;
                 value += 1.0;
             }
             execution.scopes.unbind(slot);
+            if is_told {
+                execution.end_work();
+            }
             Ok(flow)
         });
         self.n_rounds = n_outer;

@@ -151,7 +151,11 @@ impl Execution<'_> {
         let mut way_back = None;
         let mut last = Status::Converged;
         let frames = Frames { n, hands };
+        let is_told = n > 1 && self.begin_work();
         for k in 1..=n {
+            if is_told {
+                self.host.progress((k - 1) as f64 / n as f64);
+            }
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
@@ -183,6 +187,9 @@ impl Execution<'_> {
             if !leaves_nothing {
                 self.keep_frame(is_missed(&report));
             }
+        }
+        if is_told {
+            self.end_work();
         }
         summary.add_time(begun, self.host.seconds());
         if let Some(tolerance) = limits.tolerance

@@ -3,7 +3,7 @@
 use crate::diag::{Diagnostic, Span, format_number, suggest};
 use crate::lang::ast::Expr;
 use crate::session::execution::Execution;
-use crate::session::preferences::{AtDeadPoint, Preferences};
+use crate::session::preferences::{AtDeadPoint, Preferences, Receipt};
 use crate::session::state::State;
 use crate::session::undo::journal::Change;
 use crate::solve::{CogForm, Method};
@@ -35,7 +35,7 @@ pub struct OwnSetting {
 }
 
 /// The settings, in the order in which they are printed.
-pub static SETTINGS: [Setting; 7] = [
+pub static SETTINGS: [Setting; 8] = [
     Setting {
         name: "dt",
         what: "time of one frame",
@@ -107,6 +107,16 @@ pub static SETTINGS: [Setting; 7] = [
             Ok(())
         },
     },
+    Setting {
+        name: "receipt",
+        what: "what is said after a run: `short` or `long`",
+        text: |state| state.preferences.receipt.word().to_owned(),
+        set: |command, value| {
+            let receipt = word_of(value, &Receipt::ALL, Receipt::word, "a length of receipts")?;
+            command.prefer(|preferences| preferences.receipt = receipt);
+            Ok(())
+        },
+    },
 ];
 
 /// What is set for single points or constraints.
@@ -140,6 +150,11 @@ pub static OWN_SETTINGS: [OwnSetting; 2] = [
 ];
 
 impl Setting {
+    /// Those that the motion depends on.
+    pub fn of_the_scene() -> impl Iterator<Item = &'static Self> {
+        SETTINGS.iter().filter(|setting| setting.name != "receipt")
+    }
+
     /// The setting of this name.
     pub fn named(name: &str) -> Option<&'static Self> {
         SETTINGS.iter().find(|setting| setting.name == name)

@@ -201,7 +201,8 @@ fn looking() -> BoxedStrategy<Looking> {
     prop_oneof![
         of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
         name().prop_map(Looking::Show),
-        vec(item, 1..4).prop_map(Looking::Print),
+        vec(item.clone(), 1..4).prop_map(Looking::Print),
+        vec(item, 1..4).prop_map(Looking::Bare),
         Just(Looking::Check),
         name().prop_map(Looking::Why),
         name().prop_map(Looking::Limits),
@@ -213,6 +214,7 @@ fn looking() -> BoxedStrategy<Looking> {
             within
         }),
         of(ident()).prop_map(Looking::Help),
+        of(ident()).prop_map(Looking::Examples),
         Just(Looking::Quit),
     ]
     .boxed()

@@ -45,6 +45,7 @@ impl Expected {
                     expected.keywords.push("in");
                 }
                 Rule::unit => expected.add("a unit"),
+                Rule::example => expected.add("the name of an example"),
                 Rule::string => {
                     let is_path = match verb {
                         "print" | "sample" => false,

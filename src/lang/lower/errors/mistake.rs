@@ -30,12 +30,15 @@ impl Reader<'_> {
             // Little stack was left to begin with, and pest stopped before it ran out.
             return refusal::too_long(self.span(range.clone()));
         };
-        let word = first_word(&self.text[range.clone()]);
+        let is_bare = rule == Rule::bare;
+        let word = if is_bare { "print" } else { first_word(&self.text[range.clone()]) };
         let before = self.text[range.start..at].trim_end();
         let expected = Expected::new(positives, word, before == word);
         let found = self.found_at(at, range.end);
         let message = match found.what {
-            Found::End if rule == Rule::prefix => "the statement is not complete".to_owned(),
+            Found::End if rule == Rule::prefix || is_bare => {
+                "the statement is not complete".to_owned()
+            }
             Found::End => format!("`{word}` is not complete"),
             _ => format!("unexpected {}", found.term),
         };
@@ -65,7 +68,7 @@ impl Reader<'_> {
             Some(comma) => problem.also(comma, "this comma holds the statement open"),
             None => problem,
         };
-        match catalogue::entry(word) {
+        match catalogue::entry(word).filter(|_| !is_bare) {
             Some(entry) => problem.help(format!("usage: `{}`", entry.usage)),
             None => problem,
         }
