@@ -3,8 +3,11 @@
 mod args;
 mod examine;
 mod files;
+pub(crate) mod folders;
 mod inform;
+mod init;
 pub(crate) mod interrupt;
+mod journal;
 pub(crate) mod output;
 mod process_host;
 mod progress;

@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::progress;
 use crate::diag::{Diagnostic, Paint, Sources, render};
+use crate::render::{Cell, Ink, Sketch};
 
 /// Answers not yet written: to a file or a pipe they go in large pieces.
 fn out() -> MutexGuard<'static, BufWriter<Stdout>> {
@@ -60,6 +61,57 @@ pub fn page(lines: &[String]) {
     }
 }
 
+/// Columns and rows of what is drawn in characters: most of the terminal, and less than two pages.
+pub fn page_size() -> (usize, usize) {
+    match terminal_size::terminal_size_of(io::stdout()) {
+        Some((width, height)) => {
+            let rows = usize::from(height.0).saturating_sub(3);
+            (usize::from(width.0).clamp(20, 120), rows.clamp(8, 40))
+        }
+        None => (72, 24),
+    }
+}
+
+/// Draws a picture, on a terminal in colours.
+pub fn draw(sketch: &Sketch) {
+    if io::stdout().is_terminal() && wants_colours() {
+        sketch.rows().for_each(|row| answer(&coloured(row)));
+    } else {
+        sketch.lines().iter().for_each(|line| answer(line));
+    }
+}
+
+/// A row of a picture with its colours.
+fn coloured(row: &[Cell]) -> String {
+    let n = row.iter().rposition(|cell| *cell != Cell::default()).map_or(0, |last| last + 1);
+    let mut text = String::new();
+    for cell in &row[..n] {
+        match (cell.letter, cell.upper, cell.lower) {
+            (None, Some(upper), Some(lower)) if upper != lower => {
+                let (over, under) = (colour(upper), colour(lower) + 10);
+                text.push_str(&format!("\x1b[{over};{under}m\u{2580}\x1b[0m"));
+            }
+            (None, Some(ink), _) | (None, None, Some(ink)) => {
+                text.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(ink), cell.char()));
+            }
+            _ => text.push(cell.char()),
+        }
+    }
+    text
+}
+
+/// The colour of an ink, as terminals number those of letters.
+const fn colour(ink: Ink) -> u8 {
+    match ink {
+        Ink::Guide => 90,
+        // Blue, red, green, magenta, cyan.
+        Ink::Path(number) => [94, 91, 92, 95, 96][number % 5],
+        Ink::Body => 37,
+        Ink::Drive => 33,
+        Ink::Joint => 97,
+    }
+}
+
 /// Gives lines to the user's pager: `$PAGER`, or `less`.
 ///
 /// # Errors
@@ -84,7 +136,7 @@ fn show_pages(lines: &[String]) -> io::Result<()> {
 }
 
 /// Whether the terminal understands more than a printer would.
-fn is_capable() -> bool {
+pub fn is_capable() -> bool {
     std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::args::HostArguments;
+use super::journal::Journal;
 use super::progress::ProgressBar;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::{Example, Host, contained};
+use crate::render::Sketch;
+use crate::session::{Example, Host, Kept, contained, reason};
 
 /// The process as a session sees it.
 pub struct ProcessHost {
@@ -16,6 +18,7 @@ pub struct ProcessHost {
     is_quiet: bool,
     allows_any_path: bool,
     has_pager: bool,
+    journal: Option<Journal>,
     begun: Instant,
     bar: ProgressBar,
 }
@@ -31,8 +34,23 @@ impl ProcessHost {
             is_quiet: host.quiet,
             allows_any_path: host.allow_any_path,
             has_pager: !host.no_pager,
+            journal: None,
             begun: Instant::now(),
             bar: ProgressBar::default(),
+        }
+    }
+}
+
+impl ProcessHost {
+    /// From here on what is typed is kept in a journal; where that cannot be, it is not.
+    pub fn begin_journal(&mut self) {
+        self.journal = Journal::begin().ok();
+    }
+
+    /// The session ended in order.
+    pub fn end_journal(&mut self) {
+        if let Some(journal) = self.journal.take() {
+            journal.end();
         }
     }
 }
@@ -50,6 +68,14 @@ impl Host for ProcessHost {
         }
     }
 
+    fn page(&self) -> (usize, usize) {
+        output::page_size()
+    }
+
+    fn draw(&mut self, sketch: &Sketch) {
+        output::draw(sketch);
+    }
+
     fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
         if !self.is_quiet || what.severity == Severity::Error {
             output::show(what, sources);
@@ -58,6 +84,20 @@ impl Host for ProcessHost {
 
     fn is_listening(&self) -> bool {
         !self.is_quiet
+    }
+
+    fn is_keeping(&self) -> bool {
+        self.journal.is_some()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        if let Some(journal) = &mut self.journal
+            && let Err(e) = journal.keep(kept)
+        {
+            let why = format!("this session is not kept in a journal any more: {}", reason(&e));
+            self.tell(&Diagnostic::warning(why), &Sources::new());
+            self.journal = None;
+        }
     }
 
     fn is_interrupted(&self) -> bool {

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use super::args::{HostArguments, Scripts, command_names};
 use super::process_host::ProcessHost;
-use super::{files, interrupt, output};
+use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::lang::is_incomplete;
 use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
@@ -242,7 +242,7 @@ pub fn session(host: &HostArguments) -> ExitStatus {
 
 fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {
     let status = if io::stdin().is_terminal() {
-        crate::repl::converse(session, process, host.no_init);
+        prompt(session, process, host);
         ExitStatus::Fine
     } else {
         typed_ahead(session, process)
@@ -251,6 +251,31 @@ fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArgumen
         ExitStatus::Fine => status,
         broken => broken,
     }
+}
+
+/// A session at a terminal.
+fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) {
+    crate::repl::greet();
+    if !host.no_init {
+        init::run(session, process);
+    }
+    if host.no_journal {
+        return crate::repl::converse(session, process);
+    }
+    if let Some(remains) = journal::remains() {
+        let news = Diagnostic::note_only("the last session did not end in order").help(format!(
+            "its {} lines bring it back: load \"{}\"",
+            remains.n_lines,
+            remains.path.display()
+        ));
+        process.tell(&news, &Sources::new());
+    }
+    process.begin_journal();
+    if session.to_script() != Session::new().to_script() {
+        session.keep_whole(process);
+    }
+    crate::repl::converse(session, process);
+    process.end_journal();
 }
 
 /// A block longer than this is looked at from time to time only, to see whether it is whole:

@@ -14,5 +14,10 @@ mod layout;
 mod lower;
 mod parts;
 mod print;
+mod usage;
 
-pub use lower::{Statements, is_incomplete, nearest_command, parse};
+pub use layout::{depth, statement_start};
+pub use lower::{
+    Class, NameOf, Next, Statements, Token, is_incomplete, nearest_command, next, parse, tokens,
+};
+pub use usage::rest_of_usage;

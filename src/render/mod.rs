@@ -40,6 +40,9 @@ pub mod chart;
 mod document;
 mod still;
 
+// Figures in characters.
+mod sketch;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
@@ -49,5 +52,6 @@ mod trace_animation;
 pub use animation::Animation;
 pub use document::Options;
 pub use scene::Scene;
+pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
 pub use view::View;

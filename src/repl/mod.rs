@@ -2,16 +2,24 @@
 
 mod editor;
 mod history;
-mod init;
+mod look;
 
 use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
 use crate::cli::output;
-use crate::session::{Flow, Host, Session, Transcript};
+use crate::session::{Flow, Host, PROMPT, Session, Transcript, without_prompts};
+
+/// Says who is there, and what to type first.
+pub fn greet() {
+    println!(
+        "linkwork {}; `help` and `examples` show what there is, Ctrl-D leaves",
+        env!("CARGO_PKG_VERSION")
+    );
+}
 
 /// Talks with the user until they leave.
-pub fn converse(session: &mut Session, host: &mut dyn Host, no_init: bool) {
+pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut editor = match editor::open() {
         Ok(editor) => editor,
         Err(e) => {
@@ -21,21 +29,16 @@ pub fn converse(session: &mut Session, host: &mut dyn Host, no_init: bool) {
     };
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
-    println!(
-        "linkwork {}; `help` and `examples` show what there is, Ctrl-D leaves",
-        env!("CARGO_PKG_VERSION")
-    );
-    if !no_init {
-        init::run(session, host);
-    }
     let mut transcript = Transcript::new("<prompt>");
     // Ctrl-C on an empty line, one after the other.
     let mut n_refusals = 0;
     loop {
         editor::prepare(&mut editor, session);
-        match editor.readline("> ") {
+        match editor.readline(PROMPT) {
             Ok(line) => {
                 n_refusals = 0;
+                let line = look::without_marks(&line);
+                let line = without_prompts(&line);
                 history::keep(&mut editor, &line, history.as_deref());
                 interrupt::forget();
                 let outcome = transcript.enter(&line, session, host);

@@ -101,7 +101,9 @@ impl Example {
         let comment = self.text.lines().map_while(|line| line.strip_prefix('#'));
         let words: Vec<&str> = comment.flat_map(str::split_whitespace).collect();
         let text = words.join(" ");
-        let ends = [". ", ": ", "; "].into_iter().filter_map(|end| text.find(end));
+        // A ratio has blanks on both sides of its colon.
+        let is_end = |at: &usize| text.as_bytes()[at - 1] != b' ';
+        let ends = [". ", ": ", "; "].iter().filter_map(|end| text.find(end).filter(is_end));
         text[..ends.min().unwrap_or(text.len())].trim_end_matches('.').to_owned()
     }
 

@@ -4,6 +4,16 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::diag::{Diagnostic, Sources};
+use crate::render::Sketch;
+
+/// What a journal is told of a session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept<'a> {
+    /// The statement that was carried out: repeated, it does the same.
+    Statement(&'a str),
+    /// The script that makes all there is; what was told before is not needed any more.
+    Whole(&'a str),
+}
 
 /// The outside of a session. The program gives it a terminal and files; a test gives it lists.
 pub trait Host {
@@ -15,6 +25,16 @@ pub trait Host {
         lines.iter().for_each(|line| self.print(line));
     }
 
+    /// Columns and rows of what is drawn in characters.
+    fn page(&self) -> (usize, usize) {
+        (72, 24)
+    }
+
+    /// Takes a picture in characters.
+    fn draw(&mut self, sketch: &Sketch) {
+        self.print_all(&sketch.lines());
+    }
+
     /// Takes talk: notes and warnings. An error is returned to who asked for the statement; who
     /// gave a whole text to carry out is told of it here.
     fn tell(&mut self, what: &Diagnostic, sources: &Sources);
@@ -24,6 +44,14 @@ pub trait Host {
     fn is_listening(&self) -> bool {
         true
     }
+
+    /// Whether a journal is kept of what is typed.
+    fn is_keeping(&self) -> bool {
+        false
+    }
+
+    /// Takes what its journal needs to bring the session back, as it was after a statement.
+    fn keep(&mut self, _kept: Kept<'_>) {}
 
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {

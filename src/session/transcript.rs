@@ -1,12 +1,14 @@
 //! A text from its first statement to its last: a script as a whole, or what is typed piece by
 //! piece, past mistakes.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::Session;
 use super::execution::Flow;
 use super::host::Host;
 use crate::diag::{Diagnostic, SourceId, Span};
+use crate::lang::ast::{Building, Changing, Command, Drawing};
 use crate::lang::parse;
 
 /// How a text went. The host was told what is wrong with it.
@@ -44,6 +46,12 @@ impl Session {
     }
 }
 
+/// What a session asks for a statement with.
+pub const PROMPT: &str = "> ";
+
+/// What it asks for the rest of one with.
+pub const CONTINUATION: &str = "... ";
+
 /// A text that is typed piece by piece.
 #[derive(Debug)]
 pub struct Transcript {
@@ -73,7 +81,14 @@ impl Transcript {
             if (span.start as usize) < left_out {
                 continue;
             }
-            match statement.and_then(|statement| session.execute(&statement, host)) {
+            let result = statement.and_then(|statement| {
+                let flow = session.execute(&statement, host)?;
+                if flow != Flow::Quit {
+                    session.note_typed(&statement, flow, host);
+                }
+                Ok(flow)
+            });
+            match result {
                 Ok(Flow::On) => {}
                 Ok(flow) => {
                     outcome.flow = flow;
@@ -90,7 +105,48 @@ impl Transcript {
     }
 }
 
+/// Whether a statement changes what there is, and does not only say or write it.
+pub(super) fn leaves_a_mark(command: &Command) -> bool {
+    !matches!(
+        command,
+        Command::Looking(_)
+            | Command::Drawing(Drawing::Svg(_) | Drawing::Plot { .. })
+            | Command::Building(Building::Save(_) | Building::SaveHistory(_))
+            | Command::Changing(Changing::Settings(_))
+    )
+}
+
 fn line_end(text: &str, span: Span) -> usize {
     let rest = text.get(span.end as usize..).unwrap_or_default();
     text.len() - rest.find('\n').map_or(0, |at| rest.len() - at)
+}
+
+/// What a copy of a session says without its prompts: where a line begins with one, such lines and
+/// those that go on from them are taken, and what the session answered is left out.
+///
+/// ```
+/// use linkwork::session::without_prompts;
+///
+/// let copied = "> let r = 3\n> for i in 1..2 {\n...   print r\n... }\n3\n3\n";
+/// assert_eq!(without_prompts(copied), "let r = 3\nfor i in 1..2 {\n  print r\n}");
+/// assert_eq!(without_prompts("let r = 3\nstep"), "let r = 3\nstep");
+/// ```
+pub fn without_prompts(text: &str) -> Cow<'_, str> {
+    let behind = |line, mark: &str| {
+        if line == mark.trim_end() { Some("") } else { str::strip_prefix(line, mark) }
+    };
+    if !text.lines().any(|line| behind(line.trim_start(), PROMPT).is_some()) {
+        return Cow::Borrowed(text);
+    }
+    let mut lines = Vec::new();
+    let mut goes_on = false;
+    for line in text.lines() {
+        // Lines of a paste may have been set in.
+        let rest = behind(line.trim_start(), PROMPT);
+        goes_on = rest.is_some() || (goes_on && behind(line.trim_start(), CONTINUATION).is_some());
+        if goes_on {
+            lines.extend(rest.or_else(|| behind(line.trim_start(), CONTINUATION)));
+        }
+    }
+    Cow::Owned(lines.join("\n"))
 }

@@ -153,9 +153,14 @@ fn a_second_front_end_types_and_completes() {
         &mut session,
         &mut Nowhere,
     );
-    assert_eq!(outcome.failure.unwrap().to_string(), "unknown name `lenght`: nothing has this name");
+    assert_eq!(
+        outcome.failure.unwrap().to_string(),
+        "unknown name `lenght`: nothing has this name"
+    );
     assert!(session.position("B").is_none() && session.position("C").is_some());
     let mut completion = Completion::default();
-    completion.refresh(session.world());
-    assert_eq!(completion.candidates("show "), (5, vec!["A".to_owned(), "C".to_owned()]));
+    completion.refresh(&session);
+    let offer = completion.offer("show ");
+    let words: Vec<&str> = offer.candidates.iter().map(|candidate| &*candidate.text).collect();
+    assert_eq!((offer.start, words), (5, vec!["A", "C"]));
 }

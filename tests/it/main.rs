@@ -27,5 +27,7 @@ mod slips;
 mod solve;
 mod study;
 mod support;
+#[cfg(unix)]
+mod terminal;
 mod touches;
 mod work;

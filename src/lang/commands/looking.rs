@@ -17,8 +17,8 @@ use crate::lang::print::{Clause, commas};
 pub enum Looking {
     /// `list`, `list points`
     List(Option<ListWhat>),
-    /// `show C`
-    Show(Name),
+    /// `show`, `show C`
+    Show(Option<Name>),
     /// `print C, distance(A, C), "text"`
     Print(Vec<PrintItem>),
     /// `C`, `distance(A, C), "text"`: values alone print; the lone name of a thing shows it.
@@ -44,6 +44,8 @@ pub enum Looking {
     },
     /// `help`, `help motor`
     Help(Option<Ident>),
+    /// `history`
+    History,
     /// `examples`, `examples four-bar`
     Examples(Option<Ident>),
     /// `quit`, `exit`
@@ -112,10 +114,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "show",
             section: Section::Looking,
-            usage: "show NAME",
-            summary: "a point with its constraints, a constraint with its residual",
-            help: "",
-            example: "show C",
+            usage: "show [NAME]",
+            summary: "draw the mechanism; a point with its constraints, a constraint with its residual",
+            help: "Alone it draws the mechanism in the terminal; `svg` draws it as it should look.",
+            example: "show\n\
+                 show C",
         },
     },
     Verb {
@@ -223,6 +226,17 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         },
     },
     Verb {
+        rule: Rule::history,
+        entry: Entry {
+            keyword: "history",
+            section: Section::Looking,
+            usage: "history",
+            summary: "list what was typed in this session",
+            help: "Without what failed. `save \"typed.link\" history` writes it.",
+            example: "history",
+        },
+    },
+    Verb {
         rule: Rule::examples,
         entry: Entry {
             keyword: "examples",
@@ -263,7 +277,7 @@ impl Looking {
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {
             Rule::list => Self::List(list_what(c)?),
-            Rule::show => Self::Show(c.name()?),
+            Rule::show => Self::Show(c.name_if_any()?),
             Rule::print => Self::Print(print_items(c)?),
             Rule::check => Self::Check,
             Rule::why => Self::Why(c.name()?),
@@ -276,6 +290,7 @@ impl Looking {
                 within: c.clause(Rule::within)?,
             },
             Rule::help => Self::Help(c.setting_if_any()),
+            Rule::history => Self::History,
             Rule::examples => Self::Examples(c.example_if_any()),
             Rule::bare => Self::Bare(print_items(c)?),
             Rule::quit => Self::Quit,
@@ -288,7 +303,7 @@ impl Looking {
         match self {
             Self::List(None) => f.write_str("list"),
             Self::List(Some(what)) => write!(f, "list {}", what.word()),
-            Self::Show(name) => write!(f, "show {name}"),
+            Self::Show(name) => write!(f, "show{}", Clause(" ", name)),
             Self::Print(items) => write!(f, "print {}", commas(items)),
             Self::Bare(items) => write!(f, "{}", Bare(items)),
             Self::Check => f.write_str("check"),
@@ -301,6 +316,7 @@ impl Looking {
             }
             Self::Help(None) => f.write_str("help"),
             Self::Help(Some(word)) => write!(f, "help {word}"),
+            Self::History => f.write_str("history"),
             Self::Examples(name) => write!(f, "examples{}", Clause(" ", name)),
             Self::Quit => f.write_str("quit"),
         }

@@ -296,6 +296,10 @@ impl<'a> Cursor<'a> {
         }))
     }
 
+    pub fn text_if_any(&mut self) -> Result<Option<Text>> {
+        if self.peek() == Some(Rule::string) { self.text().map(Some) } else { Ok(None) }
+    }
+
     pub fn text(&mut self) -> Result<Text> {
         let pair = self.must(Rule::string);
         let span = self.span(&pair);

@@ -8,6 +8,8 @@ mod constraint;
 mod cursor;
 mod errors;
 mod expr;
+mod highlight;
+mod next;
 mod prefix;
 
 #[cfg(test)]
@@ -25,6 +27,8 @@ use super::layout::{Flaw, Layout, Piece};
 pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
+pub use highlight::{Class, Token, tokens};
+pub use next::{NameOf, Next, next};
 pub(super) use prefix::is_bare;
 pub use prefix::nearest_command;
 

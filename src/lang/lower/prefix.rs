@@ -255,7 +255,7 @@ pub(super) fn is_word_char(char: char) -> bool {
 }
 
 /// How far the name goes that `text` begins with, its parts included.
-fn name_end(text: &str) -> usize {
+pub(super) fn name_end(text: &str) -> usize {
     let mut end = first_word(text).len();
     if end == 0 {
         return 0;

@@ -162,6 +162,7 @@ impl Execution<'_> {
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
+        self.input.is_unrepeatable = true;
         let folder = self.input.folder(path.span.source);
         let file = folder.join(Path::new(&*path.value));
         if self.included.contains(&file) {
@@ -209,6 +210,7 @@ impl Execution<'_> {
     /// then beside the text that loads it.
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
+        self.input.is_unrepeatable = true;
         let folder = self.input.folder(path.span.source);
         let beside = folder.join(Path::new(&*path.value));
         let (file, text) = if let Some(found) = self.saved(Path::new(&*path.value)) {

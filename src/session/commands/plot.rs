@@ -1,9 +1,11 @@
 //! Series of values: `sample` and `plot`.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{Expr, PlotPart, Text};
+use crate::render::Sketch;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
@@ -17,15 +19,18 @@ impl Execution<'_> {
         Ok(())
     }
 
-    pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
-        let file = self.output_path(path)?;
-        if !path.value.to_ascii_lowercase().ends_with(".svg") {
-            return Err(Diagnostic::error("`plot` writes an SVG picture")
-                .at(path.span, "expected a name that ends in `.svg`"));
-        }
+    /// Draws the series as a chart: to a file, or in characters.
+    pub(crate) fn plot(
+        &mut self,
+        path: Option<&Text>,
+        parts: &[PlotPart],
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let file = path.map(|path| self.chart_file(path)).transpose()?;
+        let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error("there is nothing to plot")
-                .at(path.span, "no series has a value")
+                .at(place, "no series has a value")
                 .help(r#"`sample "error" = distance(A, B)` appends one"#));
         }
         let mut chart = Chart {
@@ -49,8 +54,22 @@ impl Execution<'_> {
             data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
-        self.outbox.push((file, chart.svg().into_bytes(), path.span));
+        if let Some(file) = file {
+            self.outbox.push((file, chart.svg().into_bytes(), place));
+        } else {
+            let (n_columns, n_rows) = self.host.page();
+            self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
+        }
         Ok(())
+    }
+
+    fn chart_file(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let file = self.output_path(path)?;
+        if path.value.to_ascii_lowercase().ends_with(".svg") {
+            return Ok(file);
+        }
+        Err(Diagnostic::error("`plot` writes an SVG picture")
+            .at(path.span, "expected a name that ends in `.svg`"))
     }
 }
 

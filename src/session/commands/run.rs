@@ -79,6 +79,7 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
+        self.input.is_unrepeatable |= seconds.is_some();
         if let Some(time) = &promise.in_time
             && self.host.seconds().is_none()
         {

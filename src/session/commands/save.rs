@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use super::restorable::{Restorable, ordinals};
 use super::setting_table::SETTINGS;
@@ -22,9 +23,28 @@ const FIRST_WORDS: &str = "# A linkwork session.";
 
 impl Execution<'_> {
     pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.file_of_ours(path)?;
+        let text = self.state.to_script();
+        self.queue_file(file, text.into_bytes(), path.span);
+        Ok(())
+    }
+
+    /// Writes what was typed.
+    pub(crate) fn save_history(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.file_of_ours(path)?;
+        let mut text = format!("{FIRST_WORDS} What was typed in it.\n");
+        for statement in self.input.typed() {
+            text.push_str(statement);
+            text.push('\n');
+        }
+        self.queue_file(file, text.into_bytes(), path.span);
+        Ok(())
+    }
+
+    /// The file of this name, unless a hand wrote it: that cannot be written anew by a machine.
+    fn file_of_ours(&mut self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let file = self.output_file(path)?;
         let there = self.host.resolve(&file).and_then(|at| self.host.read(&at));
-        // What a hand wrote cannot be written anew by a machine.
         if there.is_ok_and(|text| !text.trim().is_empty() && !text.starts_with(FIRST_WORDS)) {
             let name = &path.value;
             return Err(Diagnostic::error(format!(
@@ -33,9 +53,7 @@ impl Execution<'_> {
             .at(path.span, "it would be lost")
             .help("choose another name, or remove the file first"));
         }
-        let text = self.state.to_script();
-        self.queue_file(file, text.into_bytes(), path.span);
-        Ok(())
+        Ok(file)
     }
 }
 

@@ -17,6 +17,8 @@ pub struct Setting {
     pub what: &'static str,
     /// Its value as it would be typed.
     pub text: fn(&State) -> String,
+    /// The words that it may be set to, if it is set to words.
+    pub words: fn() -> Vec<&'static str>,
     /// Sets it.
     pub set: fn(&mut Execution<'_>, &Expr) -> Result<(), Diagnostic>,
 }
@@ -40,6 +42,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "dt",
         what: "time of one frame",
         text: |state| format_number(state.world.clock().dt),
+        words: Vec::new,
         set: |command, value| {
             let dt = command.positive(value)?;
             command.edit(Edit::Clock(Box::new(command.state.world.clock().with_dt(dt))));
@@ -50,6 +53,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "method",
         what: "how frames are solved",
         text: |state| state.preferences.solve.method.word().to_owned(),
+        words: || Method::ALL.map(Method::word).to_vec(),
         set: |command, value| {
             let method = word_of(value, &Method::ALL, Method::word, "a method")?;
             command.prefer(|preferences| preferences.solve.method = method);
@@ -60,6 +64,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "rho",
         what: "relaxation coefficient",
         text: |state| format_number(state.preferences.solve.rho),
+        words: Vec::new,
         set: |command, value| {
             let rho = coefficient(command.positive(value)?, value.span)?;
             command.prefer(|preferences| preferences.solve.rho = rho);
@@ -70,6 +75,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "iterations",
         what: "most iterations between two frames",
         text: |state| state.preferences.solve.iterations.to_string(),
+        words: Vec::new,
         set: |command, value| {
             let n = command.resolve().count(value, 1.0, 1e9, "iterations")?;
             command.prefer(|preferences| preferences.solve.iterations = n as u32);
@@ -80,6 +86,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "tolerance",
         what: "largest residual allowed, relative to the scene's size",
         text: |state| format_number(state.preferences.solve.tolerance),
+        words: Vec::new,
         set: |command, value| {
             let tolerance = command.positive(value)?;
             command.prefer(|preferences| preferences.solve.tolerance = tolerance);
@@ -90,6 +97,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "dead-points",
         what: "where a motor cannot go on: `stop`, `hold` or `reverse`",
         text: |state| state.preferences.dead_points.word().to_owned(),
+        words: || AtDeadPoint::ALL.map(AtDeadPoint::word).to_vec(),
         set: |command, value| {
             let what = "what happens at a dead point";
             let at = word_of(value, &AtDeadPoint::ALL, AtDeadPoint::word, what)?;
@@ -101,6 +109,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "cog",
         what: "`holonomic`, or the paper's `velocity` form",
         text: |state| state.preferences.solve.cog.word().to_owned(),
+        words: || CogForm::ALL.map(CogForm::word).to_vec(),
         set: |command, value| {
             let form = word_of(value, &CogForm::ALL, CogForm::word, "a form of cogs")?;
             command.prefer(|preferences| preferences.solve.cog = form);
@@ -111,6 +120,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "receipt",
         what: "what is said after a run: `short` or `long`",
         text: |state| state.preferences.receipt.word().to_owned(),
+        words: || Receipt::ALL.map(Receipt::word).to_vec(),
         set: |command, value| {
             let receipt = word_of(value, &Receipt::ALL, Receipt::word, "a length of receipts")?;
             command.prefer(|preferences| preferences.receipt = receipt);

@@ -8,6 +8,7 @@ use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry};
 use crate::lang::nearest_command;
+use crate::render::{Scene, Sketch};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::Meaning;
@@ -241,6 +242,22 @@ impl Execution<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Draws the mechanism in characters.
+    pub(crate) fn sketch(&mut self) {
+        if self.state.world.points().ids().next().is_none() {
+            return self.note("nothing here yet");
+        }
+        let (n_columns, n_rows) = self.host.page();
+        let sketch = Sketch::of(&Scene::new(&self.state.world), n_columns, n_rows);
+        self.host.draw(&sketch);
+    }
+
+    pub(crate) fn tell_history(&mut self) {
+        let typed = self.input.typed();
+        let lines: Vec<String> = typed.flat_map(str::lines).map(str::to_owned).collect();
+        self.host.print_all(&lines);
     }
 
     pub(crate) fn examples(&mut self, name: Option<&Ident>) -> Result<(), Diagnostic> {

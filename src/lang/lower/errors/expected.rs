@@ -154,7 +154,7 @@ fn token(rule: Rule) -> Option<&'static str> {
 }
 
 /// The word of a keyword's rule, or the one that a clause begins with.
-fn keyword(rule: Rule) -> Option<&'static str> {
+pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::every | Rule::kw_every => "every",
         Rule::within | Rule::kw_within => "within",
