@@ -28,4 +28,5 @@ mod solve;
 mod study;
 mod support;
 mod touches;
+mod well_formed;
 mod work;
