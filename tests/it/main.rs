@@ -8,6 +8,7 @@ mod architecture;
 mod circles;
 mod examples;
 mod expressions;
+mod files;
 mod front_door;
 mod golden;
 mod guide;
