@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::diag::visible;
+
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
 /// With files, runs them as `run` does. Without any a session begins: a prompt on a terminal, or
@@ -151,9 +153,15 @@ pub struct HostArguments {
     /// Work with so many cores, not with all; the results are the same to the bit.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Let scripts write anywhere, not only below the output folder.
+    /// Let scripts read and write anywhere, not only below their own folder and the output folder.
     #[arg(long)]
     pub allow_any_path: bool,
+    /// Let scripts read files in this folder and below it too; may be given several times.
+    #[arg(short = 'I', value_name = "DIR")]
+    pub libraries: Vec<PathBuf>,
+    /// Replace files even if linkwork did not write them.
+    #[arg(long)]
+    pub force: bool,
     /// Keep no journal of the session.
     #[arg(long)]
     pub no_journal: bool,
@@ -174,14 +182,26 @@ impl HostArguments {
     /// What was said before the command and behind it: what is behind wins, lists are joined.
     pub fn followed_by(self, behind: Self) -> Self {
         // Taken apart, so that none is forgotten.
-        let Self { out, set, quiet, threads, allow_any_path, no_journal, no_init, no_pager } =
-            behind;
+        let Self {
+            out,
+            set,
+            quiet,
+            threads,
+            allow_any_path,
+            libraries,
+            force,
+            no_journal,
+            no_init,
+            no_pager,
+        } = behind;
         Self {
             out: out.or(self.out),
             set: self.set.into_iter().chain(set).collect(),
             quiet: quiet || self.quiet,
             threads: threads.or(self.threads),
             allow_any_path: allow_any_path || self.allow_any_path,
+            libraries: self.libraries.into_iter().chain(libraries).collect(),
+            force: force || self.force,
             no_journal: no_journal || self.no_journal,
             no_init: no_init || self.no_init,
             no_pager: no_pager || self.no_pager,
@@ -205,7 +225,11 @@ impl Invocation {
 
 /// The arguments of this process; on a mistake, or for `--help`, the process ends here.
 pub fn parse() -> Arguments {
-    let mut arguments = Arguments::parse();
+    let mut arguments = Arguments::try_parse().unwrap_or_else(|problem| {
+        // What is wrong is told with what was typed, as a terminal may show it.
+        let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
+        Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
+    });
     if let Some(command) = &mut arguments.command {
         if !arguments.scripts.is_empty() || arguments.scripts.interactive {
             let problem = "files, `-e` and `-i` stand behind the command, or alone";

@@ -1,6 +1,6 @@
 //! `linkwork help` and `examples`: what comes with the program.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::args::{ExampleArguments, HelpArguments, help_on};
 use super::output;
@@ -37,14 +37,14 @@ pub fn help(wish: &HelpArguments) -> ExitStatus {
         }
         Err(_) => {}
     }
-    ProcessHost::new(&wish.host).print_all(&lines);
+    ProcessHost::new(&wish.host, Path::new(".")).print_all(&lines);
     ExitStatus::Fine
 }
 
 /// Lists the examples, prints one, or runs it.
 pub fn examples(wish: &ExampleArguments) -> ExitStatus {
     let Some(name) = &wish.name else {
-        ProcessHost::new(&wish.host).print_all(&Example::overview());
+        ProcessHost::new(&wish.host, Path::new(".")).print_all(&Example::overview());
         return ExitStatus::Fine;
     };
     let example = match Example::named(name) {
@@ -56,11 +56,12 @@ pub fn examples(wish: &ExampleArguments) -> ExitStatus {
     };
     if !wish.run && !wish.interactive {
         let lines: Vec<String> = example.text.lines().map(str::to_owned).collect();
-        ProcessHost::new(&wish.host).print_all(&lines);
+        ProcessHost::new(&wish.host, Path::new(".")).print_all(&lines);
         return ExitStatus::Fine;
     }
     let mut session = begin(&wish.host);
     let file = format!("{}.link", example.name);
     let source = session.add_source(&file, example.text, Some(PathBuf::from(EXAMPLES_FOLDER)));
-    play(&[source], &mut session, &wish.host, wish.interactive)
+    let mut process = ProcessHost::new(&wish.host, Path::new("."));
+    play(&[source], &mut session, &mut process, &wish.host, wish.interactive)
 }

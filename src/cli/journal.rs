@@ -137,7 +137,8 @@ fn is_left(path: &Path) -> bool {
     !is_told(path) && File::open(path).is_ok_and(|file| file.try_lock().is_ok())
 }
 
-fn folder() -> Option<PathBuf> {
+/// Where journals are.
+pub fn folder() -> Option<PathBuf> {
     Some(folders::state()?.join("journal"))
 }
 

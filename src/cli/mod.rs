@@ -32,5 +32,6 @@ pub fn run() -> ExitCode {
         None => run::batch(&args.scripts, &args.host),
     };
     output::flush();
-    status.into()
+    let is_lost = status == run::ExitStatus::Fine && output::has_failed();
+    if is_lost { run::ExitStatus::Unreadable.into() } else { status.into() }
 }

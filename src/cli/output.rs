@@ -5,39 +5,73 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::progress;
-use crate::diag::{Diagnostic, Paint, Sources, render};
+use crate::diag::{Diagnostic, Paint, Sources, render, visible};
 use crate::render::{Cell, Ink, Sketch};
 
-/// Answers not yet written: to a file or a pipe they go in large pieces.
-fn out() -> MutexGuard<'static, BufWriter<Stdout>> {
-    static OUT: OnceLock<Mutex<BufWriter<Stdout>>> = OnceLock::new();
-    let out = OUT.get_or_init(|| Mutex::new(BufWriter::with_capacity(1 << 16, io::stdout())));
-    out.lock().unwrap_or_else(PoisonError::into_inner)
+/// Answers not yet written: to a file or a pipe they go in large pieces. Nothing once they cannot be
+/// written any more.
+struct Answers {
+    out: BufWriter<Stdout>,
+    is_terminal: bool,
+    state: State,
 }
 
-/// Writes one line of the answer. A reader that has gone away ends the process quietly.
+/// Whether answers still reach anybody.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Open,
+    /// The reader has gone away, as `head` does: what it does not want is no failure.
+    Closed,
+    /// They could not be written, which the user was told.
+    Failed,
+}
+
+fn answers() -> MutexGuard<'static, Answers> {
+    static ANSWERS: OnceLock<Mutex<Answers>> = OnceLock::new();
+    let answers = ANSWERS.get_or_init(|| {
+        Mutex::new(Answers {
+            out: BufWriter::with_capacity(1 << 16, io::stdout()),
+            is_terminal: io::stdout().is_terminal(),
+            state: State::Open,
+        })
+    });
+    answers.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Answers {
+    fn write(&mut self, write: impl FnOnce(&mut BufWriter<Stdout>) -> io::Result<()>) {
+        if self.state != State::Open {
+            return;
+        }
+        match write(&mut self.out) {
+            Ok(()) => {}
+            Err(e) if e.kind() == io::ErrorKind::BrokenPipe => self.state = State::Closed,
+            Err(e) => {
+                self.state = State::Failed;
+                complain(&format!("error: cannot write the answer: {e}\n"));
+            }
+        }
+    }
+}
+
+/// Writes one line of the answer. A reader that has gone away is no reason to stop: what else is
+/// done still counts.
 pub fn answer(line: &str) {
     progress::clear();
-    let mut out = out();
-    if let Err(e) = out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")) {
-        end_on(&e);
-    }
+    let mut answers = answers();
+    let line = if answers.is_terminal { visible(line) } else { line.into() };
+    answers.write(|out| out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")));
 }
 
 /// Writes what is still held back: before anything else is said, before waiting for input,
 /// and at the end.
 pub fn flush() {
-    if let Err(e) = out().flush() {
-        end_on(&e);
-    }
+    answers().write(Write::flush);
 }
 
-fn end_on(error: &io::Error) -> ! {
-    if error.kind() == io::ErrorKind::BrokenPipe {
-        std::process::exit(0);
-    }
-    complain(&format!("error: cannot write the answer: {error}\n"));
-    std::process::exit(3);
+/// Whether an answer could not be written though somebody wanted it.
+pub fn has_failed() -> bool {
+    answers().state == State::Failed
 }
 
 /// Shows a problem, underlined in its text.
@@ -75,7 +109,9 @@ pub fn page_size() -> (usize, usize) {
 /// Draws a picture, on a terminal in colours.
 pub fn draw(sketch: &Sketch) {
     if io::stdout().is_terminal() && wants_colours() {
-        sketch.rows().for_each(|row| answer(&coloured(row)));
+        // The colours are ours, what is written in the picture is not.
+        let lines: String = sketch.rows().map(|row| coloured(row) + "\n").collect();
+        answers().write(|out| out.write_all(lines.as_bytes()));
     } else {
         sketch.lines().iter().for_each(|line| answer(line));
     }
@@ -94,7 +130,7 @@ fn coloured(row: &[Cell]) -> String {
             (None, Some(ink), _) | (None, None, Some(ink)) => {
                 text.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(ink), cell.char()));
             }
-            _ => text.push(cell.char()),
+            _ => text.push_str(&visible(cell.char().encode_utf8(&mut [0; 4]))),
         }
     }
     text
@@ -130,7 +166,7 @@ fn show_pages(lines: &[String]) -> io::Result<()> {
     let mut child = command.spawn()?;
     if let Some(mut pages) = child.stdin.take() {
         // Who has read enough closes the pager, which is no failure.
-        drop(lines.iter().try_for_each(|line| writeln!(pages, "{line}")));
+        drop(lines.iter().try_for_each(|line| writeln!(pages, "{}", visible(line))));
     }
     child.wait().map(drop)
 }

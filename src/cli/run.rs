@@ -1,7 +1,7 @@
 //! Running scripts in batch, and the session.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, IsTerminal, Read};
+use std::io::{self, BufRead, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -60,7 +60,8 @@ pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
     };
     for (k, file) in others.iter().enumerate() {
         let mut session = begin(host);
-        let status = script(file, &mut session, &mut ProcessHost::new(host));
+        let mut process = ProcessHost::new(host, files::folder_of(file));
+        let status = script(file, &mut session, &mut process);
         if status != ExitStatus::Fine {
             return status;
         }
@@ -83,7 +84,7 @@ pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
     }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        ProcessHost::new(host).tell(&warning, &Sources::new());
+        ProcessHost::new(host, Path::new(".")).tell(&warning, &Sources::new());
     }
     ExitStatus::Fine
 }
@@ -105,21 +106,23 @@ fn texts(
     for text in &scripts.eval {
         sources.push(session.add_source("<argument>", text, Some(PathBuf::new())));
     }
-    play(&sources, session, host, scripts.interactive)
+    let folder = file.map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    play(&sources, session, &mut process, host, scripts.interactive)
 }
 
 /// Carries out texts in one world, up to the first mistake; then goes on at the prompt, or ends.
 pub fn play(
     sources: &[SourceId],
     session: &mut Session,
+    process: &mut ProcessHost,
     host: &HostArguments,
     is_interactive: bool,
 ) -> ExitStatus {
-    let mut process = ProcessHost::new(host);
     let mut status = ExitStatus::Fine;
     let mut has_left = false;
     for &source in sources {
-        let outcome = session.run_text(source, &mut process);
+        let outcome = session.run_text(source, process);
         status = status_of(&outcome);
         has_left = outcome.flow == Flow::Quit;
         if status != ExitStatus::Fine || has_left {
@@ -127,9 +130,9 @@ pub fn play(
         }
     }
     if is_interactive && !has_left {
-        return converse(session, &mut process, host);
+        return converse(session, process, host);
     }
-    match (status, end(session, &mut process)) {
+    match (status, end(session, process)) {
         (ExitStatus::Fine, status) | (status, _) => status,
     }
 }
@@ -218,9 +221,7 @@ fn lone_word(file: &Path, problem: Diagnostic) -> Diagnostic {
 }
 
 fn read_stdin() -> io::Result<String> {
-    let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes)?;
-    files::text(bytes)
+    files::read_text(io::stdin().lock())
 }
 
 /// An empty session.
@@ -237,7 +238,7 @@ pub(super) fn begin(host: &HostArguments) -> Session {
 
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
 pub fn session(host: &HostArguments) -> ExitStatus {
-    converse(&mut begin(host), &mut ProcessHost::new(host), host)
+    converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
 }
 
 fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {

@@ -39,6 +39,7 @@ pub mod chart;
 // Figures that stand still, as a document.
 mod document;
 mod still;
+mod text;
 
 // Figures in characters.
 mod sketch;
@@ -50,7 +51,7 @@ mod keyframes;
 mod trace_animation;
 
 pub use animation::Animation;
-pub use document::Options;
+pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};

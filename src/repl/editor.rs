@@ -1,6 +1,7 @@
 //! The line editor: what it asks while a line is typed, and the keys that are ours.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::path::PathBuf;
 
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
@@ -10,7 +11,7 @@ use rustyline::history::FileHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{
     Cmd, ColorMode, CompletionType, ConditionalEventHandler, Config, Context, EditMode, Editor,
-    Event, EventContext, EventHandler, Helper, KeyCode, KeyEvent, Modifiers, Movement, RepeatCount,
+    Event, EventContext, EventHandler, Helper, KeyCode, KeyEvent, Modifiers, RepeatCount,
 };
 
 use super::look::{coloured, faint};
@@ -34,6 +35,8 @@ pub struct Prompt {
     history: HistoryHinter,
     completion: Completion,
     is_coloured: bool,
+    /// Whether nothing was typed when the line was shown last.
+    is_blank: Cell<bool>,
 }
 
 impl Validator for Prompt {
@@ -109,6 +112,7 @@ impl Hinter for Prompt {
 
 impl Highlighter for Prompt {
     fn highlight<'l>(&self, line: &'l str, pos: usize) -> Cow<'l, str> {
+        self.is_blank.set(line.trim().is_empty());
         if self.is_coloured {
             Cow::Owned(coloured(line, &self.completion.pieces(line, pos)))
         } else if line.contains('\n') {
@@ -143,19 +147,6 @@ impl ConditionalEventHandler for GoOn {
     }
 }
 
-/// `}` at the beginning of a line: set in as far as the line that it closes.
-struct Close;
-
-impl ConditionalEventHandler for Close {
-    fn handle(&self, _: &Event, _: RepeatCount, _: bool, ctx: &EventContext) -> Option<Cmd> {
-        let before = &ctx.line()[..ctx.pos()];
-        let (_, line) = before.rsplit_once('\n')?;
-        let is_set_in = line.trim().is_empty() && line.len() >= CONTINUATION.len() + INDENT;
-        let back = Movement::BackwardChar(INDENT as RepeatCount);
-        is_set_in.then(|| Cmd::Replace(back, Some("}".to_owned())))
-    }
-}
-
 /// An editor on the terminal of the process.
 ///
 /// # Errors
@@ -176,17 +167,23 @@ pub fn open() -> rustyline::Result<LineEditor> {
         history: HistoryHinter::new(),
         completion: Completion::default(),
         is_coloured: output::wants_colours(),
+        is_blank: Cell::new(true),
     }));
     let enter = KeyEvent(KeyCode::Enter, Modifiers::NONE);
     editor.bind_sequence(enter, EventHandler::Conditional(Box::new(GoOn)));
-    editor.bind_sequence(KeyEvent::from('}'), EventHandler::Conditional(Box::new(Close)));
     Ok(editor)
+}
+
+/// Whether nothing was typed in the line that was left.
+pub fn was_blank(editor: &LineEditor) -> bool {
+    editor.helper().is_none_or(|prompt| prompt.is_blank.get())
 }
 
 /// Tells the editor what there is in the session before a line is typed.
 pub fn prepare(editor: &mut LineEditor, session: &Session) {
     if let Some(prompt) = editor.helper_mut() {
         prompt.completion.refresh(session);
+        prompt.is_blank.set(true);
     }
 }
 

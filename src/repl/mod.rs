@@ -30,13 +30,10 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
     let mut transcript = Transcript::new("<prompt>");
-    // Ctrl-C on an empty line, one after the other.
-    let mut n_refusals = 0;
     loop {
         editor::prepare(&mut editor, session);
         match editor.readline(PROMPT) {
             Ok(line) => {
-                n_refusals = 0;
                 let line = look::without_marks(&line);
                 let line = without_prompts(&line);
                 history::keep(&mut editor, &line, history.as_deref());
@@ -47,10 +44,9 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
                     return;
                 }
             }
-            // Ctrl-C clears the line.
+            // Ctrl-C clears the line; where there is nothing to clear, its user wants more.
             Err(ReadlineError::Interrupted) => {
-                n_refusals += 1;
-                if n_refusals > 1 {
+                if editor::was_blank(&editor) {
                     println!("`quit` or Ctrl-D leaves");
                 }
             }

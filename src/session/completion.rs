@@ -21,7 +21,7 @@ const MOST_NAMES: usize = 10_000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Point,
-    Curve,
+    Guide,
     Driver,
     Constraint,
     Parameter,
@@ -180,7 +180,7 @@ impl Completion {
         let owner = self.names.get(&name[..dot]);
         match owner {
             Some(Kind::Point) => is_axis,
-            Some(Kind::Instance | Kind::Constraint | Kind::Curve | Kind::Driver) => false,
+            Some(Kind::Instance | Kind::Constraint | Kind::Guide | Kind::Driver) => false,
             _ => true,
         }
     }
@@ -242,8 +242,8 @@ impl Completion {
             }
             Next::Name(of) => found.extend(self.named(|kind| match of {
                 NameOf::Point => matches!(kind, Kind::Point),
-                NameOf::PointOrCurve => matches!(kind, Kind::Point | Kind::Curve),
-                NameOf::Constraint => matches!(kind, Kind::Constraint | Kind::Curve | Kind::Driver),
+                NameOf::PointOrCurve => matches!(kind, Kind::Point | Kind::Guide),
+                NameOf::Constraint => matches!(kind, Kind::Constraint | Kind::Guide | Kind::Driver),
                 NameOf::Driver => matches!(kind, Kind::Driver | Kind::Parameter),
                 NameOf::Parameter => matches!(kind, Kind::Parameter),
                 NameOf::Definition => false,
@@ -262,7 +262,7 @@ fn kind(world: &World, entity: Entity) -> Kind {
     match entity {
         Entity::Point(_) => Kind::Point,
         Entity::Parameter(_) => Kind::Parameter,
-        Entity::Constraint(id) if world.has_member(id, Member::Radius) => Kind::Curve,
+        Entity::Constraint(id) if world.has_member(id, Member::Radius) => Kind::Guide,
         Entity::Constraint(id)
             if world.has_member(id, Member::Angle) || world.has_member(id, Member::Value) =>
         {

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::host::{Host, reason};
+use super::file_kind::Parcel;
+use super::host::Host;
 use super::input::Input;
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
@@ -13,9 +14,6 @@ use crate::diag::{Diagnostic, Kind, Span};
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
-
-/// Files written by one command that are told one by one.
-const MOST_FILES_NAMED: usize = 5;
 
 /// How a statement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +48,7 @@ pub struct Execution<'a> {
     /// Files being included, the outermost first.
     pub included: Vec<PathBuf>,
     /// Files to be written when the command has succeeded.
-    pub outbox: Vec<(PathBuf, Vec<u8>, Span)>,
+    pub outbox: Vec<Parcel>,
     /// What has run so far.
     pub run: Option<Summary>,
     /// Where likely slips were found.
@@ -183,48 +181,5 @@ impl<'a> Execution<'a> {
     pub fn end_work(&mut self) {
         self.is_telling_progress = false;
         self.host.progress(1.0);
-    }
-
-    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
-    pub fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
-        self.outbox.retain(|(other, ..)| *other != file);
-        self.outbox.push((file, bytes, span));
-    }
-
-    /// Writes the files of a command that succeeded. One that cannot be written keeps no
-    /// other back.
-    pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
-        let mut result = Ok(());
-        let mut written = Vec::new();
-        for (path, bytes, span) in std::mem::take(&mut self.outbox) {
-            let at = self.host.resolve(&path);
-            match at.and_then(|at| self.host.write(&at, &bytes).map(|()| at)) {
-                Ok(at) => written.push(at),
-                Err(e) if result.is_ok() => {
-                    let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
-                    let why = reason(&e);
-                    result = Err(problem.kind(Kind::Unreadable).at(span, why));
-                }
-                Err(_) => {}
-            }
-        }
-        self.tell_written(&written);
-        result
-    }
-
-    /// Tells which files were written: each, or of many the last.
-    fn tell_written(&mut self, written: &[PathBuf]) {
-        match written {
-            [] => {}
-            [others @ .., last] if others.len() > MOST_FILES_NAMED => {
-                let n = written.len();
-                self.note(format!("wrote {n} files, the last is {}", last.display()));
-            }
-            _ => {
-                for file in written {
-                    self.note(format!("wrote {}", file.display()));
-                }
-            }
-        }
     }
 }

@@ -181,7 +181,8 @@ impl Summary {
         }
         // Writing to a string cannot fail.
         let _ = write!(text, ", exact to {}", format_number(self.tolerance));
-        if let Some(error) = self.position_error.filter(|error| *error > self.tolerance) {
+        // What is near to the tolerance goes without saying.
+        if let Some(error) = self.position_error.filter(|error| *error > 100.0 * self.tolerance) {
             let _ = write!(text, ", positions to about {}", format_rounded(error));
         }
         text

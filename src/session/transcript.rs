@@ -8,7 +8,7 @@ use super::Session;
 use super::execution::Flow;
 use super::host::Host;
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::lang::ast::{Building, Changing, Command, Drawing};
+use crate::lang::ast::Command;
 use crate::lang::parse;
 
 /// How a text went. The host was told what is wrong with it.
@@ -107,13 +107,13 @@ impl Transcript {
 
 /// Whether a statement changes what there is, and does not only say or write it.
 pub(super) fn leaves_a_mark(command: &Command) -> bool {
-    !matches!(
-        command,
-        Command::Looking(_)
-            | Command::Drawing(Drawing::Svg(_) | Drawing::Plot { .. })
-            | Command::Building(Building::Save(_) | Building::SaveHistory(_))
-            | Command::Changing(Changing::Settings(_))
-    )
+    match command {
+        Command::Looking(_) => false,
+        Command::Drawing(it) => it.leaves_a_mark(),
+        Command::Building(it) => it.leaves_a_mark(),
+        Command::Changing(it) => it.leaves_a_mark(),
+        Command::Making(_) | Command::Constrain(_) | Command::Running(_) => true,
+    }
 }
 
 fn line_end(text: &str, span: Span) -> usize {

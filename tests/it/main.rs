@@ -8,6 +8,7 @@ mod architecture;
 mod circles;
 mod examples;
 mod expressions;
+mod files;
 mod front_door;
 mod golden;
 mod guide;
@@ -30,4 +31,5 @@ mod support;
 #[cfg(unix)]
 mod terminal;
 mod touches;
+mod well_formed;
 mod work;

@@ -149,6 +149,11 @@ save "typed.link" history"#,
 ];
 
 impl Building {
+    /// Whether it changes what there is, and does not only say or write it.
+    pub const fn leaves_a_mark(&self) -> bool {
+        !matches!(self, Self::Save(_) | Self::SaveHistory(_))
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(
         rule: Rule,

@@ -166,6 +166,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Changing {
+    /// Whether it changes what there is, and does not only say or write it.
+    pub const fn leaves_a_mark(&self) -> bool {
+        !matches!(self, Self::Settings(_))
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {

@@ -11,7 +11,7 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::prefix::{first_word, is_word_char};
-use crate::lang::catalogue;
+use crate::lang::catalogue::{self, ConstraintWord, Slot};
 use crate::lang::expr::Unit;
 use crate::lang::grammar::{LinkworkParser, Rule};
 use crate::lang::layout::{Flaw, Layout};
@@ -202,7 +202,9 @@ fn guessed(text: &str, range: &Range<usize>, previous: Option<usize>) -> Class {
     }
     let said = previous.map(|end| &text[..end]).filter(|_| !begins);
     let verb = said.map_or("", |said| said.rsplit(|c| !is_word_char(c)).next().unwrap_or(""));
-    let names_next = matches!(verb, "point" | "let" | "for" | "define" | "circle" | "arc");
+    let defines = |word: ConstraintWord| word.pattern().slots.contains(&Slot::Defined);
+    let names_next = matches!(verb, "point" | "let" | "for" | "define")
+        || ConstraintWord::named(verb).is_some_and(defines);
     if names_next || (before.ends_with(',') && behind.starts_with('=')) {
         return Class::NewName;
     }

@@ -5,9 +5,10 @@ use pest::error::{ErrorVariant, InputLocation};
 
 use super::errors::expected::keyword;
 use super::highlight::clause_words;
+use super::is_bare;
 use super::prefix::first_word;
-use super::{constraint, is_bare};
-use crate::lang::catalogue;
+use crate::lang::catalogue::{self, ConstraintWord, Slot};
+use crate::lang::constraint::Role;
 use crate::lang::grammar::{LinkworkParser, Rule};
 
 /// What may stand at a place.
@@ -154,16 +155,27 @@ fn name_of(verb: &str, last: &str, is_first: bool) -> Option<NameOf> {
         "use" if is_first => NameOf::Definition,
         "point" | "for" | "define" | "restore" | "use" => return None,
         "let" => NameOf::Parameter,
-        "glider" if last == "on" => NameOf::PointOrCurve,
-        "tangent" => NameOf::PointOrCurve,
-        "circle" | "arc" if is_first => return None,
         "freeze" | "thaw" | "move" | "drag" | "pull" | "trace" | "untrace" => NameOf::Point,
         "off" | "on" => NameOf::Constraint,
         "limits" => NameOf::Driver,
         "change" if !is_first => NameOf::Point,
-        _ if constraint::rule(verb).is_some() => NameOf::Point,
-        _ => NameOf::Anything,
+        _ => return of_constraint(verb, last, is_first),
     })
+}
+
+/// What a constraint has names of: points, and where its pattern says so circles and arcs.
+fn of_constraint(verb: &str, last: &str, is_first: bool) -> Option<NameOf> {
+    let Some(word) = ConstraintWord::named(verb) else { return Some(NameOf::Anything) };
+    let slots = word.pattern().slots;
+    if is_first && slots.contains(&Slot::Defined) {
+        return None;
+    }
+    let may_be_curve = slots.iter().any(|slot| match slot {
+        Slot::Touching => true,
+        Slot::Point(role) => *role == Role::On && last == role.word(),
+        _ => false,
+    });
+    Some(if may_be_curve { NameOf::PointOrCurve } else { NameOf::Point })
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Series of values: `sample` and `plot`.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span};
@@ -8,6 +7,7 @@ use crate::lang::ast::{Expr, PlotPart, Text};
 use crate::render::Sketch;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
+use crate::session::file_kind::FileKind;
 use crate::session::undo::journal::Change;
 
 impl Execution<'_> {
@@ -26,7 +26,7 @@ impl Execution<'_> {
         parts: &[PlotPart],
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let file = path.map(|path| self.chart_file(path)).transpose()?;
+        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
         let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error("there is nothing to plot")
@@ -55,21 +55,12 @@ impl Execution<'_> {
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
         if let Some(file) = file {
-            self.outbox.push((file, chart.svg().into_bytes(), place));
+            self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
         } else {
             let (n_columns, n_rows) = self.host.page();
             self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
         }
         Ok(())
-    }
-
-    fn chart_file(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
-        let file = self.output_path(path)?;
-        if path.value.to_ascii_lowercase().ends_with(".svg") {
-            return Ok(file);
-        }
-        Err(Diagnostic::error("`plot` writes an SVG picture")
-            .at(path.span, "expected a name that ends in `.svg`"))
     }
 }
 

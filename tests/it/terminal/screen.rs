@@ -93,8 +93,15 @@ impl Terminal {
     /// Types a line and waits for the next prompt.
     pub fn enter(&self, line: &str) {
         self.press(line);
-        self.wait_for(line);
+        self.wait_for_line(&format!("> {line}"));
         self.press("\r");
+        self.wait_for_prompt();
+    }
+
+    /// Leaves the line that is being typed, and waits for the next.
+    #[track_caller]
+    pub fn clear(&self) {
+        self.press("\x03");
         self.wait_for_prompt();
     }
 

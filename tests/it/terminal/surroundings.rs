@@ -54,11 +54,11 @@ fn a_narrow_terminal_shows_all_of_it() {
     terminal.wait_for("> ");
     terminal.press("point A = (0, 0) frozen, B = (1, 0), CCC = (1 2)\r");
     terminal.wait_for("expected");
+    terminal.wait_for_prompt();
     terminal.press("motor A ");
     terminal.wait_for("> motor A ");
-    terminal.press("\x03");
-    terminal.wait_for("\n> ");
-    terminal.press("1 + 2\r");
+    terminal.clear();
+    terminal.enter("1 + 2");
     terminal.wait_for("\n3\n");
 }
 

@@ -107,7 +107,7 @@ impl Reader<'_> {
             }
             "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
             _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
-            _ if expected.terms == [PATH] && !word.is_empty() => {
+            _ if expected.has(PATH) && !word.is_empty() => {
                 format!(
                     "a path stands in quotes: `{verb} \"{}\"`",
                     brief(&format!("{word}{behind}"))
