@@ -120,20 +120,21 @@ pub fn draw(sketch: &Sketch) {
 /// A row of a picture with its colours.
 fn coloured(row: &[Cell]) -> String {
     let n = row.iter().rposition(|cell| *cell != Cell::default()).map_or(0, |last| last + 1);
-    let mut text = String::new();
-    for cell in &row[..n] {
-        match (cell.letter, cell.upper, cell.lower) {
-            (None, Some(upper), Some(lower)) if upper != lower => {
-                let (over, under) = (colour(upper), colour(lower) + 10);
-                text.push_str(&format!("\x1b[{over};{under}m\u{2580}\x1b[0m"));
-            }
-            (None, Some(ink), _) | (None, None, Some(ink)) => {
-                text.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(ink), cell.char()));
-            }
-            _ => text.push_str(&visible(cell.char().encode_utf8(&mut [0; 4]))),
+    row[..n].iter().map(painted).collect()
+}
+
+/// A character of a picture with its colours.
+fn painted(cell: &Cell) -> String {
+    match (cell.letter, cell.upper, cell.lower) {
+        (None, Some(upper), Some(lower)) if upper != lower => {
+            let (over, under) = (colour(upper), colour(lower) + 10);
+            format!("\x1b[{over};{under}m\u{2580}\x1b[0m")
         }
+        (None, Some(ink), _) | (None, None, Some(ink)) => {
+            format!("\x1b[{}m{}\x1b[0m", colour(ink), cell.char())
+        }
+        _ => visible(cell.char().encode_utf8(&mut [0; 4])).into_owned(),
     }
-    text
 }
 
 /// The colour of an ink, as terminals number those of letters.

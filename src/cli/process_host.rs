@@ -14,6 +14,7 @@ use crate::render::Sketch;
 use crate::session::{Example, Host, Kept, contained, reason};
 
 /// The process as a session sees it.
+#[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
 pub struct ProcessHost {
     /// Where files are written.
     out: PathBuf,
