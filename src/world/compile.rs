@@ -387,6 +387,7 @@ impl<'a> Compiler<'a> {
             Function::Clamp => {
                 let (x, lo, hi) = (number(0), number(1), number(2));
                 let x = self.push(Operation::OfTwo(Function::Min, x, hi));
+                let lo = self.push(Operation::LowerEnd(lo, hi));
                 self.push(Operation::OfTwo(Function::Max, x, lo))
             }
             _ if function.is_rate() => unreachable!("no rate drives a constraint"),
