@@ -184,6 +184,47 @@ impl Formula {
         }
     }
 
+    /// Calls `visit` for each pair of points between which it measures: a distance, a direction, a
+    /// difference, a middle.
+    pub fn segments(&self, visit: &mut impl FnMut([PointId; 2])) {
+        match self.node() {
+            Node::Number(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Point(_)
+            | Node::Member(..) => {}
+            Node::Negate(a) | Node::X(a) | Node::Y(a) => a.segments(visit),
+            Node::Vector(a, b) | Node::Binary(_, a, b) => {
+                let ends = a.as_point().zip(b.as_point());
+                if let (Node::Binary(Operator::Subtract, ..), Some((from, to))) =
+                    (self.node(), ends)
+                {
+                    visit([from, to]);
+                }
+                a.segments(visit);
+                b.segments(visit);
+            }
+            Node::Call(function, arguments) => {
+                let pairs = match function {
+                    Function::DistanceToLine => &arguments[1..],
+                    Function::Distance
+                    | Function::Angle
+                    | Function::AngleBetween
+                    | Function::Turn
+                    | Function::TurnBetween
+                    | Function::Midpoint => arguments,
+                    _ => &[],
+                };
+                for ends in pairs.as_chunks::<2>().0 {
+                    if let [Some(from), Some(to)] = ends.each_ref().map(Self::as_point) {
+                        visit([from, to]);
+                    }
+                }
+                arguments.iter().for_each(|a| a.segments(visit));
+            }
+        }
+    }
+
     /// The value in an environment.
     ///
     /// # Errors
