@@ -204,21 +204,11 @@ impl Formula {
                 a.segments(visit);
                 b.segments(visit);
             }
-            Node::Call(function, arguments) => {
-                let pairs = match function {
-                    Function::DistanceToLine => &arguments[1..],
-                    Function::Distance
-                    | Function::Angle
-                    | Function::AngleBetween
-                    | Function::Turn
-                    | Function::TurnBetween
-                    | Function::Midpoint => arguments,
-                    _ => &[],
-                };
-                for ends in pairs.as_chunks::<2>().0 {
-                    if let [Some(from), Some(to)] = ends.each_ref().map(Self::as_point) {
-                        visit([from, to]);
-                    }
+            Node::Call(_, arguments) => {
+                // A line stands behind the point whose distance from it is meant.
+                let (_, pairs) = arguments.as_rchunks::<2>();
+                if arguments.iter().all(|a| a.as_point().is_some()) {
+                    pairs.iter().for_each(|[from, to]| visit([from.point(), to.point()]));
                 }
                 arguments.iter().for_each(|a| a.segments(visit));
             }
