@@ -264,8 +264,8 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
         return crate::repl::converse(session, process);
     }
     if let Some(remains) = journal::remains() {
-        let news = Diagnostic::note_only("the last session did not end in order").help(format!(
-            "its {} lines bring it back: load \"{}\"",
+        let news = Diagnostic::note_only(format!(
+            "the last session did not end in order; its {} lines bring it back: load \"{}\"",
             remains.n_lines,
             remains.path.display()
         ));

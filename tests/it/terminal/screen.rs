@@ -13,7 +13,7 @@ use pty_process::blocking::{Command, Pty, open};
 
 /// How long something is waited for that is to be seen. Machines may be slow; what never comes is
 /// a failure.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// What came out so far.
 struct Output {
