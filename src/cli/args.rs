@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+use super::output::MessageFormat;
 
 use crate::diag::visible;
 
@@ -22,6 +24,9 @@ pub struct Arguments {
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
+    /// How errors, warnings and notes are written.
+    #[arg(long, global = true, value_name = "FORMAT", default_value = "full")]
+    pub message_format: MessageFormat,
 }
 
 /// What to do.
@@ -42,6 +47,17 @@ pub enum Invocation {
     Examples(ExampleArguments),
     /// Say how a command is written and what it does: one of the language, or of the shell.
     Help(HelpArguments),
+    /// Set scripts in canonical form; comments and line breaks are kept.
+    Fmt(FormatArguments),
+    /// Run a script again whenever it is saved, or a file that it includes.
+    Watch(WatchArguments),
+    /// Print what completes the command line in a shell.
+    Completions(CompletionArguments),
+    /// Print the manual page.
+    Man,
+    /// Serve an editor as a language server, on standard input and output: mistakes, help,
+    /// completion, form.
+    Lsp,
 }
 
 /// A script to be examined.
@@ -104,6 +120,28 @@ pub struct ExampleArguments {
     pub host: HostArguments,
 }
 
+/// Scripts to be set in canonical form.
+#[derive(Debug, Args)]
+pub struct FormatArguments {
+    /// Scripts, each written in its place; `-` is standard input, to standard output.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Write nothing; name the scripts that are in another form, with exit status 1 if there are.
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// A script to be watched.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// The script. It need not be there yet.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
 /// What to say more about.
 #[derive(Debug, Args)]
 pub struct HelpArguments {
@@ -113,6 +151,14 @@ pub struct HelpArguments {
     /// How it talks.
     #[command(flatten)]
     pub host: HostArguments,
+}
+
+/// A shell to be told how the program is called.
+#[derive(Debug, Args)]
+pub struct CompletionArguments {
+    /// The shell.
+    #[arg(value_name = "SHELL")]
+    pub shell: clap_complete::Shell,
 }
 
 /// Texts to run.
@@ -210,15 +256,17 @@ impl HostArguments {
 }
 
 impl Invocation {
-    /// The options behind the command.
-    pub fn host_mut(&mut self) -> &mut HostArguments {
+    /// The options behind the command, if it takes any.
+    fn host_mut(&mut self) -> Option<&mut HostArguments> {
         match self {
             Self::Run(RunArguments { host, .. })
             | Self::Accuracy(AccuracyArguments { host, .. })
             | Self::Check(ExamineArguments { host, .. })
             | Self::Effects(ExamineArguments { host, .. })
             | Self::Examples(ExampleArguments { host, .. })
-            | Self::Help(HelpArguments { host, .. }) => host,
+            | Self::Watch(WatchArguments { host, .. })
+            | Self::Help(HelpArguments { host, .. }) => Some(host),
+            Self::Fmt(_) | Self::Completions(_) | Self::Man | Self::Lsp => None,
         }
     }
 }
@@ -230,27 +278,28 @@ pub fn parse() -> Arguments {
         let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
         Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
     });
-    if let Some(command) = &mut arguments.command {
+    if let Some(invocation) = &mut arguments.command {
         if !arguments.scripts.is_empty() || arguments.scripts.interactive {
             let problem = "files, `-e` and `-i` stand behind the command, or alone";
             clap::Error::raw(clap::error::ErrorKind::ArgumentConflict, format!("{problem}\n"))
-                .with_cmd(&command_line())
+                .with_cmd(&command())
                 .exit();
         }
-        let behind = command.host_mut();
-        *behind = arguments.host.clone().followed_by(behind.clone());
+        if let Some(behind) = invocation.host_mut() {
+            *behind = arguments.host.clone().followed_by(behind.clone());
+        }
     }
     arguments
 }
 
 /// What the shell's own commands are called.
 pub fn command_names() -> Vec<String> {
-    command_line().get_subcommands().map(|command| command.get_name().to_owned()).collect()
+    command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
 }
 
 /// What `--help` says of one of the shell's commands, or of the whole program.
 pub fn help_on(name: Option<&str>) -> Option<String> {
-    let mut all = command_line();
+    let mut all = command();
     let command = match name {
         Some(name) => all.find_subcommand_mut(name)?,
         None => &mut all,
@@ -258,8 +307,9 @@ pub fn help_on(name: Option<&str>) -> Option<String> {
     Some(command.render_help().to_string())
 }
 
-fn command_line() -> clap::Command {
-    let mut command = <Arguments as clap::CommandFactory>::command();
+/// The command line as data.
+pub fn command() -> clap::Command {
+    let mut command = Arguments::command();
     // Usage lines begin with the name of the program.
     command.build();
     command

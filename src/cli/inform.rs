@@ -7,6 +7,7 @@ use super::output;
 use super::process_host::{EXAMPLES_FOLDER, ProcessHost};
 use super::run::{ExitStatus, begin, play};
 use crate::diag::Diagnostic;
+use crate::errors;
 use crate::session::{Example, Host, Session};
 
 /// Says what there is to know about a command of the shell, of the language, or both.
@@ -16,7 +17,8 @@ pub fn help(wish: &HelpArguments) -> ExitStatus {
     let mut session = Session::new();
     let of_the_language = match topic {
         Some(topic) if topic.contains(|c: char| !c.is_alphanumeric() && c != '-') => {
-            Err(Diagnostic::error("this is no word").help("`linkwork help` lists the commands"))
+            Err(Diagnostic::error(errors::NO_HELP, "this is no word")
+                .help("`linkwork help` lists the commands"))
         }
         topic => session.run(&format!("help {}", topic.unwrap_or_default())),
     };

@@ -4,14 +4,18 @@ mod args;
 mod examine;
 mod files;
 pub(crate) mod folders;
+mod format;
 mod inform;
 mod init;
 pub(crate) mod interrupt;
 mod journal;
+mod language_server;
+mod manual;
 pub(crate) mod output;
 mod process_host;
 mod progress;
 mod run;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -21,6 +25,7 @@ use args::Invocation;
 pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
+    output::set_format(args.message_format);
     let status = match args.command {
         Some(Invocation::Run(batch)) => run::batch(&batch.scripts, &batch.host),
         Some(Invocation::Accuracy(wish)) => examine::accuracy(&wish),
@@ -28,6 +33,13 @@ pub fn run() -> ExitCode {
         Some(Invocation::Effects(arguments)) => examine::effects(&arguments),
         Some(Invocation::Examples(wish)) => inform::examples(&wish),
         Some(Invocation::Help(wish)) => inform::help(&wish),
+        Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
+        Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
+        Some(Invocation::Completions(arguments)) => {
+            manual::completions(&arguments, args::command())
+        }
+        Some(Invocation::Man) => manual::manual(&args::command()),
+        Some(Invocation::Lsp) => language_server::serve(),
         None if args.scripts.is_empty() => run::session(&args.host),
         None => run::batch(&args.scripts, &args.host),
     };

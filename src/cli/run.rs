@@ -9,11 +9,12 @@ use super::args::{HostArguments, Scripts, command_names};
 use super::process_host::ProcessHost;
 use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
+use crate::errors;
 use crate::lang::is_incomplete;
 use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
 
 /// What the process says of how it went.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
     /// Everything was done.
     Fine = 0,
@@ -180,7 +181,8 @@ fn add(file: &Path, session: &mut Session) -> Result<SourceId, ExitStatus> {
         }
         Err(e) => {
             let why = reason(&e);
-            let mut problem = Diagnostic::error(format!("cannot read `{name}`: {why}"));
+            let message = format!("cannot read `{name}`: {why}");
+            let mut problem = Diagnostic::error(errors::CANNOT_READ, message);
             if e.kind() == io::ErrorKind::NotFound {
                 problem = lone_word(file, problem);
             }
@@ -296,7 +298,10 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
         match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
             Ok(_) => {}
             Err(e) => {
-                let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
+                let problem = Diagnostic::error(
+                    errors::CANNOT_READ,
+                    format!("cannot read standard input: {e}"),
+                );
                 output::show(&problem, session.sources());
                 return ExitStatus::Unreadable;
             }

@@ -9,6 +9,7 @@ pub mod catalogue;
 mod commands;
 mod constraint;
 mod expr;
+mod format;
 mod grammar;
 mod layout;
 mod lower;
@@ -16,6 +17,7 @@ mod parts;
 mod print;
 mod usage;
 
+pub use format::format;
 pub use layout::{depth, statement_start};
 pub use lower::{
     Class, NameOf, Next, Statements, Token, is_incomplete, nearest_command, next, parse, tokens,

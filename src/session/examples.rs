@@ -1,6 +1,7 @@
 //! The mechanisms that come with the program: those of the paper, and the gallery.
 
 use crate::diag::{Diagnostic, suggest};
+use crate::errors;
 
 /// A script that shows something.
 #[derive(Debug, Clone, Copy)]
@@ -90,7 +91,8 @@ impl Example {
     pub fn named(name: &str) -> Result<&'static Self, Diagnostic> {
         let name = name.strip_suffix(".link").unwrap_or(name);
         EXAMPLES.iter().find(|example| example.name == name).ok_or_else(|| {
-            let problem = Diagnostic::error(format!("there is no example `{name}`"));
+            let problem =
+                Diagnostic::error(errors::NO_HELP, format!("there is no example `{name}`"));
             suggest(problem, name, EXAMPLES.iter().map(|example| example.name))
                 .help("`examples` lists them")
         })

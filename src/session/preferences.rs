@@ -13,6 +13,8 @@ pub struct Preferences {
     pub expose_every: Option<u64>,
     /// How much is said of a run at its end.
     pub receipt: Receipt,
+    /// Whether each edit is followed by a solution.
+    pub is_live: bool,
 }
 
 /// How much is said of a run at its end.

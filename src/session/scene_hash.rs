@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::commands::setting_table::Setting;
+use super::commands::setting_table::SETTINGS;
 use super::resolve::unbind::Unbind;
 use super::state::State;
 use super::summary::Summary;
@@ -22,7 +22,7 @@ impl State {
     pub fn scene_hash(&self) -> u64 {
         let mut text = String::new();
         // Writing to a string cannot fail.
-        for setting in Setting::of_the_scene() {
+        for setting in SETTINGS.iter().filter(|setting| setting.is_of_scene) {
             let _ = writeln!(text, "set {} {}", setting.name, (setting.text)(self));
         }
         let points = self.world.points();

@@ -11,6 +11,7 @@ mod expr;
 mod highlight;
 mod next;
 mod prefix;
+mod signs;
 
 #[cfg(test)]
 mod tests;
@@ -29,8 +30,9 @@ pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
 pub use highlight::{Class, Token, tokens};
 pub use next::{NameOf, Next, next};
-pub(super) use prefix::is_bare;
 pub use prefix::nearest_command;
+pub(super) use prefix::{is_bare, is_word_char};
+pub(super) use signs::Signs;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///
@@ -106,8 +108,8 @@ enum State {
 /// A text and the name under which diagnostics know it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reader<'a> {
-    source: SourceId,
-    text: &'a str,
+    pub source: SourceId,
+    pub text: &'a str,
 }
 
 impl<'a> Reader<'a> {

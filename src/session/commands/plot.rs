@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{Expr, PlotPart, Text};
 use crate::render::Sketch;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
@@ -29,7 +30,7 @@ impl Execution<'_> {
         let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
         let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
-            return Err(Diagnostic::error("there is nothing to plot")
+            return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
                 .at(place, "no series has a value")
                 .help(r#"`sample "error" = distance(A, B)` appends one"#));
         }
