@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::diag::visible;
+use crate::session::Quota;
 
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
@@ -100,6 +101,9 @@ pub struct HostArguments {
     /// Let scripts read files in this folder and below it too; may be given several times.
     #[arg(short = 'I', value_name = "DIR")]
     pub libraries: Vec<PathBuf>,
+    /// Change a limit: `points=1e6`, or `points=none`; the names stand in docs/language.md.
+    #[arg(long = "limit", value_name = "NAME=NUMBER", value_parser = parse_limit)]
+    pub limits: Vec<(Quota, u64)>,
     /// Replace files even if linkwork did not write them.
     #[arg(long)]
     pub force: bool,
@@ -117,4 +121,9 @@ pub fn parse() -> Arguments {
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
 fn parse_setting(text: &str) -> Result<(String, f64), String> {
     crate::session::evaluate_binding(text).map_err(|problem| problem.message.to_string())
+}
+
+/// `name=number`, a limit of a session.
+fn parse_limit(text: &str) -> Result<(Quota, u64), String> {
+    crate::session::parse_limit(text).map_err(|problem| problem.message.to_string())
 }

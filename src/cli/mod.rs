@@ -8,6 +8,7 @@ pub(crate) mod output;
 mod process_host;
 mod progress;
 mod run;
+mod spool;
 
 use std::process::ExitCode;
 
