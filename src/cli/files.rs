@@ -105,9 +105,14 @@ fn is_nothing(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }
 
+/// Writes a file as [`write_in_pieces`] does.
+pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_in_pieces(path, &mut |out| out.write_all(bytes))
+}
+
 /// Writes a file beside its place, then renames it into place; makes the folders it needs. It is
 /// on the disk before it has its name.
-pub fn write(
+pub fn write_in_pieces(
     path: &Path,
     content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {

@@ -128,7 +128,7 @@ impl Host for ProcessHost {
         if self.tidy.insert(folder.to_path_buf()) {
             files::remove_leftovers(folder);
         }
-        files::write(path, content)
+        files::write_in_pieces(path, content)
     }
 
     fn spool(&mut self) -> io::Result<Box<dyn Spool>> {

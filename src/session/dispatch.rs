@@ -5,6 +5,7 @@ use super::quotas::Quota;
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
 };
@@ -159,10 +160,15 @@ impl Execution<'_> {
             n_done += 1;
         }
         if n_done == 0 {
-            return Err(Diagnostic::error(format!("nothing to {}", way.word)).at(span, ""));
+            return Err(Diagnostic::error(
+                errors::NOTHING_TO_UNDO,
+                format!("nothing to {}", way.word),
+            )
+            .at(span, ""));
         }
         if n_done < n {
-            self.note(format!("only {n_done} commands could be {}", way.done));
+            let commands = if n_done == 1 { "command" } else { "commands" };
+            self.note(format!("only {n_done} {commands} could be {}", way.done));
         }
         Ok(())
     }
@@ -172,7 +178,7 @@ impl Execution<'_> {
         if self.depth == 0 {
             return Ok(());
         }
-        Err(Diagnostic::error(format!("`{word}` cannot be part of another command"))
+        Err(Diagnostic::error(errors::ALONE, format!("`{word}` cannot be part of another command"))
             .at(span, "inside of a `for`, a definition or an included file"))
     }
 }

@@ -82,6 +82,9 @@ impl<'a> Execution<'a> {
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let result = self.dispatch(statement).and_then(|flow| {
+            if self.state.preferences.is_live && statement.command.is_edit() {
+                self.solve_after_edit()?;
+            }
             self.flush_outbox()?;
             Ok(flow)
         });

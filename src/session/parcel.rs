@@ -7,6 +7,7 @@ use super::file_kind::FileKind;
 use super::host::reason;
 use super::undo::recorder::Recorder;
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::errors;
 use crate::render::Options;
 
 /// A file to be written when the command has succeeded.
@@ -33,7 +34,7 @@ pub enum Content {
 
 /// What is wrong where a file cannot be written.
 pub fn unwritable(file: &Path, span: Span, error: &io::Error) -> Diagnostic {
-    Diagnostic::error(format!("cannot write `{}`", file.display()))
+    Diagnostic::error(errors::CANNOT_WRITE, format!("cannot write `{}`", file.display()))
         .kind(Kind::Unreadable)
         .at(span, reason(error))
 }

@@ -2,6 +2,7 @@
 //! a user may set stand in one table.
 
 use crate::diag::{Diagnostic, Span, format_count, format_number, suggest};
+use crate::errors;
 
 /// Something of which there is a most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -140,8 +141,9 @@ impl Quotas {
         }
         let Row { word, what, highest, .. } = ROWS[quota as usize];
         let most = format_count(self.of(quota) as f64);
-        let problem = Diagnostic::error(format!("the limit `{word}` is exceeded"))
-            .at(span, format!("no more than {most} {what}"));
+        let problem =
+            Diagnostic::error(errors::TOO_MUCH, format!("the limit `{word}` is exceeded"))
+                .at(span, format!("no more than {most} {what}"));
         Err(if self.of(quota) < highest {
             problem.help(format!("`--limit {word}=N` on the command line allows N"))
         } else {
@@ -155,23 +157,35 @@ impl Quotas {
 /// # Errors
 /// Where there is no such limit, or that is no number for it.
 pub fn parse_limit(text: &str) -> Result<(Quota, u64), Diagnostic> {
-    let (word, number) =
-        text.split_once('=').ok_or_else(|| Diagnostic::error("expected `NAME=NUMBER`"))?;
+    let (word, number) = text
+        .split_once('=')
+        .ok_or_else(|| Diagnostic::error(errors::TOO_MUCH, "expected `NAME=NUMBER`"))?;
     let words = ROWS.iter().map(|row| row.word);
     let Some(row) = ROWS.iter().find(|row| row.word == word) else {
         let all: Vec<&str> = words.clone().collect();
-        let problem = Diagnostic::error(format!("no limit `{word}`, but {}", all.join(", ")));
+        let problem = Diagnostic::error(
+            errors::TOO_MUCH,
+            format!("no limit `{word}`, but {}", all.join(", ")),
+        );
         return Err(suggest(problem, word, words));
     };
     let most = match number.parse::<f64>() {
         _ if number == "none" => row.highest,
         // Beyond 2^64 it is no limit at all.
         Ok(n) if n >= 0.0 && n.fract() == 0.0 => n as u64,
-        _ => return Err(Diagnostic::error(format!("`{number}` is no whole number"))),
+        _ => {
+            return Err(Diagnostic::error(
+                errors::TOO_MUCH,
+                format!("`{number}` is no whole number"),
+            ));
+        }
     };
     if most > row.highest {
         let highest = format_number(row.highest as f64);
-        return Err(Diagnostic::error(format!("`{word}` cannot be more than {highest}")));
+        return Err(Diagnostic::error(
+            errors::TOO_MUCH,
+            format!("`{word}` cannot be more than {highest}"),
+        ));
     }
     Ok((row.quota, most))
 }

@@ -1,6 +1,7 @@
 //! Traces, ghosts, pictures and recordings.
 
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
 use crate::render::{Scene, svg};
 use crate::session::execution::Execution;
@@ -57,8 +58,11 @@ impl Execution<'_> {
             let point = point.map_err(|problem| self.resolve().or_word(problem, name, ALL))?;
             let Some(k) = self.state.world.traces().iter().position(|t| t.point == point) else {
                 let text = self.state.world.points().name(point);
-                return Err(Diagnostic::error(format!("`{text}` is not traced"))
-                    .at(name.span, "no trace to end"));
+                return Err(Diagnostic::error(
+                    errors::NOT_TRACED,
+                    format!("`{text}` is not traced"),
+                )
+                .at(name.span, "no trace to end"));
             };
             self.edit(Edit::Trace(k, None));
         }
@@ -133,9 +137,12 @@ impl Execution<'_> {
             Format::Table
         } else {
             self.output_path(path)?;
-            return Err(Diagnostic::error("what is this recording to become?")
-                .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
-                .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
+            return Err(Diagnostic::error(
+                errors::NOT_A_FILE_NAME,
+                "what is this recording to become?",
+            )
+            .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
+            .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
         };
         let file = match format {
             Format::Frames => {
@@ -146,9 +153,12 @@ impl Execution<'_> {
             Format::Movie | Format::Table => self.output_file(path, format.kind())?,
         };
         if self.state.recorders.iter().any(|r| r.path == file) {
-            return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
-                .at(path.span, "")
-                .help("`record stop` ends and writes all recordings"));
+            return Err(Diagnostic::error(
+                errors::RECORDING,
+                format!("`{}` is being recorded already", path.value),
+            )
+            .at(path.span, "")
+            .help("`record stop` ends and writes all recordings"));
         }
         let spool = self.host.spool().map_err(|e| unwritable(&file, path.span, &e))?;
         let tape = Tape::new(spool);
@@ -159,7 +169,9 @@ impl Execution<'_> {
 
     pub(crate) fn record_stop(&mut self, span: Span) -> Result<(), Diagnostic> {
         if self.state.recorders.is_empty() {
-            return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
+            return Err(
+                Diagnostic::error(errors::RECORDING, "nothing is being recorded").at(span, "")
+            );
         }
         self.stop_recording();
         Ok(())
