@@ -50,7 +50,7 @@ mod animation_tracks;
 mod keyframes;
 mod trace_animation;
 
-pub use animation::Animation;
+pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};

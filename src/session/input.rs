@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
+use super::quotas::Quotas;
 use crate::diag::{SourceId, Sources, Span};
 
 /// What a session was given to read. Nothing of it is ever taken back: places in diagnostics and
@@ -20,6 +21,12 @@ pub struct Input {
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
+    /// How much is allowed.
+    pub quotas: Quotas,
+    /// Files that were written so far.
+    pub n_files: u64,
+    /// What was written to them, bytes.
+    pub n_file_bytes: u64,
 }
 
 /// A value from outside and whether some `let` took it.

@@ -1,6 +1,6 @@
 //! The settings: what each is, how it is shown, and how it is set.
 
-use crate::diag::{Diagnostic, Span, format_number, suggest};
+use crate::diag::{Diagnostic, Span, format_fraction, format_number, suggest};
 use crate::errors;
 use crate::lang::ast::Expr;
 use crate::session::execution::Execution;
@@ -45,7 +45,7 @@ pub static SETTINGS: [Setting; 9] = [
         name: "dt",
         what: "time of one frame",
         is_of_scene: true,
-        text: |state| format_number(state.world.clock().dt),
+        text: |state| format_fraction(state.world.clock().dt),
         words: Vec::new,
         set: |command, value| {
             let dt = command.positive(value)?;

@@ -202,6 +202,9 @@ impl History {
     pub fn roll_back(&mut self, state: &mut State) {
         self.last_motion.give_up();
         for change in self.journal.take_current().into_iter().rev() {
+            if let Change::Reels(reels) = &change {
+                state.recorders.iter().zip(reels).for_each(|(recorder, reel)| recorder.cut(reel));
+            }
             state.apply(change);
         }
     }
