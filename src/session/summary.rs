@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::culprits::Culprits;
 use super::preferences::Receipt;
 use crate::diag::{Span, format_number, format_rounded, format_seconds};
-use crate::solve::{Method, Report, Settings, Status, Verdict};
+use crate::solve::{Method, Report, Settings, Status, Stretch, Verdict};
 use crate::world::PointId;
 
 /// Receipt of a command that let time pass.
@@ -131,6 +131,18 @@ impl Summary {
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));
         }
+    }
+
+    /// Frames more that passed at once.
+    pub(super) fn add_stretch(&mut self, stretch: &Stretch, span: Span) {
+        self.n_frames += stretch.n_frames;
+        self.ended_at = Some(span);
+        if let Some((_, n)) = self.ways.last_mut() {
+            *n += stretch.n_frames;
+        }
+        self.n_iterations += stretch.iterations;
+        self.worst_residual = self.worst_residual.max(stretch.residual);
+        self.error_on_the_way = self.error_on_the_way.max(stretch.position_error);
     }
 
     /// The last frame missed after all, by what was found of its pose.

@@ -1,5 +1,6 @@
 //! What a call of the solver does with one island.
 
+use super::closed_form::Found;
 use super::frame::{predict, settle};
 use super::island::{Island, rounding};
 use super::method::{self, Limits, Outcome};
@@ -66,6 +67,13 @@ pub(super) fn visit(
         return visit;
     }
     island.prepare();
+    if task == Task::Frame
+        && settings.method == Method::Auto
+        && let Some(found) = island.closed_frame(budget.tolerance_of(settings))
+    {
+        return end_closed(island, &found, budget, work);
+    }
+    island.leave_closed_form();
     let limits = island.limits(settings, budget);
     let is_first = island.is_new;
     let before = *work;
@@ -103,6 +111,21 @@ pub(super) fn visit(
     visit
 }
 
+/// Ends a visit in which the pose was found by the list of steps.
+fn end_closed(island: &mut Island, found: &Found, budget: &Budget, work: &mut Counters) -> Visit {
+    let size = island.size_before();
+    island.note_closed_form(found, size, budget.known_error);
+    let n = island.n_closed();
+    work.evaluations += u64::from(n);
+    island.n_evaluations = n;
+    island.residual = found.worst / size;
+    island.settle_inputs();
+    island.is_awake = true;
+    let (worst, energy) = (found.worst, 0.5 * found.worst * found.worst);
+    let outcome = Outcome { status: Status::Converged, worst, energy, n_iterations: 1 };
+    Visit { outcome: Some(outcome), size, lowered: None }
+}
+
 /// Works out what drove an island at the beginning of a frame that it was made in.
 pub(super) fn turn_back(island: &mut Island, dt: f64) {
     island.settle_inputs();
@@ -137,7 +160,7 @@ pub(super) fn confirm(
     work: &mut Counters,
 ) {
     for n in 0..=MOST_CONFIRMATIONS {
-        let tolerance = limits.budget.tolerance.unwrap_or(settings.tolerance);
+        let tolerance = limits.budget.tolerance_of(settings);
         // The size is never below what the constraints ask for; and what is far below the
         // tolerance is so whatever the size.
         let enough = (tolerance * island.wanted()).max(1e-4 * limits.tolerance);

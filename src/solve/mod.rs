@@ -19,6 +19,7 @@ mod parallel;
 mod velocity;
 
 // What is solved, how it is followed from frame to frame, and by which method.
+mod closed_form;
 mod frame;
 mod island;
 mod method;
@@ -35,6 +36,6 @@ pub use report::Status;
 pub use report::{Budget, Counters, Report};
 pub use settings::{CogForm, Method, Settings};
 #[doc(hidden)]
-pub use solver::Solver;
+pub use solver::{Solver, Stretch};
 #[doc(hidden)]
 pub use verdict::{Judged, Verdict, least_tolerance, present, verdict};

@@ -1,5 +1,6 @@
 //! How solving ended, and what it took.
 
+use super::settings::Settings;
 use crate::world::PointId;
 
 /// How solving ended. The order is from good to bad.
@@ -129,6 +130,11 @@ pub struct Budget<'a> {
 }
 
 impl Budget<'_> {
+    /// The tolerance that is enough.
+    pub(super) fn tolerance_of(&self, settings: &Settings) -> f64 {
+        self.tolerance.unwrap_or(settings.tolerance)
+    }
+
     /// Whether the caller wants an end.
     pub(super) fn is_spent(&self) -> bool {
         self.stop.is_some_and(|stop| stop())

@@ -38,6 +38,7 @@ mod apply;
 mod batch;
 mod edit;
 mod motion;
+mod motors_alone;
 mod quadrature;
 mod same;
 mod turn_count;

@@ -29,9 +29,13 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "constraint/kinds/touch.rs",
             "session/commands/constrain.rs",
             "session/commands/touch.rs",
+            // A point on a line that stands still has a closed form.
+            "solve/closed_form/compile.rs",
             "solve/frame/dyad.rs",
         ],
     ),
+    // Where its point is needs no solving.
+    (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
     (Kind::Hinge, &["session/commands/touch.rs"]),
     // What of a circle others name; an SVG document has circles of its own.
     (
@@ -62,7 +66,12 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Equal,
         // The spokes of an arc are of one length.
-        &["constraint/kinds/curve.rs", "solve/frame/dyad.rs", "world/member.rs"],
+        &[
+            "constraint/kinds/curve.rs",
+            "solve/closed_form/compile.rs",
+            "solve/frame/dyad.rs",
+            "world/member.rs",
+        ],
     ),
     (
         Kind::Length,
@@ -71,6 +80,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
+            "solve/closed_form/compile.rs",
             "solve/frame/branch.rs",
             "solve/frame/decomposition.rs",
             "solve/frame/dyad.rs",
@@ -93,6 +103,8 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         &[
             "mobility/range.rs",
             "render/style.rs",
+            "solve/closed_form/compile.rs",
+            "solve/closed_form/run.rs",
             "session/commands/driver.rs",
             "session/commands/driver_range.rs",
             "session/resolve/unbind.rs",

@@ -96,6 +96,11 @@ impl Motor {
         self.heading
     }
 
+    /// How far the driven point went around the centre since it pointed elsewhere.
+    pub fn way_since(&self, before: Heading) -> f64 {
+        self.heading.turned.apart(before.turned) * self.drive.radius
+    }
+
     /// Puts it where a copy of it was, or will be.
     pub fn set_heading(&mut self, heading: Heading) {
         self.heading = heading;
@@ -105,6 +110,18 @@ impl Motor {
     /// where that is not seen at once.
     pub fn is_copy(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.drive, &other.drive)
+    }
+
+    /// Whether its last frame was as long as that, so that the next needs nothing but to turn on;
+    /// one that stands still needs nothing at all.
+    pub fn is_under_way(&self, dt: f64) -> bool {
+        let step = self.drive.mean_speed * dt;
+        !self.turns() || step != 0.0 && step == self.drive.step.0
+    }
+
+    /// Whether it turns.
+    pub fn turns(&self) -> bool {
+        self.drive.mean_speed != 0.0
     }
 
     /// The angle without whole turns, radians.

@@ -81,6 +81,14 @@ impl Turns {
         (self.whole as f64).mul_add(TAU, self.angle())
     }
 
+    /// The angle between two amounts, radians; exact to rounding of what is between them.
+    pub fn apart(self, other: Self) -> f64 {
+        let whole = self.whole.saturating_sub(other.whole) as f64;
+        let fraction =
+            (self.fraction.hi - other.fraction.hi) + (self.fraction.lo - other.fraction.lo);
+        ((whole + fraction) * TAU).abs()
+    }
+
     /// The amount as whole turns and the two parts of the fraction.
     pub const fn to_numbers(self) -> [f64; 3] {
         [self.whole as f64, self.fraction.hi, self.fraction.lo]
@@ -171,6 +179,15 @@ mod tests {
         }
         assert_eq!(Turns::from_radians(f64::INFINITY), Turns::default());
         assert_eq!(Turns::from_radians(f64::NAN), Turns::default());
+    }
+
+    #[test]
+    fn amounts_are_apart_by_what_is_between_them() {
+        let turns = after(1000, 0.9 * TAU);
+        let further = turns.plus(Turns::from_radians(-0.3));
+        assert!((turns.apart(further) - 0.3).abs() < 1e-15);
+        assert_eq!(turns.apart(turns), 0.0);
+        assert_eq!(after(7, TAU).apart(Turns::default()), 7.0 * TAU);
     }
 
     #[test]

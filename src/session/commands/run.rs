@@ -1,6 +1,7 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
 use super::dead_point::{Next, WayBack};
+use super::pace::Pace;
 use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
 };
@@ -67,7 +68,7 @@ enum Stop {
 /// Iterations of `relax` between two looks at whether the user wants to stop.
 const RELAX_CHUNK: u64 = 256;
 /// With more iterations than that a frame may take so long that its user wants to stop it.
-const LONG: u32 = 10_000;
+pub(super) const LONG: u32 = 10_000;
 
 impl Execution<'_> {
     pub(crate) fn promised(&mut self, promise: &Promise) -> Result<Limits, Diagnostic> {
@@ -159,15 +160,28 @@ impl Execution<'_> {
         let mut last = Status::Converged;
         let frames = Frames { n, hands };
         let is_told = n > 1 && self.begin_work();
-        for k in 1..=n {
+        let mut pace = Pace::new(self.may_stretch(&limits, hands));
+        let mut k = 0;
+        while k < n {
             if is_told {
-                self.host.progress((k - 1) as f64 / n as f64);
+                self.host.progress(k as f64 / n as f64);
             }
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
-                self.note(format!("stopped after {} of {n} frames", k - 1));
+                self.note(format!("stopped after {k} of {n} frames"));
                 break;
             }
+            if pace.is_due() && n - k > 1 {
+                let stretch = self.stretch(n - k, &limits, summary.error_on_the_way);
+                pace.note(stretch.n_frames);
+                if stretch.n_frames > 0 {
+                    k += stretch.n_frames;
+                    summary.add_stretch(&stretch, span);
+                    last = Status::Converged;
+                    continue;
+                }
+            }
+            k += 1;
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
             let limits = Limits { known_error: summary.error_on_the_way, ..limits };

@@ -8,6 +8,12 @@ use crate::solve::method::rows::{Equations, Rows};
 
 /// A triangle flatter than this, as the sine of an angle, has no side.
 pub(crate) const FLAT: f64 = 1e-6;
+/// A pose this near to a singular one counts as next to it: what the tolerance leaves open is a place
+/// that much less well known.
+pub(crate) const NEARLY_SINGULAR: f64 = 3e-4;
+/// On what is nearer to its singular pose than this, as the sine of an angle or a pivot, errors
+/// grow more than fivefold.
+pub(crate) const SENSITIVE: f64 = 0.2;
 
 /// Triangles of points that bars tie together, in the parts of an island that are solved as a
 /// whole. Points found one by one have a side already, see [`super::decomposition::Block`].

@@ -3,10 +3,11 @@
 //! settle for the best fit.
 
 use super::attempt::{Attempt, attempt, motion_between, motion_since};
+use super::branch::{NEARLY_SINGULAR, SENSITIVE};
 use super::{settle, substep};
 use crate::constraint::Point;
 use crate::solve::island::Island;
-use crate::solve::island::sides::{NEARLY_SINGULAR, SINGULAR};
+use crate::solve::island::sides::SINGULAR;
 use crate::solve::method::newton;
 use crate::solve::method::{Limits, Outcome, Pose};
 use crate::solve::report::{Counters, Status};
@@ -17,9 +18,6 @@ use crate::solve::velocity;
 /// and expecting them to go on makes them grow.
 const WELL_EXPECTED: f64 = 1e-4;
 
-/// On what is nearer to its singular pose than this, as the sine of an angle or a pivot, errors
-/// grow more than fivefold.
-const SENSITIVE: f64 = 0.2;
 /// Position errors are larger than the residual over that sine by no more than this, through the
 /// points that depend on each other: what cannot be the largest of a run is not worked out.
 const ROUGHLY: f64 = 10.0;
@@ -182,12 +180,27 @@ fn accept(island: &mut Island, attempt: Attempt, limits: &Limits) -> Outcome {
     island.history.advance();
     island.keep_sides();
     island.accept_pose();
-    if attempt.least_side < SENSITIVE {
-        let rough = attempt.worst.max(f64::EPSILON * limits.size) / attempt.least_side;
-        if ROUGHLY * rough > limits.budget.known_error {
-            island.position_error = velocity::position_error(island);
+    let Attempt { worst, n_iterations, least_side, .. } = attempt;
+    let known_error = limits.budget.known_error;
+    island.position_error = position_error(island, worst, least_side, limits.size, known_error);
+    Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }
+}
+
+/// How far points may be from where they belong at a pose this near to a singular one; 0 where that
+/// is no matter, or no more than is known already.
+pub(crate) fn position_error(
+    island: &mut Island,
+    worst: f64,
+    least_side: f64,
+    size: f64,
+    known_error: f64,
+) -> f64 {
+    if least_side < SENSITIVE {
+        let rough = worst.max(f64::EPSILON * size) / least_side;
+        if ROUGHLY * rough > known_error {
+            island.know_sides();
+            return velocity::position_error(island);
         }
     }
-    let Attempt { worst, n_iterations, .. } = attempt;
-    Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }
+    0.0
 }

@@ -9,11 +9,12 @@
 //! that come near do not.
 
 use super::attempt::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
+use super::branch::NEARLY_SINGULAR;
 use super::interpolate::Ends;
 use super::motion::Rates;
 use crate::constraint::{Point, Vector};
 use crate::solve::island::Island;
-use crate::solve::island::sides::{NEARLY_SINGULAR, SINGULAR, Sides};
+use crate::solve::island::sides::{SINGULAR, Sides};
 use crate::solve::method::{Limits, newton};
 use crate::solve::report::Counters;
 

@@ -39,6 +39,21 @@ impl Inputs {
         push_one(&mut self.constraints, (c, before));
     }
 
+    /// The motors that turned on, with where they pointed before.
+    pub fn turns(&self) -> &[(u32, Heading)] {
+        &self.turns
+    }
+
+    /// The constraints whose values changed, as they were before.
+    pub fn constraints(&self) -> &[(u32, Constraint)] {
+        &self.constraints
+    }
+
+    /// A constraint as it was before each change of its values.
+    pub fn values_before(&self, c: u32) -> impl Iterator<Item = &Constraint> {
+        self.constraints.iter().filter(move |(changed, _)| *changed == c).map(|(_, before)| before)
+    }
+
     /// The constraints that changed, as they were before; `now` are those of the island.
     pub fn constraints_before(&mut self, now: &[Constraint]) -> Vec<(u32, Constraint)> {
         self.tidy();

@@ -1,6 +1,7 @@
 //! Points that constraints tie together, with everything the solver keeps about them.
 
 pub mod before;
+pub mod closed;
 pub mod fingerprint;
 pub mod history;
 pub mod inputs;
@@ -14,6 +15,7 @@ pub mod workspaces;
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
+use super::closed_form::{ClosedForm, Compiled};
 use super::frame::branch::Watch;
 use super::frame::decomposition::{Plan, Side};
 use super::method::spectrum::Spectrum;
@@ -52,6 +54,11 @@ pub(crate) struct Island {
     pub stateful: Vec<u32>,
     /// What can be found point by point.
     pub plan: Plan,
+    /// The list of steps that finds its pose, if there is one; once it was asked for.
+    pub closed_form: Compiled,
+    /// Whether the pose was reached by that list since it was last worked out on which side of its
+    /// singular pose each block is.
+    are_sides_old: bool,
     /// Up to which degree the motion of each free point is smooth enough to extrapolate.
     pub degree: Vec<u8>,
     /// Whether `degree` was worked out at a pose.
@@ -189,6 +196,8 @@ impl Island {
             position_error: 0.0,
             constraints,
             plan,
+            closed_form: Compiled::NotYet,
+            are_sides_old: false,
             points,
             history: History::default(),
             status: Status::Stalled,
@@ -263,6 +272,10 @@ impl Island {
         self.remembered.take();
         if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;
+        }
+        if !ClosedForm::asks(&new) {
+            // Its step holds values.
+            self.closed_form = Compiled::NotYet;
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.note_values(c as u32, old);
@@ -369,14 +382,7 @@ impl Island {
 
     /// The least and the greatest coordinates of its points.
     fn corners(&self) -> (Point, Point) {
-        let (mut lo, mut hi) = (self.x[0], self.x[0]);
-        for p in &self.x[1..] {
-            lo.x = if p.x < lo.x { p.x } else { lo.x };
-            lo.y = if p.y < lo.y { p.y } else { lo.y };
-            hi.x = if p.x > hi.x { p.x } else { hi.x };
-            hi.y = if p.y > hi.y { p.y } else { hi.y };
-        }
-        (lo, hi)
+        corners(self.x.iter())
     }
 
     /// How far a method is to go on this island.
@@ -384,7 +390,7 @@ impl Island {
         let (lo, hi) = self.corners();
         let size = self.size_between((lo, hi));
         let farthest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
-        let tolerance = budget.tolerance.unwrap_or(settings.tolerance) * size;
+        let tolerance = budget.tolerance_of(settings) * size;
         let tolerance = tolerance.max(rounding(farthest));
         Limits { size, tolerance, n_iterations: settings.iterations, budget }
     }
@@ -436,6 +442,19 @@ impl Island {
         self.watch.update(&self.x);
         self.watch.forget_part_sides();
     }
+}
+
+/// The least and the greatest coordinates of points.
+fn corners<'a>(points: impl Iterator<Item = &'a Point>) -> (Point, Point) {
+    let far = Point::new(f64::INFINITY, f64::INFINITY);
+    let (mut lo, mut hi) = (far, Point::new(-far.x, -far.y));
+    for p in points {
+        lo.x = if p.x < lo.x { p.x } else { lo.x };
+        lo.y = if p.y < lo.y { p.y } else { lo.y };
+        hi.x = if p.x > hi.x { p.x } else { hi.x };
+        hi.y = if p.y > hi.y { p.y } else { hi.y };
+    }
+    (lo, hi)
 }
 
 /// Whether the poses that count move on what a constraint carries.

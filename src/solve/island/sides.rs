@@ -8,9 +8,6 @@ use crate::solve::frame::decomposition::Side;
 use crate::solve::method::Pose;
 use crate::solve::report::Counters;
 
-/// A pose this near to a singular one counts as next to it: what the tolerance leaves open is a place
-/// that much less well known.
-pub(crate) const NEARLY_SINGULAR: f64 = 3e-4;
 /// And this near it counts as singular: rounding leaves open on which side of it the pose is.
 pub(crate) const SINGULAR: f64 = 1e-6;
 

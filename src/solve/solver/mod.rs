@@ -1,7 +1,10 @@
 //! The solver as the session knows it: a world goes in as it is driven and comes out solved.
 
 mod changes;
+mod stretch;
 mod visits;
+
+pub use stretch::Stretch;
 
 use std::collections::{BTreeMap, BTreeSet};
 

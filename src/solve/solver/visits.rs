@@ -80,7 +80,7 @@ impl Solver {
         due.clear();
         self.due = due;
         world.follow_turns();
-        let tolerance = budget.tolerance.unwrap_or(settings.tolerance);
+        let tolerance = budget.tolerance_of(settings);
         for &violation in self.unsatisfiable.values() {
             let is_met = violation <= tolerance;
             let status = if is_met { Status::Converged } else { Status::Unsatisfiable };
@@ -120,6 +120,7 @@ impl Solver {
         for (k, pulled) in by_island {
             let Some(island) = self.partition.get_mut(k) else { continue };
             if island.status == Status::Converged {
+                island.leave_closed_form();
                 let limits = island.limits(settings, budget);
                 pull(island, &pulled, &limits, &mut report.counters);
                 report.include(island.status, 0, island.residual);

@@ -1,5 +1,6 @@
 //! The solver on mechanisms whose answers are known.
 
+mod closed_form;
 mod hands;
 mod hard;
 mod live_ratio;

@@ -1,0 +1,126 @@
+//! From the constraints of an island to its list of steps.
+
+use super::{CircleLine, Circles, ClosedForm, Crank, Radius, Step};
+use crate::constraint::{Carried, Constraint, ConstraintKind as _, PointIdx};
+use crate::solve::frame::decomposition::{Block, Form, Plan};
+
+/// What a constraint leaves of the plane to a point.
+enum Locus {
+    /// A circle around another point.
+    Circle(PointIdx, Radius),
+    /// The line through two others; whether only the part between them.
+    Line([PointIdx; 2], bool),
+}
+
+impl ClosedForm {
+    /// The list for constraints over `n_points` points, in the order of a plan; none if some of
+    /// these have no closed form. `degree` is the highest up to which a motion is smooth.
+    pub fn new(
+        plan: &Plan,
+        constraints: &[Constraint],
+        n_points: usize,
+        degree: u8,
+    ) -> Option<Self> {
+        let carries =
+            |c: &Constraint| !matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
+        if !plan.is_complete() || constraints.iter().any(carries) {
+            return None;
+        }
+        let mut form = Self {
+            steps: Vec::with_capacity(plan.blocks.len()),
+            cranks: Vec::new(),
+            degree,
+            ways: vec![0.0; n_points],
+            n_constraints: plan.constraints.len() as u32,
+            knows_pose: false,
+        };
+        for block in &plan.blocks {
+            let which = &plan.constraints[block.first as usize..block.end as usize];
+            let step = form.step(block, which, constraints)?;
+            form.steps.push(step);
+        }
+        Some(form)
+    }
+
+    /// Whether steps ask a constraint for its values in each frame, so that these may change.
+    pub fn asks(constraint: &Constraint) -> bool {
+        matches!(constraint, Constraint::Motor(_) | Constraint::Coordinate(_))
+    }
+
+    /// The step that finds the point of a block.
+    fn step(&mut self, block: &Block, which: &[u32], all: &[Constraint]) -> Option<Step> {
+        let to = block.point;
+        match (block.form, which) {
+            (Form::Assignment, &[c]) => self.assignment(&all[c as usize], c, to),
+            (_, &[one, two]) if block.is_determined => {
+                meeting(to, locus(&all[one as usize], to)?, locus(&all[two as usize], to)?)
+            }
+            (_, &[one]) if !block.is_determined => match locus(&all[one as usize], to)? {
+                Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
+                Locus::Line(..) => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The step of a constraint that says by itself where a point is.
+    fn assignment(&mut self, constraint: &Constraint, c: u32, to: PointIdx) -> Option<Step> {
+        match constraint {
+            Constraint::Motor(motor) if motor.measured_from().is_none() => {
+                let [from, driven] = motor.crank();
+                if driven != to || from == to {
+                    return None;
+                }
+                self.cranks.push(Crank { to, from, motor: c, before: motor.heading(), way: 0.0 });
+                Some(Step::Crank(self.cranks.len() as u32 - 1))
+            }
+            Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
+            _ => None,
+        }
+    }
+}
+
+/// The step that finds a point on two loci.
+fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
+    match (one, two) {
+        (Locus::Circle(a, Radius::Fixed(l)), Locus::Circle(b, Radius::Fixed(m))) => {
+            Some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
+        }
+        (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line, is_bounded))
+        | (Locus::Line(line, is_bounded), Locus::Circle(from, Radius::Fixed(l))) => {
+            Some(Step::CircleLine(CircleLine::new(to, from, line, l, is_bounded)?))
+        }
+        _ => None,
+    }
+}
+
+/// What a constraint leaves to a point.
+fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
+    match constraint {
+        Constraint::Length(bar) if bar.bounds.is_equality() => {
+            Some(Locus::Circle(other_end(bar.points, p)?, Radius::Fixed(bar.bounds.lo)))
+        }
+        Constraint::Glider(glider) => {
+            let [slider, a, b] = glider.points;
+            (slider == p && a != p && b != p).then_some(Locus::Line([a, b], glider.bounded))
+        }
+        Constraint::Equal(equal) if equal.bounds.is_equality() && equal.ratio > 0.0 => {
+            let [a, b, c, d] = equal.points;
+            let (ratio, more) = (equal.ratio, equal.bounds.lo);
+            let (own, between, factor, offset) = if a == p || b == p {
+                ([a, b], [c, d], ratio, more)
+            } else {
+                ([c, d], [a, b], 1.0 / ratio, -more / ratio)
+            };
+            let from = other_end(own, p)?;
+            let radius = Radius::Measured { between, factor, offset };
+            (!between.contains(&p)).then_some(Locus::Circle(from, radius))
+        }
+        _ => None,
+    }
+}
+
+/// The other of two points; none where both are one.
+fn other_end([a, b]: [PointIdx; 2], p: PointIdx) -> Option<PointIdx> {
+    (a != b).then_some(if p == a { b } else { a })
+}

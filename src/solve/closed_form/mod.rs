@@ -1,0 +1,109 @@
+//! The pose of an island as a list of steps, each of which says outright where a point is: on a
+//! crank, at a place, where two circles meet.
+//!
+//! An island that falls apart into such steps is compiled when it is first followed, and again
+//! once a value that a step holds was changed. A frame runs the list. It has no start and no
+//! iterations, so what it gives does not depend on the poses before but for one thing: on which
+//! side each point is, where it has two places. A point keeps its side as long as no pose on the
+//! way is singular, and that is proved for each frame: from how far cranks and hands went follows
+//! how far each point went at most, and so how near any pose on the way can have been to the one
+//! where the two places meet. Where that cannot be proved, or a constraint is not met, the frame
+//! is left to [`frame`](super::frame), which follows the motion.
+
+mod circles;
+mod compile;
+mod found;
+mod line;
+mod run;
+
+use crate::constraint::{Heading, PointIdx};
+use circles::Circles;
+pub(crate) use found::Found;
+use line::CircleLine;
+
+/// What finds an island's pose.
+pub(crate) struct ClosedForm {
+    /// The steps, each after those it depends on.
+    steps: Vec<Step>,
+    /// What drives some of them.
+    cranks: Vec<Crank>,
+    /// Up to which degree the motion of any point is smooth enough to extrapolate: poses are kept
+    /// for those who do.
+    pub degree: u8,
+    /// How far each point went in this frame at most, along its way.
+    ways: Vec<f64>,
+    /// How many constraints a frame evaluates.
+    n_constraints: u32,
+    /// Whether what steps know of the pose is of the present one.
+    knows_pose: bool,
+}
+
+/// What is known of the list of an island.
+#[derive(Default)]
+pub(crate) enum Compiled {
+    /// It was not asked for yet, or is lent.
+    #[default]
+    NotYet,
+    /// Some of its points have no closed form.
+    Impossible,
+    /// The list.
+    List(Box<ClosedForm>),
+}
+
+/// A step: where a point is, from points that are known.
+enum Step {
+    /// On the crank of this number.
+    Crank(u32),
+    /// At a place that the constraint of this number says.
+    Place {
+        /// The point that is found.
+        to: PointIdx,
+        /// The constraint.
+        constraint: u32,
+        /// How far it went in this frame.
+        way: f64,
+    },
+    /// Where two circles meet.
+    Circles(Circles),
+    /// Where a circle meets a line.
+    CircleLine(CircleLine),
+    /// On a circle, where it is nearest to.
+    Nearest {
+        /// The point that is found.
+        to: PointIdx,
+        /// The centre.
+        from: PointIdx,
+        /// How far it is to be away.
+        radius: Radius,
+    },
+}
+
+/// A point on a crank.
+struct Crank {
+    /// The point that is found.
+    to: PointIdx,
+    /// The centre.
+    from: PointIdx,
+    /// The motor, as a constraint of the island.
+    motor: u32,
+    /// Where it pointed at the beginning of the frame.
+    before: Heading,
+    /// How far its end went in this frame, around the centre.
+    way: f64,
+}
+
+/// The radius of a circle.
+#[derive(Clone, Copy)]
+enum Radius {
+    /// A number.
+    Fixed(f64),
+    /// So many times the distance between two points, and so much more.
+    Measured {
+        /// The points.
+        between: [PointIdx; 2],
+        /// How many times.
+        factor: f64,
+        /// How much more.
+        offset: f64,
+    },
+}

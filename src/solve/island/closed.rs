@@ -1,0 +1,141 @@
+//! An island that is followed by its closed form, and what it keeps so that it can be followed in
+//! another way at any time.
+
+use super::{Island, corners, rounding};
+use crate::solve::closed_form::{ClosedForm, Compiled, Found};
+use crate::solve::frame::predict;
+use crate::solve::report::Status;
+
+impl Island {
+    /// Finds the pose at the end of a frame; none if the frame has to be followed in another way,
+    /// from where everything still is.
+    pub fn closed_frame(&mut self, tolerance: f64) -> Option<Found> {
+        let inputs = &self.inputs;
+        let are_asked = || inputs.constraints().iter().all(|(_, before)| ClosedForm::asks(before));
+        if !self.is_under_way() || inputs.is_disturbed || !are_asked() {
+            return None;
+        }
+        let mut form = self.take_closed_form()?;
+        if !form.knows_pose() {
+            self.swap_inputs();
+            form.look(&self.x);
+            self.swap_inputs();
+        }
+        form.drive(&self.inputs, &self.x, &self.constraints);
+        let found = self.run_closed(&mut form, tolerance);
+        if found.is_some() {
+            self.history.advance();
+        }
+        self.closed_form = Compiled::List(form);
+        found
+    }
+
+    /// Whether it is where the last frame left it, and everything holds there.
+    pub fn is_under_way(&self) -> bool {
+        self.status == Status::Converged && !self.is_new && !self.is_edited
+    }
+
+    /// Runs its list of steps. The pose that the frame began with is kept, and put back where the
+    /// list does not lead to another within the tolerance.
+    #[inline]
+    pub fn run_closed(&mut self, form: &mut ClosedForm, tolerance: f64) -> Option<Found> {
+        self.history.begin(&self.x[..self.n_free], form.degree);
+        let found = form.run(&mut self.x, &self.constraints);
+        // The size is at least the longest length that is asked for.
+        let enough = tolerance * self.wanted();
+        let found = found.filter(|found| found.worst <= enough || found.worst <= self.rounding());
+        if found.is_none() {
+            self.put_back(form);
+        }
+        found
+    }
+
+    /// Puts everything back where the frame began.
+    pub fn put_back(&mut self, form: &mut ClosedForm) {
+        self.x[..self.n_free].copy_from_slice(self.history.origin());
+        form.forget_pose();
+    }
+
+    /// What rounding leaves of numbers as large as those of the points that stand still.
+    fn rounding(&self) -> f64 {
+        let still = &self.x[self.n_free..];
+        rounding(still.iter().fold(0.0, |most: f64, p| most.max(p.x.abs()).max(p.y.abs())))
+    }
+
+    /// Lends the list of steps that finds its pose; none if it has none.
+    pub fn take_closed_form(&mut self) -> Option<Box<ClosedForm>> {
+        match std::mem::take(&mut self.closed_form) {
+            Compiled::List(form) => Some(form),
+            Compiled::NotYet => {
+                let form = self.compile();
+                if form.is_none() {
+                    self.closed_form = Compiled::Impossible;
+                }
+                form
+            }
+            Compiled::Impossible => {
+                self.closed_form = Compiled::Impossible;
+                None
+            }
+        }
+    }
+
+    /// How many constraints a frame by the list of steps evaluates.
+    pub fn n_closed(&self) -> u32 {
+        match &self.closed_form {
+            Compiled::List(form) => form.n_constraints(),
+            Compiled::NotYet | Compiled::Impossible => 0,
+        }
+    }
+
+    /// The pose was reached by the list of steps, from one at which the island was of this size.
+    pub fn note_closed_form(&mut self, found: &Found, size: f64, known_error: f64) {
+        if found.is_sensitive() {
+            let least_side = found.least_side_squared.sqrt();
+            self.are_sides_old = true;
+            self.position_error =
+                predict::position_error(self, found.worst, least_side, size, known_error);
+        }
+        self.are_sides_old = true;
+    }
+
+    /// Frames were passed by the list of steps, the last of which left this.
+    pub fn end_stretch(&mut self, worst: f64, n_constraints: u32) {
+        self.remembered.take();
+        self.before = None;
+        self.residual = worst / self.size_before();
+        self.n_evaluations = n_constraints;
+        self.are_sides_old = true;
+    }
+
+    /// What follows reaches poses in another way than by the list of steps. Its constraints and
+    /// points may be those at the end of a frame already: sides are those of its beginning.
+    pub fn leave_closed_form(&mut self) {
+        if let Compiled::List(form) = &mut self.closed_form {
+            form.forget_pose();
+        }
+        if self.are_sides_old {
+            self.swap_inputs();
+            self.know_sides();
+            self.swap_inputs();
+        }
+    }
+
+    /// Works out on which side of its singular pose each block is, unless that is known.
+    pub fn know_sides(&mut self) {
+        if std::mem::take(&mut self.are_sides_old) {
+            self.update_sides();
+        }
+    }
+
+    /// The same at the pose that the last frame that counts began with.
+    pub fn size_before(&self) -> f64 {
+        let still = &self.x[self.n_free..];
+        self.size_between(corners(self.history.past(1).iter().chain(still)))
+    }
+
+    fn compile(&self) -> Option<Box<ClosedForm>> {
+        let degree = self.highest_degree();
+        ClosedForm::new(&self.plan, &self.constraints, self.points.len(), degree).map(Box::new)
+    }
+}

@@ -1,0 +1,219 @@
+//! Many frames at once, where nothing but motors drives the scene and each pose has a closed form.
+
+use super::Solver;
+use crate::solve::closed_form::{ClosedForm, Compiled, Found};
+use crate::solve::dispatch::write_back;
+use crate::solve::island::Island;
+use crate::solve::report::Budget;
+use crate::solve::settings::{Method, Settings};
+use crate::world::{ConstraintId, World};
+
+/// What frames came to that passed at once. Each was solved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stretch {
+    /// How many frames passed.
+    pub n_frames: u64,
+    /// The iterations of all together.
+    pub iterations: u64,
+    /// The largest distance to satisfaction in any, relative to the size.
+    pub residual: f64,
+    /// The largest position error that was found next to a singular pose; else what was known.
+    pub position_error: f64,
+}
+
+/// An island on its way through a stretch, with what it is driven by.
+struct Rider {
+    /// Its number.
+    k: u32,
+    island: Box<Island>,
+    form: Box<ClosedForm>,
+    /// How many motors turn in it.
+    n_turning: usize,
+    /// What the last frame came to.
+    found: Found,
+}
+
+impl Solver {
+    /// Lets frames pass, up to `n`, as long as each goes as most do: motors turn, and the closed
+    /// forms of what they drive give the pose. Ends before the first that does not, and after the
+    /// first after which `goes_on` says no. What comes out is what frame by frame would.
+    pub fn stretch(
+        &mut self,
+        world: &mut World,
+        settings: &Settings,
+        budget: &Budget,
+        n: u64,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Stretch {
+        let mut stretch = Stretch { position_error: budget.known_error, ..Stretch::default() };
+        let is_plain = settings.method == Method::Auto
+            && self.is_up_to_date(world, settings)
+            && self.unsolved.is_empty()
+            && self.unsatisfiable.is_empty();
+        if !is_plain {
+            return stretch;
+        }
+        let dt = world.clock().dt;
+        let mut riders = self.riders(world, dt);
+        if riders.is_empty() {
+            return stretch;
+        }
+        let is_traced = !world.traces().is_empty();
+        let course = Course { dt, tolerance: budget.tolerance_of(settings), budget };
+        while stretch.n_frames < n && course.frame(&mut riders, &mut stretch) {
+            stretch.n_frames += 1;
+            if is_traced {
+                riders.iter().for_each(|rider| write_back(&rider.island, world));
+                world.pass(1);
+                world.sample_traces(false);
+            }
+            if !goes_on() {
+                break;
+            }
+        }
+        stretch.iterations = stretch.n_frames;
+        if stretch.n_frames > 0 {
+            self.missed.clear();
+            world.pass(if is_traced { 0 } else { stretch.n_frames });
+        }
+        for rider in riders {
+            let k = rider.k;
+            self.partition.give_back(k, rider.dismount(stretch.n_frames, world));
+        }
+        stretch
+    }
+
+    /// All islands that are awake, if each is at rest but for motors, and these are all that turn;
+    /// else none.
+    fn riders(&mut self, world: &mut World, dt: f64) -> Vec<Rider> {
+        let mut riders = Vec::with_capacity(self.awake.len());
+        let Some(n_motors) = world.motors_alone().map(<[ConstraintId]>::len) else {
+            return riders;
+        };
+        let mut n_turning = 0;
+        for &k in &self.awake {
+            let Some(island) = self.partition.lend(k) else { break };
+            match Rider::mount(k, island, world, dt) {
+                Ok(rider) => {
+                    n_turning += rider.n_turning;
+                    riders.push(rider);
+                }
+                Err(island) => {
+                    self.partition.give_back(k, island);
+                    break;
+                }
+            }
+        }
+        if riders.len() != self.awake.len() || n_turning != n_motors {
+            for rider in riders.drain(..) {
+                self.partition.give_back(rider.k, rider.dismount(0, world));
+            }
+        }
+        riders
+    }
+}
+
+/// What all frames of a stretch have in common.
+struct Course<'a> {
+    dt: f64,
+    tolerance: f64,
+    budget: &'a Budget<'a>,
+}
+
+impl Course<'_> {
+    /// Whether a pose keeps the tolerance that was promised, if one was, whatever rounding allows.
+    fn is_promised(&self, found: &Found, island: &Island) -> bool {
+        self.budget.tolerance.is_none_or(|tolerance| found.worst <= tolerance * island.wanted())
+    }
+
+    /// Lets a frame pass; false if it does not, and everything is as before.
+    #[inline]
+    fn frame(&self, riders: &mut [Rider], stretch: &mut Stretch) -> bool {
+        for j in 0..riders.len() {
+            if !riders[j].advance(self) {
+                riders[..j].iter_mut().for_each(Rider::take_back);
+                return false;
+            }
+        }
+        for rider in riders {
+            rider.accept(stretch);
+        }
+        true
+    }
+}
+
+impl Rider {
+    /// Makes an island ready, if nothing but motors drives it; gives it back otherwise.
+    fn mount(k: u32, mut island: Box<Island>, world: &World, dt: f64) -> Result<Self, Box<Island>> {
+        if !island.is_under_way() || !island.inputs.is_empty() {
+            return Err(island);
+        }
+        let Some(mut form) = island.take_closed_form() else { return Err(island) };
+        let there = |c: usize| world.constraint(island.ids[c]).map(|record| &record.constraint);
+        match form.begin(&island.x, &island.constraints, there, dt) {
+            Some(n_turning) if n_turning > 0 => {
+                island.prepare();
+                Ok(Self { k, island, form, n_turning, found: Found::NOTHING })
+            }
+            _ => {
+                island.closed_form = Compiled::List(form);
+                Err(island)
+            }
+        }
+    }
+
+    /// Finds the pose of the next frame; false if that is to be found in another way, and
+    /// everything is as before.
+    #[inline]
+    fn advance(&mut self, course: &Course) -> bool {
+        let Self { island, form, found, .. } = self;
+        form.turn_on(&mut island.constraints, course.dt);
+        match island.run_closed(form, course.tolerance) {
+            Some(now) if course.is_promised(&now, island) => *found = now,
+            Some(_) => {
+                self.take_back();
+                return false;
+            }
+            None => {
+                form.turn_back(&mut island.constraints);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Puts everything as it was before the frame.
+    fn take_back(&mut self) {
+        self.island.put_back(&mut self.form);
+        self.form.turn_back(&mut self.island.constraints);
+    }
+
+    /// The frame counts.
+    #[inline]
+    fn accept(&mut self, stretch: &mut Stretch) {
+        let Self { island, found, .. } = self;
+        island.history.advance();
+        island.position_error = 0.0;
+        if found.is_sensitive() {
+            let size = island.size_before();
+            island.note_closed_form(found, size, stretch.position_error);
+            stretch.position_error = stretch.position_error.max(island.position_error);
+        }
+        // The size is at least that, and asked for only where it might matter.
+        if found.worst > stretch.residual * island.wanted() {
+            stretch.residual = stretch.residual.max(found.worst / island.size_before());
+        }
+    }
+
+    /// Gives back the island after so many frames, and tells the world where it is.
+    fn dismount(self, n_frames: u64, world: &mut World) -> Box<Island> {
+        let Self { mut island, form, found, .. } = self;
+        if n_frames > 0 {
+            island.end_stretch(found.worst, form.n_constraints());
+            write_back(&island, world);
+            form.hand_over(&island.constraints, &island.ids, world);
+        }
+        island.closed_form = Compiled::List(form);
+        island
+    }
+}

@@ -1,0 +1,87 @@
+//! Frames by closed form: what they give does not depend on how many pass at once, and they are
+//! left where a motion has to be followed.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::talk::Talking;
+use linkwork::world::World;
+
+/// Mechanisms each of whose frames, or most of them, have a closed form.
+const SCRIPTS: [&str; 6] = [
+    "w1-four-bar",
+    "w2-jansen",
+    "w3-peaucellier",
+    "w4-crankshaft",
+    "w7-parallelogram",
+    "w8-three-cranks",
+];
+
+/// A scene up to its first frame.
+fn scene(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scripts/bench/{name}.link"));
+    fs::read_to_string(path).unwrap().replace("step frames", "")
+}
+
+/// The bits of all coordinates, and the frame.
+fn bits(world: &World) -> (u64, Vec<[u64; 2]>) {
+    let all = world.points().ids().map(|id| world.points().at(id));
+    (world.clock().frame, all.map(|p| [p.x.to_bits(), p.y.to_bits()]).collect())
+}
+
+/// Lets frames of a scene pass at once, one by one, and with a file in between: the same to the
+/// bit, and so is what the solver remembers.
+#[track_caller]
+fn check_same(name: &str, scene: &str, n: u32) {
+    let at_once = Talking::after(&format!("{scene}\nstep {n}"));
+    let one_by_one = Talking::after(&format!("{scene}\nfor i in 1..{n} {{ step }}"));
+    assert_eq!(one_by_one.script(), at_once.script(), "{name}, frame by frame");
+    let before = Talking::after(&format!("{scene}\nstep {}", n / 3));
+    let continued = Talking::after(&format!("{}\nstep {}", before.script(), n - n / 3));
+    assert_eq!(bits(continued.world()), bits(at_once.world()), "{name}, saved and continued");
+}
+
+#[test]
+fn frames_at_once_are_frames_one_by_one() {
+    for name in SCRIPTS {
+        for per_turn in [360, 36, 12] {
+            let scene = format!("{}\nset dt 1/{per_turn}", scene(name));
+            check_same(&format!("{name}, {per_turn} a turn"), &scene, 100);
+        }
+    }
+}
+
+#[test]
+fn what_sleeps_and_what_is_traced_makes_no_difference() {
+    let still = "point S = (0, 9) frozen, T = (1, 9); length S T = 1; trace B; trace C every 3";
+    let both = format!("{}\n{still}", scene("w1-four-bar"));
+    let alone = bits(Talking::after(&format!("{}\nstep 100", scene("w1-four-bar"))).world());
+    let with = Talking::after(&format!("{both}\nstep 100"));
+    assert_eq!(bits(with.world()).1[..4], alone.1[..]);
+    check_same("traced", &both, 100);
+    let counts: Vec<usize> = with.world().traces().iter().map(|t| t.samples.len()).collect();
+    assert_eq!(counts, [100, 33]);
+}
+
+#[test]
+fn a_motor_that_is_changed_between_runs_goes_on_from_where_it_is() {
+    let script = scene("w1-four-bar").replace("motor A B", "crank: motor A B");
+    let changed = "step 50; change crank speed 0.5rev; step 50; off crank; step 5; on crank";
+    check_same("changed", &format!("{script}\n{changed}"), 60);
+}
+
+/// A crank on a bar of 100 that reaches too far for 0.3 degrees on both sides of one direction, so
+/// that frames of 10 degrees may begin and end where the bars meet, and none of its motion does.
+const GAP: &str = "point A = (0, 0) frozen, D = (199.5, 0) frozen
+    point B = polar(0.501, 15deg), C = (100, 10)
+    motor A B radius 0.501 phase 15deg speed 1rev
+    length B C = 100
+    length C D = 100
+    set dt 1/36";
+
+#[test]
+fn a_gap_within_a_frame_is_not_jumped_over() {
+    let mut talking = Talking::after(&format!("{GAP}\nstep 36"));
+    let told = talking.talk.told();
+    assert!(told[0].contains("frame 17 may have changed branch"), "{told:?}");
+}
