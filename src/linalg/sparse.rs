@@ -3,6 +3,7 @@
 use super::block::{Block, Pivots};
 use super::graph::Lists;
 use super::normal::Normal;
+use crate::interrupt::tick;
 
 /// A factor by columns of blocks, with room for its fill; nothing is allocated per factor.
 pub struct Sparse {
@@ -62,6 +63,7 @@ impl Sparse {
             self.next[k] = self.rows.range(k).start as u32;
             for &i in self.columns.get(k) {
                 let i = i as usize;
+                tick(self.next[i] as usize - self.rows.range(i).start + 1);
                 let y = std::mem::take(&mut self.work[i]);
                 let Diagonal { l, reciprocals: [r0, r1] } = self.diagonal[i];
                 let z = [y[0], y[1] - l * y[0], y[2], y[3] - l * y[2]];

@@ -12,6 +12,7 @@ use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
 use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -19,6 +20,9 @@ const PLACES: usize = 2;
 const DEGREE_PLACES: usize = 3;
 /// How strongly something that is switched off is drawn.
 const OFF: f64 = 0.3;
+
+/// What the writing of a figure takes, in ticks.
+const FIGURE: usize = 2000;
 
 /// What a picture says besides the drawing.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -112,6 +116,7 @@ fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element
     if figure.is_off {
         group.assign("opacity", format_decimals(OFF, PLACES));
     }
+    tick(FIGURE);
     if let Some(note) = figure.note.as_deref().filter(|note| !note.is_empty()) {
         group.append(with_text("title", note));
     }

@@ -5,6 +5,7 @@ use super::quotas::MOST_STATEMENTS;
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
+use crate::interrupt;
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
 };
@@ -18,6 +19,7 @@ impl Execution<'_> {
                 .at(statement.span, "20 million statements were carried out")
                 .help("split it into several commands"));
         }
+        interrupt::rest();
         let flow = self.perform(statement).map_err(|problem| {
             // What fails elsewhere, in a live expression, was reached from here.
             let is_elsewhere = problem.place().is_some_and(|place| !statement.span.holds(place));

@@ -10,6 +10,7 @@ use super::summary::Summary;
 use super::undo::history::History;
 use super::undo::journal::Change;
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::interrupt;
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
@@ -80,7 +81,13 @@ impl<'a> Execution<'a> {
 
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
-        let result = self.dispatch(statement).and_then(|flow| {
+        let wish = self.host.wish_to_stop();
+        let Ok(result) = interrupt::listening(wish, || self.dispatch(statement)) else {
+            self.history.roll_back(self.state);
+            self.note("stopped; it changed nothing");
+            return Ok(Flow::Stopped);
+        };
+        let result = result.and_then(|flow| {
             self.flush_outbox()?;
             Ok(flow)
         });

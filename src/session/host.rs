@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::diag::{Diagnostic, Sources};
+use crate::interrupt::Wish;
 
 /// The outside of a session. The program gives it a terminal and files; a test gives it lists.
 pub trait Host {
@@ -23,6 +24,12 @@ pub trait Host {
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {
         false
+    }
+
+    /// What says the same within a long piece of work, which is then left half done and taken back;
+    /// by default that is not asked.
+    fn wish_to_stop(&self) -> Option<Wish> {
+        None
     }
 
     /// Where a file that a script names is written, and found again; by default under its own

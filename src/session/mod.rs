@@ -39,16 +39,19 @@ pub use commands::diagnose::{Check, FromHere, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
 pub use completion::Completion;
 pub use execution::Flow;
+
 pub use host::{Host, Nowhere, contained, reason};
 pub use preferences::{AtDeadPoint, Preferences};
 pub use silent::Silent;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
+pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
 
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
+use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
 use crate::solve::present;
 use crate::world::{Entity, Value, World};
@@ -214,7 +217,9 @@ impl Session {
         host: &mut dyn Host,
     ) -> Result<Flow, Diagnostic> {
         let text = self.input.sources.get(source).map(|s| s.text.clone()).unwrap_or_default();
-        for statement in crate::lang::parse(source, &text) {
+        let mut statements = crate::lang::parse(source, &text);
+        while let Some(statement) = next_of(&mut statements, host).transpose() {
+            let Ok(statement) = statement else { return Ok(Flow::Stopped) };
             let flow = self.execute(&statement?, host)?;
             if flow != Flow::On {
                 return Ok(flow);
@@ -276,4 +281,12 @@ impl Session {
     fn command<'a>(&'a mut self, host: &'a mut dyn Host) -> Execution<'a> {
         Execution::new(&mut self.state, &mut self.input, &mut self.history, host)
     }
+}
+
+/// The next statement of a text, unless the user stops the reading of it.
+fn next_of(
+    statements: &mut impl Iterator<Item = Result<Statement, Diagnostic>>,
+    host: &dyn Host,
+) -> Result<Option<Result<Statement, Diagnostic>>, Stopped> {
+    interrupt::listening(host.wish_to_stop(), || statements.next())
 }

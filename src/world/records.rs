@@ -1,7 +1,7 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
 use super::{Depends, Formula, NameText, Value};
-use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, Traits};
+use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, LARGEST, Traits};
 use crate::diag::{Diagnostic, format_number};
 
 /// A constraint with its name and what drives its values.
@@ -86,6 +86,23 @@ impl Record {
     /// What is wrong with the values that its live expressions gave it: no pose could have
     /// such a length, such an interval, such wheels.
     pub fn flaw(&self) -> Option<Diagnostic> {
+        self.live()
+            .iter()
+            .find_map(|(field, formula)| self.excess(*field, formula))
+            .or_else(|| self.flaw_of_kind())
+    }
+
+    /// A live value that is too large to work with.
+    fn excess(&self, field: Field, formula: &Formula) -> Option<Diagnostic> {
+        let value = self.constraint.get(field).filter(|value| value.abs() > LARGEST)?;
+        let (value, most) = (format_number(value), format_number(LARGEST));
+        Some(
+            Diagnostic::error(format!("a value in `{}` is too large to work with", self.name))
+                .at(formula.span(), format!("this is now {value}, no more than {most}")),
+        )
+    }
+
+    fn flaw_of_kind(&self) -> Option<Diagnostic> {
         let Traits { flaw, bounds, .. } = self.constraint.traits();
         let flaw = flaw?;
         let ends = bounds.filter(|_| flaw == Flaw::EmptyRange);

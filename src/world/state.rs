@@ -140,10 +140,10 @@ impl World {
         touched
     }
 
-    /// Puts a point where the solver found it. A position that is not finite is refused and
+    /// Puts a point where the solver found it. A position that is out of reach is refused and
     /// the one before kept.
     pub fn set_position(&mut self, id: PointId, at: Point) {
-        if at.is_finite() {
+        if at.is_in_reach() {
             self.points.at[id.idx()] = at;
             self.dependencies.note_change();
         }

@@ -7,20 +7,32 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
+    ("interrupt", &[]),
     ("diag", &[]),
     ("terms", &[]),
-    ("lang", &["diag", "terms"]),
+    ("lang", &["interrupt", "diag", "terms"]),
     ("constraint", &["diag", "terms"]),
     ("world", &["diag", "terms", "constraint"]),
-    ("linalg", &[]),
-    ("mobility", &["constraint", "linalg"]),
-    ("solve", &["diag", "constraint", "world", "linalg", "mobility"]),
-    ("render", &["diag", "constraint", "linalg", "world"]),
+    ("linalg", &["interrupt"]),
+    ("mobility", &["interrupt", "constraint", "linalg"]),
+    ("solve", &["interrupt", "diag", "constraint", "world", "linalg", "mobility"]),
+    ("render", &["interrupt", "diag", "constraint", "linalg", "world"]),
     ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
     (
         "session",
-        &["diag", "terms", "lang", "constraint", "world", "mobility", "solve", "render", "study"],
+        &[
+            "interrupt",
+            "diag",
+            "terms",
+            "lang",
+            "constraint",
+            "world",
+            "mobility",
+            "solve",
+            "render",
+            "study",
+        ],
     ),
     (
         "repl",
@@ -28,7 +40,18 @@ const ROOMS: [(&str, &[&str]); 13] = [
     ),
     (
         "cli",
-        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "repl"],
+        &[
+            "interrupt",
+            "diag",
+            "lang",
+            "constraint",
+            "world",
+            "solve",
+            "render",
+            "study",
+            "session",
+            "repl",
+        ],
     ),
 ];
 

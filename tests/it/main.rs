@@ -6,6 +6,7 @@
 
 mod architecture;
 mod circles;
+mod edge_values;
 mod examples;
 mod expressions;
 mod front_door;
@@ -13,6 +14,7 @@ mod golden;
 mod guide;
 mod habits;
 mod hard_cases;
+mod interrupts;
 mod laws;
 mod long_texts;
 mod mobility;

@@ -182,6 +182,11 @@ impl Measured {
                 n += 1;
             });
         });
+        if !(a + c).is_finite() {
+            // Squares beyond what numbers hold lead nowhere.
+            let length = Vector::new(values[0], values[1]).norm();
+            return Shortest { length, multipliers: [0.0; MOST_ROWS] };
+        }
         // The two directions of `J W J^T`, in which the rows do not mix.
         let (mean, half) = (0.5 * (a + c), 0.5 * (a - c));
         let radius = Vector::new(half, b).norm();

@@ -15,6 +15,9 @@ use crate::session::undo::journal::Change;
 use crate::terms::Shape;
 use crate::world::{Entity, Value};
 
+/// Up to here each whole number has one that follows it: 2^53 less 1.
+const LARGEST_COUNT: f64 = 9_007_199_254_740_991.0;
+
 impl Execution<'_> {
     /// Goes one level deeper for as long as `inside` runs.
     fn nested<T>(
@@ -48,6 +51,15 @@ impl Execution<'_> {
         Ok(Flow::On)
     }
 
+    /// A round of a loop; one without statements ends it where the user wants that, too.
+    fn round(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
+        if body.is_empty() && self.host.is_interrupted() {
+            self.note("stopped");
+            return Ok(Flow::Stopped);
+        }
+        self.perform_all(body)
+    }
+
     pub(crate) fn repeat(
         &mut self,
         variable: &Ident,
@@ -64,6 +76,12 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
+        for (value, expr) in [(from, &range.from), (to, &range.to)] {
+            if value.abs() > LARGEST_COUNT {
+                let text = format!("no number beyond {LARGEST_COUNT} has one that follows it");
+                return Err(Diagnostic::error("a loop cannot count so far").at(expr.span, text));
+            }
+        }
         // Loops within loops multiply; one that is long in every round is found in the first.
         let n_rounds = (to - from + 1.0).max(1.0);
         let n_outer = self.n_rounds;
@@ -84,7 +102,7 @@ impl Execution<'_> {
             let mut value = from;
             while value <= to && flow == Flow::On {
                 execution.scopes.rebind(slot, value);
-                flow = execution.perform_all(body)?;
+                flow = execution.round(body)?;
                 value += 1.0;
             }
             execution.scopes.unbind(slot);

@@ -48,13 +48,19 @@ impl Execution<'_> {
         let is_due =
             way_back.as_ref().is_none_or(|way| k - first >= 2 * (way.frame - first) || always);
         if is_due {
-            *way_back = Some(WayBack {
-                first,
-                frame: k,
-                motion: self.state.world.motion(),
-                memory: self.state.solver.memory(),
-                reels: self.state.recorders.iter().map(Recorder::mark).collect(),
-            });
+            *way_back = Some(self.way_back(first, k));
+        }
+    }
+
+    /// A way back from frame `k`, which is about to begin; `first` was the first that there was one
+    /// from.
+    pub(super) fn way_back(&self, first: u64, k: u64) -> WayBack {
+        WayBack {
+            first,
+            frame: k,
+            motion: self.state.world.motion(),
+            memory: self.state.solver.memory(),
+            reels: self.state.recorders.iter().map(Recorder::mark).collect(),
         }
     }
 

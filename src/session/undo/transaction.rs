@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::history::History;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
+use crate::interrupt;
 use crate::session::series::swap_sample;
 use crate::session::state::State;
 use crate::solve::{Memory, Settings, Solver};
@@ -62,12 +63,12 @@ impl State {
         let Self { solver, world, preferences, .. } = self;
         let is_behind = self.is_behind || !world.is_untouched();
         let memory = is_behind.then(|| solver.memory());
-        let answer = ask(solver, world, &preferences.solve);
+        let answer = interrupt::catch(|| ask(solver, world, &preferences.solve));
         if let Some(memory) = memory {
             solver.set_memory(memory);
             self.is_behind = true;
         }
-        answer
+        answer.unwrap_or_else(|stopped| interrupt::go_on(stopped))
     }
 }
 

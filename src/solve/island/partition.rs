@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use super::memory::Memory;
 use super::{Island, Member};
 use crate::constraint::ConstraintKind;
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::solve::parallel::Effort;
 use crate::world::{ConstraintId, PointId, Touched, World};
@@ -14,6 +15,9 @@ use crate::world::{ConstraintId, PointId, Touched, World};
 const NONE: u32 = u32::MAX;
 /// All points are frozen: in no island, but to be checked.
 const CHECKED: u32 = u32::MAX - 1;
+
+/// What finding the island of a constraint takes, in ticks.
+const CONSTRAINT: usize = 500;
 
 /// Where a constraint is looked after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -230,6 +234,7 @@ impl Partition {
         let mut sets = Sets::default();
         let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.constraints.len());
         for &id in &loose.constraints {
+            tick(CONSTRAINT);
             let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
             if constraint.n_rows() == 0 {
                 // A circle asks for nothing.

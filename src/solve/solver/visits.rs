@@ -158,8 +158,8 @@ impl Solver {
         let (Some(island), Some(mut outcome)) = (self.partition.get_mut(k), visit.outcome) else {
             return;
         };
-        if !island.x[..island.n_free].iter().all(|p| p.is_finite()) {
-            // What has run away to where there are no numbers meets nothing.
+        if !island.x[..island.n_free].iter().all(|p| p.is_in_reach()) {
+            // What has run away to where squares are no numbers meets nothing.
             take_back(island, world);
             outcome.status = Status::Stalled;
         }
