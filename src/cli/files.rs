@@ -6,8 +6,13 @@ use std::path::Path;
 /// What some editors put before a text in UTF-8.
 pub const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Reads a text in UTF-8.
+/// Reads a text in UTF-8. A device or a pipe may never end, and opening one may wait for ever: that is
+/// what standard input is for.
 pub fn read(path: &Path) -> io::Result<String> {
+    let kind = std::fs::metadata(path)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        return Err(io::Error::other("this is no regular file"));
+    }
     text(std::fs::read(path)?)
 }
 

@@ -23,5 +23,5 @@ pub fn run() -> ExitCode {
         None => run::session(&args.session),
     };
     output::flush();
-    status.into()
+    interrupt::ending().map_or(status.into(), ExitCode::from)
 }

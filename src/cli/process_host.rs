@@ -2,13 +2,14 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::time::Instant;
 
 use super::args::HostArguments;
 use super::progress::ProgressBar;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::{Host, contained};
+use crate::session::{Host, Wish, contained};
 
 /// The process as a session sees it.
 pub struct ProcessHost {
@@ -49,6 +50,10 @@ impl Host for ProcessHost {
 
     fn is_interrupted(&self) -> bool {
         interrupt::is_asked()
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        Some(Rc::new(interrupt::is_asked))
     }
 
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {

@@ -1,9 +1,10 @@
 //! Running scripts in batch, and the session.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, IsTerminal, Read};
+use std::io::{self, BufRead, IsTerminal};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, sync_channel};
 
 use super::args::{HostArguments, RunArguments};
 use super::process_host::ProcessHost;
@@ -72,7 +73,7 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
 pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
-    let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };
+    let text = if is_stdin { read_stdin() } else { files::read(file) };
     let text = match text {
         Ok(text) => text,
         Err(e) => {
@@ -93,9 +94,32 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
 }
 
 fn read_stdin() -> io::Result<String> {
+    let lines = lines_of_stdin();
     let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes)?;
+    while let Some(line) = interrupt::next_from(&lines) {
+        bytes.append(&mut line?);
+    }
     files::text(bytes)
+}
+
+/// Lines read ahead of what works on them.
+const LINES_AHEAD: usize = 1024;
+
+/// The lines of standard input with their ends, up to the end or the first that cannot be read. They
+/// are read by a thread of their own, so that who waits for one can be woken.
+fn lines_of_stdin() -> Receiver<io::Result<Vec<u8>>> {
+    let (to, lines) = sync_channel(LINES_AHEAD);
+    std::thread::spawn(move || {
+        loop {
+            let mut line = Vec::new();
+            let result = io::stdin().lock().read_until(b'\n', &mut line);
+            let is_last = !matches!(result, Ok(1..));
+            if matches!(result, Ok(0)) || to.send(result.map(|_| line)).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    lines
 }
 
 /// An empty session.
@@ -141,16 +165,16 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let mut piece = String::new();
     let mut n_lines = 0;
     let mut is_first = true;
+    let lines = lines_of_stdin();
     loop {
-        let mut line = Vec::new();
-        match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
-            Ok(_) => {}
+        let line = match interrupt::next_from(&lines).unwrap_or_else(|| Ok(Vec::new())) {
+            Ok(line) => line,
             Err(e) => {
                 let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
                 output::show(&problem, session.sources());
                 return ExitStatus::Unreadable;
             }
-        }
+        };
         let is_end = line.is_empty();
         let mark = files::BYTE_ORDER_MARK;
         let typed_line = if is_first { line.strip_prefix(mark) } else { None };

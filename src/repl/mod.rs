@@ -24,7 +24,8 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut transcript = Transcript::new("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
-        match editor.readline("> ") {
+        match interrupt::while_waiting(|| editor.readline("> ")) {
+            _ if interrupt::is_ending() => return,
             Ok(line) => {
                 history::keep(&mut editor, &line, history.as_deref());
                 interrupt::forget();

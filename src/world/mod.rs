@@ -52,7 +52,7 @@ pub(crate) use driving::Driving;
 pub use edit::Edit;
 #[doc(hidden)]
 pub use environments::Rates;
-pub use formula::{Depends, Environment, Formula, Mention, Node};
+pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
 pub use motion::Motion;

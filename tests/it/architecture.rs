@@ -12,7 +12,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("diag", &[]),
     ("terms", &[]),
     ("lang", &["interrupt", "diag", "terms"]),
-    ("constraint", &["diag", "terms"]),
+    ("constraint", &["interrupt", "diag", "terms"]),
     ("world", &["diag", "terms", "constraint"]),
     ("linalg", &["interrupt"]),
     ("mobility", &["interrupt", "constraint", "linalg"]),
@@ -56,12 +56,13 @@ const ROOMS: [(&str, &[&str]); 14] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 14] = [
+const HOMES: [(&str, &[&str]); 15] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/args.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
+    ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/grammar.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),

@@ -8,12 +8,12 @@ use crate::diag::{Diagnostic, Kind, Span, format_count, format_number, suggest};
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::reason;
-use crate::session::quotas::{DEEPEST_NESTING, MOST_STATEMENTS};
+use crate::session::quotas::{DEEPEST_NESTING, LONGEST_ARGUMENT, MOST_STATEMENTS};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
 use crate::terms::Shape;
-use crate::world::{Entity, Value};
+use crate::world::{Depends, Entity, Formula, Node, Value};
 
 /// Up to here each whole number has one that follows it: 2^53 less 1.
 const LARGEST_COUNT: f64 = 9_007_199_254_740_991.0;
@@ -147,6 +147,13 @@ impl Execution<'_> {
             Some(name) => self.resolve().declare(name)?.to_string(),
             None => self.resolve().numbered(&word.text),
         };
+        for (parameter, bound) in &mut bindings {
+            if let Bound::Formula(formula) = bound
+                && formula.extent().n_terms > LONGEST_ARGUMENT
+            {
+                *formula = self.as_parameter(&format!("{name}.{parameter}"), formula.clone())?;
+            }
+        }
         self.nested(span, |execution| {
             execution.scopes.enter(Scope { prefix: format!("{name}."), bindings });
             let flow = execution.perform_all(&definition.body)?;
@@ -170,6 +177,18 @@ impl Execution<'_> {
                 .at(argument.span, "this is a vector")
                 .help("make it a point first: `point P = ... frozen`")),
         }
+    }
+
+    /// A parameter of an instance that stands for a long argument.
+    fn as_parameter(&mut self, name: &str, formula: Formula) -> Result<Formula, Diagnostic> {
+        let world = &mut self.state.world;
+        let is_free = world.names().is_free(name);
+        let name = if is_free { name.to_owned() } else { world.numbered_name(name) };
+        let id = world.next_parameter();
+        let span = formula.span();
+        self.set_parameter(id, name.as_str().into(), formula)?;
+        let depends = Depends { on_parameters: true, ..Depends::default() };
+        Ok(Formula::new(Node::Parameter(id), Shape::Number, depends, span))
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {

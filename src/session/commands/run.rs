@@ -398,7 +398,8 @@ impl Execution<'_> {
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
-        if report.status != Status::Converged && self.host.is_interrupted() {
+        // Whatever it came to, more might have come of it.
+        if self.host.is_interrupted() {
             interrupt::go_on(Stopped);
         }
         if report.status != Status::Converged

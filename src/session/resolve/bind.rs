@@ -122,7 +122,11 @@ impl Resolver<'_> {
 
     /// A live expression, its constant parts folded.
     pub(crate) fn live(&mut self, expr: &Expr) -> Result<Term, Diagnostic> {
-        self.bind(expr, Mode::Live)
+        let term = self.bind(expr, Mode::Live)?;
+        if let Term::Live(formula) = &term {
+            self.refuse_too_long(formula, expr.span)?;
+        }
+        Ok(term)
     }
 
     /// A live number with its value now.
@@ -156,7 +160,7 @@ impl Resolver<'_> {
     }
 
     fn measured(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
-        match self.bind(expr, Mode::Live)? {
+        match self.live(expr)? {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
                 self.refuse_what_follows(&formula, expr.span)?;
