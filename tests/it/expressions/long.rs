@@ -33,6 +33,18 @@ fn a_short_argument_stays_where_it_is() {
     assert_eq!(talking.world().parameters().count(), 0);
 }
 
+#[test]
+fn parameters_that_double_are_worked_out_once() {
+    let levels = (1..=40).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1));
+    let script = format!(
+        "point A = (0, 0) frozen, B = (1, 0)\nlet a0 = B.x\n{}rod: hold a40 / 2^40 = 1 + time",
+        levels.collect::<String>()
+    );
+    let mut talking = Talking::after(&script);
+    talking.run("step 60; assert B.x = 2 within 1e-9; check");
+    talking.assert_goes_on_from_its_file("step; delete rod; delete a0 cascade");
+}
+
 const TOO_LONG: &str = "this is too long with all that it mentions";
 
 /// Makes things that each mention the one before, up to the first that is refused; gives how many
