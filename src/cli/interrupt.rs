@@ -13,9 +13,35 @@ use std::time::Duration;
 pub const STATUS: u8 = 130;
 
 static IS_ASKED: AtomicBool = AtomicBool::new(false);
-static IS_WAITING: AtomicBool = AtomicBool::new(false);
+/// Who waits for input, if anybody does: a [`Wait`] as a number, or 0.
+static WAIT: AtomicU8 = AtomicU8::new(0);
 /// The exit status of a program that was asked to end, or 0.
 static ENDING: AtomicU8 = AtomicU8::new(0);
+
+/// How input is waited for. Nothing is under way meanwhile: Ctrl-C ends the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+enum Wait {
+    /// There is nothing to be put in order: whatever asks the program to end does so at once.
+    Blocked = 1,
+    /// It looks by itself whether the program was asked to end.
+    Looking,
+    /// Some signal wakes it, and then it looks.
+    Prompt,
+}
+
+impl Wait {
+    fn is_on(self) -> bool {
+        WAIT.load(Ordering::Relaxed) == self as u8
+    }
+
+    fn during<T>(self, wait: impl FnOnce() -> T) -> T {
+        WAIT.store(self as u8, Ordering::Relaxed);
+        let result = wait();
+        WAIT.store(0, Ordering::Relaxed);
+        result
+    }
+}
 
 /// From here on Ctrl-C sets the flag; while input is waited for, or the flag is set already, it ends
 /// the process. Where no handler can be installed, Ctrl-C goes on ending the process.
@@ -29,7 +55,7 @@ pub fn listen() {
             return;
         }
         let was_asked = IS_ASKED.swap(true, Ordering::Relaxed);
-        if was_asked || IS_WAITING.load(Ordering::Relaxed) {
+        if was_asked || WAIT.load(Ordering::Relaxed) != 0 {
             std::process::exit(STATUS.into());
         }
     }));
@@ -55,13 +81,14 @@ pub fn forget() {
     IS_ASKED.store(false, Ordering::Relaxed);
 }
 
-/// Waits for something that Ctrl-C cannot wake: it ends the process instead. A prompt is woken by who
-/// asks the program to end.
+/// Waits for what nothing can wake, before there is anything to lose: who stops it ends the process.
 pub fn while_waiting<T>(wait: impl FnOnce() -> T) -> T {
-    IS_WAITING.store(true, Ordering::Relaxed);
-    let result = wait();
-    IS_WAITING.store(false, Ordering::Relaxed);
-    result
+    Wait::Blocked.during(wait)
+}
+
+/// Waits at a prompt that a signal wakes.
+pub fn at_prompt<T>(wait: impl FnOnce() -> T) -> T {
+    Wait::Prompt.during(wait)
 }
 
 /// How long a wait goes on before it looks whether the program was asked to end.
@@ -69,7 +96,7 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// What another thread sends next; none where that has ended, or the program was asked to end.
 pub fn next_from<T>(sent: &Receiver<T>) -> Option<T> {
-    while_waiting(|| {
+    Wait::Looking.during(|| {
         loop {
             match sent.recv_timeout(LOOK) {
                 Ok(next) => return Some(next),
@@ -92,7 +119,7 @@ mod endings {
     use nix::sys::signal::{SigSet, Signal, kill};
     use nix::unistd::Pid;
 
-    use super::{ENDING, IS_WAITING};
+    use super::{ENDING, Wait};
 
     /// What a shell adds to the number of a signal for the exit status.
     const BY_SIGNAL: u8 = 128;
@@ -108,13 +135,12 @@ mod endings {
         thread::spawn(move || {
             let Ok(signal) = signals.wait() else { return };
             ENDING.store(BY_SIGNAL + signal as u8, Ordering::Relaxed);
-            // A read that waits for input ends when some signal comes.
-            while IS_WAITING.load(Ordering::Relaxed) {
+            while Wait::Prompt.is_on() {
                 let _ = kill(Pid::this(), Signal::SIGINT);
                 thread::sleep(AGAIN);
             }
             // Asked once more, it does not go on.
-            let _ = signals.wait();
+            let _ = Wait::Blocked.is_on() || signals.wait().is_ok();
             std::process::exit(ENDING.load(Ordering::Relaxed).into());
         });
     }

@@ -23,5 +23,9 @@ pub fn run() -> ExitCode {
         None => run::session(&args.session),
     };
     output::flush();
-    interrupt::ending().map_or(status.into(), ExitCode::from)
+    if let Some(status) = interrupt::ending() {
+        return status.into();
+    }
+    let is_lost = status == run::ExitStatus::Fine && output::has_failed();
+    if is_lost { run::ExitStatus::Unreadable.into() } else { status.into() }
 }

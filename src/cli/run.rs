@@ -50,7 +50,8 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
     let mut unused: Option<BTreeSet<String>> = None;
     for (k, file) in batch.files.iter().enumerate() {
         let mut session = begin(&batch.host);
-        let status = script(file, &mut session, &mut ProcessHost::new(&batch.host));
+        let mut process = ProcessHost::new(&batch.host, files::folder_of(file));
+        let status = script(file, &mut session, &mut process);
         if status != ExitStatus::Fine {
             return status;
         }
@@ -64,7 +65,7 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
     }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        ProcessHost::new(&batch.host).tell(&warning, &Sources::new());
+        ProcessHost::new(&batch.host, Path::new(".")).tell(&warning, &Sources::new());
     }
     ExitStatus::Fine
 }
@@ -73,7 +74,7 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
 pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
-    let text = if is_stdin { read_stdin() } else { files::read(file) };
+    let text = if is_stdin { read_stdin() } else { interrupt::while_waiting(|| files::read(file)) };
     let text = match text {
         Ok(text) => text,
         Err(e) => {
@@ -94,12 +95,9 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
 }
 
 fn read_stdin() -> io::Result<String> {
-    let lines = lines_of_stdin();
-    let mut bytes = Vec::new();
-    while let Some(line) = interrupt::next_from(&lines) {
-        bytes.append(&mut line?);
-    }
-    files::text(bytes)
+    let (to, text) = sync_channel(1);
+    std::thread::spawn(move || drop(to.send(files::read_text(io::stdin().lock()))));
+    interrupt::next_from(&text).unwrap_or_else(|| Err(io::ErrorKind::Interrupted.into()))
 }
 
 /// Lines read ahead of what works on them.
@@ -137,7 +135,7 @@ pub(super) fn begin(host: &HostArguments) -> Session {
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
 pub fn session(host: &HostArguments) -> ExitStatus {
     let mut session = begin(host);
-    let mut process = ProcessHost::new(host);
+    let mut process = ProcessHost::new(host, Path::new("."));
     let status = if io::stdin().is_terminal() {
         crate::repl::converse(&mut session, &mut process);
         ExitStatus::Fine

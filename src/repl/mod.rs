@@ -24,7 +24,7 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut transcript = Transcript::new("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
-        match interrupt::while_waiting(|| editor.readline("> ")) {
+        match interrupt::at_prompt(|| editor.readline("> ")) {
             _ if interrupt::is_ending() => return,
             Ok(line) => {
                 history::keep(&mut editor, &line, history.as_deref());

@@ -21,7 +21,7 @@ fn an_argument_that_is_doubled_forty_times_is_shared() {
     talking.run("assert distance(A, B) = 2 + time within 1e-9; assert time = 1 within 1e-9");
     talking.assert_goes_on_from_its_file("step 3; check");
     let instance = "d401";
-    talking.run(&format!("undo 3; delete {instance} cascade"));
+    talking.run(&format!("delete {instance} cascade"));
     assert_eq!(talking.world().constraints().count(), 0);
     assert_eq!(talking.world().parameters().count(), 0, "what was shared belongs to the instance");
 }
