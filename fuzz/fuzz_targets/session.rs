@@ -1,8 +1,9 @@
-//! Statements made from the input by the generators of the tests: what `laws::steadfast` holds.
+//! Statements made from the input by the generators of the tests, held to what `laws::steadfast` says.
 //!
-//! The input takes the place of the generators' randomness, so that a change of a few bytes changes
-//! a statement or a number.
+//! Eight bytes of the input are the seed of a statement, the first eight that of what there is to
+//! begin with: what libFuzzer cuts out, puts in and joins are statements.
 #![no_main]
+#![allow(dead_code, unused_imports)]
 
 #[path = "../../tests/it/laws"]
 mod laws {
@@ -12,7 +13,6 @@ mod laws {
     pub mod steadfast;
 }
 #[path = "../../tests/it/support"]
-#[allow(dead_code)]
 mod support {
     pub mod compare;
     pub mod fresh;
@@ -26,25 +26,34 @@ use libfuzzer_sys::fuzz_target;
 use proptest::strategy::{BoxedStrategy, Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// Statements after the beginning.
-const MOST: usize = 12;
+use laws::random_command::{beginning, command};
 
-type Session = (Vec<String>, Vec<String>);
+/// Bytes of a seed.
+const SEED: usize = 8;
+/// The most statements after the beginning.
+const MOST: usize = 16;
+
+/// What a strategy makes of a seed.
+fn made<T: std::fmt::Debug>(strategy: &BoxedStrategy<T>, bytes: &[u8]) -> T {
+    let mut seed = [0; 32];
+    seed[..bytes.len()].copy_from_slice(bytes);
+    let randomness = TestRng::from_seed(RngAlgorithm::ChaCha, &seed);
+    let mut runner = TestRunner::new_with_rng(Config::default(), randomness);
+    strategy.new_tree(&mut runner).expect("nothing is filtered").current()
+}
 
 thread_local! {
-    static SESSIONS: LazyCell<BoxedStrategy<Session>> =
-        LazyCell::new(|| laws::random_command::session(MOST).boxed());
+    static BEGINNING: LazyCell<BoxedStrategy<Vec<String>>> =
+        LazyCell::new(|| beginning().boxed());
+    static COMMAND: LazyCell<BoxedStrategy<String>> = LazyCell::new(|| command().boxed());
 }
 
 fuzz_target!(|bytes: &[u8]| {
-    if bytes.len() < 64 {
-        return;
-    }
-    let randomness = TestRng::from_seed(RngAlgorithm::PassThrough, bytes);
-    let mut runner = TestRunner::new_with_rng(Config::default(), randomness);
-    let made = SESSIONS.with(|sessions| sessions.new_tree(&mut runner));
-    let Ok(session) = made else { return };
-    let (beginning, statements) = session.current();
+    let mut seeds = bytes.chunks_exact(SEED);
+    let Some(first) = seeds.next() else { return };
+    let beginning = BEGINNING.with(|strategy| made(strategy, first));
+    let statements: Vec<String> =
+        seeds.take(MOST).map(|seed| COMMAND.with(|strategy| made(strategy, seed))).collect();
     if std::env::var_os("SHOW").is_some() {
         eprintln!("{}\n# then\n{}", beginning.join("\n"), statements.join("\n"));
     }

@@ -111,8 +111,8 @@ impl Drop for Before {
 mod tests {
     use super::*;
 
-    fn always() -> Option<Wish> {
-        Some(Rc::new(|| true))
+    fn always() -> Wish {
+        Rc::new(|| true)
     }
 
     #[test]
@@ -123,11 +123,11 @@ mod tests {
                 n
             }
         };
-        assert_eq!(listening(always(), work(100)), Ok(100));
-        assert_eq!(listening(always(), work(10_000)), Err(Stopped));
+        assert_eq!(listening(Some(always()), work(100)), Ok(100));
+        assert_eq!(listening(Some(always()), work(10_000)), Err(Stopped));
         assert_eq!(listening(None, work(10_000)), Ok(10_000));
-        assert_eq!(listening(always(), || undisturbed(work(10_000))), Ok(10_000));
-        assert_eq!(listening(always(), || catch(work(10_000))), Ok(Err(Stopped)));
+        assert_eq!(listening(Some(always()), || undisturbed(work(10_000))), Ok(10_000));
+        assert_eq!(listening(Some(always()), || catch(work(10_000))), Ok(Err(Stopped)));
         assert_eq!(work(10_000)(), 10_000);
     }
 
@@ -137,14 +137,14 @@ mod tests {
             (0..10_000).for_each(|_| {
                 rest();
                 tick(1 << 10);
-            })
+            });
         };
-        assert_eq!(listening(always(), pieces), Ok(()));
+        assert_eq!(listening(Some(always()), pieces), Ok(()));
     }
 
     #[test]
     #[should_panic(expected = "a mistake of ours")]
     fn another_cause_goes_on() {
-        let _ = listening(always(), || panic!("a mistake of ours"));
+        let _ = listening(Some(always()), || panic!("a mistake of ours"));
     }
 }

@@ -91,7 +91,8 @@ fn with_edge(statement: String, which: usize, edge: &str) -> String {
     format!("{}{edge}{}", &statement[..place.start], &statement[place.end..])
 }
 
-fn command() -> impl Strategy<Value = String> {
+/// Any statement.
+pub fn command() -> impl Strategy<Value = String> {
     let any = prop_oneof![
         6 => random_session::statement(),
         6 => random_scene::edit(),
@@ -105,7 +106,7 @@ fn command() -> impl Strategy<Value = String> {
 }
 
 /// What there is to begin with: the scene of random sessions, or random points.
-fn beginning() -> impl Strategy<Value = Vec<String>> {
+pub fn beginning() -> impl Strategy<Value = Vec<String>> {
     prop_oneof![Just(vec![random_session::SCENE.to_owned()]), random_scene::scene(),]
 }
 

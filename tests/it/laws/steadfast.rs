@@ -10,7 +10,7 @@ use proptest::prelude::*;
 
 /// How often a statement may ask whether it is to go on: a frame of a billion iterations is what was
 /// asked for.
-const PATIENCE: u64 = 400;
+const PATIENCE: u64 = 60;
 
 /// What comes after everything else.
 const AFTER: [&str; 3] = ["step 2", "solve", "print velocity(B), time, list"];
