@@ -9,10 +9,12 @@ pub mod catalogue;
 mod commands;
 mod constraint;
 mod expr;
+mod format;
 mod grammar;
 mod layout;
 mod lower;
 mod parts;
 mod print;
 
+pub use format::format;
 pub use lower::{Statements, is_incomplete, parse};

@@ -11,6 +11,7 @@ use super::summary::Summary;
 use super::undo::history::History;
 use super::undo::journal::Change;
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::errors;
 use crate::interrupt;
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
@@ -83,7 +84,14 @@ impl<'a> Execution<'a> {
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let wish = self.host.wish_to_stop();
-        let Ok(result) = interrupt::listening(wish, || self.dispatch(statement)) else {
+        let work = || {
+            let flow = self.dispatch(statement)?;
+            if self.state.preferences.is_live && statement.command.is_edit() {
+                self.solve_after_edit()?;
+            }
+            Ok(flow)
+        };
+        let Ok(result) = interrupt::listening(wish, work) else {
             self.history.roll_back(self.state);
             self.note("stopped; it changed nothing");
             return Ok(Flow::Stopped);
@@ -111,8 +119,11 @@ impl<'a> Execution<'a> {
     pub fn finish(mut self) -> Result<(), Diagnostic> {
         if !self.stop_recording() {
             self.drop_recordings();
-            return Err(Diagnostic::error("stopped before the recording was written")
-                .kind(Kind::Interrupted));
+            return Err(Diagnostic::error(
+                errors::INTERRUPTED,
+                "stopped before the recording was written",
+            )
+            .kind(Kind::Interrupted));
         }
         self.flush_outbox()?;
         self.history.commit(self.state, "");

@@ -9,7 +9,8 @@ use super::turning::whole_turns;
 use super::{ConstraintId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::terms::{Function, Member, Operator, Shape};
+use crate::errors;
+use crate::terms::{Function, Member, Operator, Shape, Unit};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -52,7 +53,7 @@ impl Extent {
 #[derive(Debug)]
 pub enum Node {
     /// A number.
-    Number(f64),
+    Number(f64, Unit),
     /// A vector from its two coordinates.
     Vector(Formula, Formula),
     /// The value of a parameter.
@@ -143,7 +144,7 @@ pub trait Environment<T: Real> {
 impl Formula {
     /// A constant number without a place in a text.
     pub fn constant(value: f64) -> Self {
-        Self::new(Node::Number(value), Shape::Number, Depends::default(), NOWHERE)
+        Self::new(Node::Number(value, Unit::None), Shape::Number, Depends::default(), NOWHERE)
     }
 
     /// A node that stands in no text.
@@ -154,7 +155,7 @@ impl Formula {
     /// A node with its shape, what it depends on and its place in the text.
     pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
         let extent = match &node {
-            Node::Number(_)
+            Node::Number(..)
             | Node::Parameter(_)
             | Node::Point(_)
             | Node::Member(..)
@@ -208,7 +209,7 @@ impl Formula {
     /// Calls `visit` for each point, parameter and member it mentions.
     pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
         match self.node() {
-            Node::Number(_) | Node::Time => {}
+            Node::Number(..) | Node::Time => {}
             Node::Parameter(id) => visit(Mention::Parameter(*id)),
             Node::Point(id) => visit(Mention::Point(*id)),
             Node::Member(id, member) => visit(Mention::Member(*id, *member)),
@@ -221,6 +222,37 @@ impl Formula {
         }
     }
 
+    /// Calls `visit` for each pair of points between which it measures: a distance, a direction, a
+    /// difference, a middle.
+    pub fn segments(&self, visit: &mut impl FnMut([PointId; 2])) {
+        match self.node() {
+            Node::Number(..)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Point(_)
+            | Node::Member(..) => {}
+            Node::Negate(a) | Node::X(a) | Node::Y(a) => a.segments(visit),
+            Node::Vector(a, b) | Node::Binary(_, a, b) => {
+                let ends = a.as_point().zip(b.as_point());
+                if let (Node::Binary(Operator::Subtract, ..), Some((from, to))) =
+                    (self.node(), ends)
+                {
+                    visit([from, to]);
+                }
+                a.segments(visit);
+                b.segments(visit);
+            }
+            Node::Call(_, arguments) => {
+                // A line stands behind the point whose distance from it is meant.
+                let (_, pairs) = arguments.as_rchunks::<2>();
+                if arguments.iter().all(|a| a.as_point().is_some()) {
+                    pairs.iter().for_each(|[from, to]| visit([from.point(), to.point()]));
+                }
+                arguments.iter().for_each(|a| a.segments(visit));
+            }
+        }
+    }
+
     /// The value in an environment.
     ///
     /// # Errors
@@ -229,7 +261,7 @@ impl Formula {
     pub fn evaluate<T: Real>(&self, env: &impl Environment<T>) -> Result<Value<T>, Diagnostic> {
         use Value::{Number, Vector};
         let value = match self.node() {
-            Node::Number(n) => return Ok(Number(T::constant(*n))),
+            Node::Number(n, _) => return Ok(Number(T::constant(*n))),
             Node::Time => return Ok(Number(env.time())),
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
@@ -283,9 +315,12 @@ impl Formula {
             Some(MovingPoint { at: env.position(id), velocity, acceleration })
         });
         let Some(moving) = moving.collect::<Option<Vec<_>>>() else {
-            return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
-                .at(self.span(), "only where a value is looked at")
-                .help("use it in `print`, `assert`, or a parameter that these use"));
+            return Err(Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                format!("`{}` cannot be had here", function.name()),
+            )
+            .at(self.span(), "only where a value is looked at")
+            .help("use it in `print`, `assert`, or a parameter that these use"));
         };
         rate(function, &moving, self.span())
     }

@@ -7,23 +7,25 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("interrupt", &[]),
     ("diag", &[]),
+    ("errors", &["diag"]),
     ("terms", &[]),
-    ("lang", &["interrupt", "diag", "terms"]),
-    ("constraint", &["interrupt", "diag", "terms"]),
-    ("world", &["diag", "terms", "constraint"]),
+    ("lang", &["interrupt", "diag", "errors", "terms"]),
+    ("constraint", &["interrupt", "diag", "errors", "terms"]),
+    ("world", &["diag", "errors", "terms", "constraint"]),
     ("linalg", &["interrupt"]),
     ("mobility", &["interrupt", "constraint", "linalg"]),
-    ("solve", &["interrupt", "diag", "constraint", "world", "linalg", "mobility"]),
-    ("render", &["interrupt", "diag", "constraint", "linalg", "world"]),
-    ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
+    ("solve", &["interrupt", "diag", "errors", "constraint", "world", "linalg", "mobility"]),
+    ("render", &["interrupt", "diag", "errors", "constraint", "linalg", "world"]),
+    ("study", &["diag", "errors", "constraint", "world", "mobility", "solve", "render"]),
     (
         "session",
         &[
             "interrupt",
             "diag",
+            "errors",
             "terms",
             "lang",
             "constraint",
@@ -36,13 +38,25 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ),
     (
         "repl",
-        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "cli"],
+        &[
+            "diag",
+            "errors",
+            "lang",
+            "constraint",
+            "world",
+            "solve",
+            "render",
+            "study",
+            "session",
+            "cli",
+        ],
     ),
     (
         "cli",
         &[
             "interrupt",
             "diag",
+            "errors",
             "lang",
             "constraint",
             "world",
@@ -56,9 +70,11 @@ const ROOMS: [(&str, &[&str]); 14] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 15] = [
+const HOMES: [(&str, &[&str]); 19] = [
     ("annotate_snippets", &["diag/render.rs"]),
-    ("clap", &["cli/args.rs"]),
+    ("clap", &["cli/"]),
+    ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
+    ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
@@ -68,10 +84,12 @@ const HOMES: [(&str, &[&str]); 15] = [
     ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
-    ("serde_json", &["session/json.rs"]),
+    ("lsp_server", &["cli/language_server/"]),
+    ("serde_json", &["cli/language_server/", "session/json.rs"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
+    ("terminal_size", &["cli/output.rs"]),
 ];
 
 /// All that the library builds on without its features, where there is neither a thread nor a
