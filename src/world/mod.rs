@@ -37,6 +37,9 @@ mod value;
 mod apply;
 mod batch;
 mod edit;
+mod log;
+pub(crate) mod marks;
+mod moment;
 mod motion;
 mod quadrature;
 mod same;
@@ -54,6 +57,8 @@ pub use edit::Edit;
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
+#[doc(hidden)]
+pub use moment::Moment;
 #[doc(hidden)]
 pub use motion::Motion;
 pub use name::NameText;

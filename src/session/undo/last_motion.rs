@@ -3,7 +3,7 @@
 use crate::session::state::State;
 use crate::solve::Memory;
 use crate::study::{Hand, Leg, RepeatableMotion};
-use crate::world::Motion;
+use crate::world::Moment;
 
 /// The motions that are kept.
 #[derive(Debug, Default)]
@@ -17,7 +17,7 @@ pub(crate) struct LastMotion {
 /// A motion: where it began, and what happened.
 #[derive(Debug)]
 struct Lap {
-    motion: Motion,
+    moment: Moment,
     memory: Memory,
     legs: Vec<Leg>,
     n_frames: u64,
@@ -32,11 +32,6 @@ impl LastMotion {
     /// Forgets the command under way.
     pub fn give_up(&mut self) {
         self.current = None;
-    }
-
-    /// Where the command under way began to let time pass, or the longest did.
-    pub fn latest(&self) -> Option<&Motion> {
-        self.current.as_ref().or(self.longest.as_ref()).map(|lap| &lap.motion)
     }
 
     /// The command under way is done, and this the world's revision at its end.
@@ -58,7 +53,7 @@ impl LastMotion {
         self.end(revision);
         if is_in_block || n_frames > self.n_longest(revision) {
             self.current = Some(Lap {
-                motion: state.world.motion(),
+                moment: state.world.moment(),
                 memory: state.solver.memory(),
                 legs: Vec::new(),
                 n_frames: 0,
@@ -87,10 +82,10 @@ impl LastMotion {
         if lap.revision != state.world.revision() {
             return None;
         }
-        let (motion, memory) = (lap.motion.clone(), lap.memory.clone());
+        let (moment, memory) = (lap.moment.clone(), lap.memory.clone());
         let settings = state.preferences.solve;
         let repeatable =
-            RepeatableMotion::back(&state.world, motion, memory, settings, lap.legs.clone());
+            RepeatableMotion::back(&state.world, moment, memory, settings, lap.legs.clone());
         Some(repeatable.with_frames(lap.n_frames))
     }
 

@@ -47,6 +47,27 @@ pub struct Reel {
     then: Vec<Shot>,
 }
 
+impl Shot {
+    /// Roughly how many bytes it takes.
+    fn n_bytes(&self) -> usize {
+        let inside = match self {
+            Self::Scene(scene, _) => scene.n_bytes(),
+            Self::Row(_, row) => {
+                let names: usize = row.iter().map(|(name, _)| name.len()).sum();
+                size_of_val(&**row) + names
+            }
+        };
+        size_of::<Self>() + inside
+    }
+}
+
+impl Reel {
+    /// Roughly how many bytes it takes.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.then.iter().map(Shot::n_bytes).sum::<usize>()
+    }
+}
+
 impl Recorder {
     /// A recording that has taken nothing yet.
     pub const fn new(path: PathBuf, span: Span, every: u64, format: Format) -> Self {
@@ -102,11 +123,7 @@ impl Recorder {
 
     /// Roughly how many bytes its frames take.
     pub fn n_bytes(&self) -> usize {
-        let of = |shot: &Shot| match shot {
-            Shot::Scene(..) => size_of::<Scene>(),
-            Shot::Row(_, row) => size_of_val(&**row),
-        };
-        self.shots.iter().map(|shot| size_of::<Shot>() + of(shot)).sum()
+        self.shots.iter().map(Shot::n_bytes).sum()
     }
 
     /// The scenes taken, each with its time.

@@ -23,7 +23,58 @@ pub(crate) struct Sides {
     parts: Vec<Option<PartSide>>,
 }
 
+/// On which side everything was when last looked at, as far as that is known.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct KnownSides {
+    blocks: Box<[Side]>,
+    /// Of what is watched in parts that are solved as a whole; none if nothing is.
+    watched: Option<Box<WatchedSides>>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct WatchedSides {
+    triangles: Vec<f64>,
+    parts: Vec<Option<PartSide>>,
+    knows_parts: bool,
+}
+
+impl KnownSides {
+    /// Roughly how many bytes it holds, but for itself.
+    pub fn n_bytes(&self) -> usize {
+        let watched = self.watched.as_ref().map_or(0, |watched| {
+            size_of_val(&*watched.triangles) + size_of_val(&*watched.parts) + 64
+        });
+        size_of_val(&*self.blocks) + watched
+    }
+}
+
 impl Island {
+    /// On which side everything was when last looked at.
+    pub fn known_sides(&self) -> KnownSides {
+        let watch = &self.watch;
+        let is_watched = !watch.triangles.is_empty() || !watch.part_sides.is_empty();
+        let watched = is_watched.then(|| {
+            Box::new(WatchedSides {
+                triangles: watch.sides.clone(),
+                parts: watch.part_sides.clone(),
+                knows_parts: watch.knows_part_sides,
+            })
+        });
+        KnownSides { blocks: self.plan.blocks.iter().map(|block| block.side).collect(), watched }
+    }
+
+    /// Brings back what [`known_sides`](Self::known_sides) gave.
+    pub fn know_sides(&mut self, sides: &KnownSides) {
+        for (block, side) in self.plan.blocks.iter_mut().zip(&sides.blocks) {
+            block.side = *side;
+        }
+        if let Some(watched) = &sides.watched {
+            self.watch.sides.clone_from(&watched.triangles);
+            self.watch.part_sides.clone_from(&watched.parts);
+            self.watch.knows_part_sides = watched.knows_parts;
+        }
+    }
+
     /// Works out on which side the parts are at the present pose, where they are not known.
     pub fn measure_part_sides(&mut self, work: &mut Counters) {
         if self.watch.knows_part_sides || self.plan.is_complete() {

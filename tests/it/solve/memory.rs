@@ -76,10 +76,10 @@ fn a_run_that_was_edited_before_the_interruption_does_too() {
 fn what_is_taken_back_happens_again_to_the_bit() {
     let mut s = mechanisms(Method::Auto);
     run(&mut s, 10);
-    let (motion, memory) = (s.world.motion(), s.solver.memory());
+    let (moment, memory) = (s.world.moment(), s.solver.memory());
     run(&mut s, 30);
     let first = s.bits();
-    s.world.apply(Edit::Motion(Box::new(motion)));
+    s.world.go_to(moment);
     s.solver.set_memory(memory);
     run(&mut s, 30);
     assert_eq!(s.bits(), first);
