@@ -10,9 +10,11 @@ mod commands;
 mod constraint;
 mod expr;
 mod grammar;
+mod growing;
 mod layout;
 mod lower;
 mod parts;
 mod print;
 
+pub use growing::Growing;
 pub use lower::{Statements, is_incomplete, parse};

@@ -1,5 +1,6 @@
 //! The command under way: what it works on, and what is needed for as long as it runs.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::host::{Host, reason};
@@ -51,7 +52,7 @@ pub struct Execution<'a> {
     /// What has run so far.
     pub run: Option<Summary>,
     /// Where likely slips were found.
-    pub slips: Vec<Span>,
+    pub slips: BTreeSet<Span>,
 }
 
 impl<'a> Execution<'a> {
@@ -74,7 +75,7 @@ impl<'a> Execution<'a> {
             included: Vec::new(),
             outbox: Vec::new(),
             run: None,
-            slips: Vec::new(),
+            slips: BTreeSet::new(),
         }
     }
 

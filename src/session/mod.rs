@@ -166,6 +166,11 @@ impl Session {
         self.history.last_run.as_ref()
     }
 
+    /// Roughly how many bytes are kept so that commands can be taken back or done again.
+    pub const fn undo_bytes(&self) -> usize {
+        self.history.journal.n_bytes()
+    }
+
     /// Keeps a text. `folder` is where what it includes is looked for.
     pub fn add_source(&mut self, name: &str, text: &str, folder: Option<PathBuf>) -> SourceId {
         self.add_piece(name, text, 1, folder)

@@ -45,8 +45,12 @@ impl RepeatableMotion {
         legs: Vec<Leg>,
     ) -> Self {
         let mut world = world.clone();
-        // Going back makes a solver that is new take in everything, too.
         world.go_to(moment);
+        Self::from(world, memory, settings, legs)
+    }
+
+    /// What happened in a world after it was this one: `legs`, one after the other.
+    pub fn from(mut world: World, memory: Memory, settings: Settings, legs: Vec<Leg>) -> Self {
         while !world.ghosts().is_empty() {
             world.apply(Edit::Ghost(None));
         }

@@ -83,9 +83,7 @@ impl Edit {
             Self::RestoreBatch(records) => records.n_bytes(),
             Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),
             Self::Clock(clock) => size_of_val(&**clock),
-            Self::Trace(_, Some(trace)) => {
-                size_of_val(&**trace) + size_of_val(&*trace.samples)
-            }
+            Self::Trace(_, Some(trace)) => size_of_val(&**trace) + size_of_val(&*trace.samples),
             Self::Ghost(Some(ghost)) => ghost.n_bytes(),
             Self::StartState(_, Some(state)) => size_of_val(&**state),
             Self::StartStates(states) => 80 * states.len(),

@@ -2,9 +2,8 @@
 //! what it takes to go back is then as much as what was touched, however large the scene.
 
 use super::marks::Marks;
-use super::motion::{Motion, Start};
+use super::motion::{Motion, Start, heading, swap_heading};
 use super::{ConstraintId, PointId, World};
-use crate::constraint::Constraint;
 
 /// What was noted since it was asked for.
 #[derive(Debug, Default)]
@@ -29,11 +28,6 @@ impl Log {
     /// Other motors may be running from here on.
     pub fn note_motor_lists(&mut self) {
         self.has_headings = false;
-    }
-
-    /// What was noted, for those who have something to add.
-    pub fn motion_mut(&mut self) -> Option<&mut Motion> {
-        self.motion.as_deref_mut()
     }
 }
 
@@ -81,11 +75,10 @@ impl World {
         let mut constraint = record.constraint.clone();
         if !self.log.headings.mark(id.idx())
             && let Some(k) = motion.motors.iter().position(|motor| *motor == id)
-            && let Constraint::Motor(motor) = &mut constraint
         {
             // It has turned since it was noted: that goes into the whole.
             motion.motors.swap_remove(k);
-            motor.set_heading(motion.headings.swap_remove(k));
+            swap_heading(&mut constraint, &mut motion.headings.swap_remove(k));
         }
         motion.constraints.push((id, constraint));
     }
@@ -98,7 +91,7 @@ impl World {
         for k in 0..self.dependencies.motors().len() {
             let id = self.dependencies.motors()[k];
             let record = self.constraints.get(id.idx()).expect("a listed constraint lives");
-            let Constraint::Motor(motor) = &record.constraint else {
+            let Some(heading) = heading(&record.constraint) else {
                 self.note_constraint(id);
                 continue;
             };
@@ -106,7 +99,7 @@ impl World {
                 && let Some(motion) = &mut self.log.motion
             {
                 motion.motors.push(id);
-                motion.headings.push(motor.heading());
+                motion.headings.push(heading);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! All that running changes at one moment, of the whole scene: where a motion that is to be done again
 //! began, and what `reset` goes back to.
 
-use super::motion::restore_whole;
+use super::motion::{Motion, restore_whole, whole_state};
 use super::same::{States, bits, is_same_constraint, same_place};
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead};
@@ -28,9 +28,9 @@ impl World {
     /// All that running changes, as it is now.
     pub fn moment(&self) -> Moment {
         let (traces, ghosts) = self.tails();
-        let changing = self.constraints().filter(|(_, record)| {
-            !record.live().is_empty() || record.constraint.state().is_some()
-        });
+        let changing = self
+            .constraints()
+            .filter(|(_, record)| !record.live().is_empty() || record.constraint.state().is_some());
         Moment {
             at: self.points.at.clone(),
             start: self.points.start.clone(),
@@ -59,8 +59,10 @@ impl World {
         moment
     }
 
-    /// Puts everything as it was at a moment, since which the structure is the same.
-    pub fn go_to(&mut self, moment: Moment) {
+    /// Puts everything as it was at a moment, since which the structure is the same; gives what of it
+    /// no one notes: clock, counts, and the ends of paths and ghosts.
+    pub fn go_to(&mut self, moment: Moment) -> Motion {
+        let mut before = self.bare_motion();
         for (k, at) in moment.at.iter().enumerate() {
             if !same_place(&self.points.at[k], at) {
                 self.note_place(PointId::new(k));
@@ -68,7 +70,10 @@ impl World {
             }
         }
         for (id, constraint) in moment.constraints {
-            if self.constraint(id).is_some_and(|now| !is_same_constraint(&now.constraint, &constraint)) {
+            if self
+                .constraint(id)
+                .is_some_and(|now| !is_same_constraint(&now.constraint, &constraint))
+            {
                 *self.constraint_state_mut(id) = constraint;
             }
         }
@@ -80,21 +85,18 @@ impl World {
         self.start_states = moment.start_states;
         self.clock = moment.clock;
         self.turn_counts = moment.turn_counts;
-        let mut motion = self.log.motion_mut();
-        for (k, (trace, tail)) in self.traces.iter_mut().zip(moment.traces).enumerate() {
-            let noted = motion.as_mut().and_then(|motion| motion.traces.get_mut(k));
-            tail.cut(&mut trace.samples, noted);
-        }
-        let noted = motion.map(|motion| &mut motion.ghosts);
-        moment.ghosts.cut(&mut self.ghosts, noted);
+        let lists = self.traces.iter_mut().zip(moment.traces);
+        before.traces = lists.map(|(trace, tail)| tail.swap(&mut trace.samples)).collect();
+        before.ghosts = moment.ghosts.swap(&mut self.ghosts);
         self.turns_ahead = TurnsAhead::default();
         self.touched.all = true;
         self.dependencies.note_change();
+        before
     }
 
     fn restore_state(&mut self, id: ConstraintId, state: &[f64]) {
         let Some(record) = self.constraints.get(id.idx()) else { return };
-        if super::motion::whole_state(&record.constraint).is_some_and(|now| bits(&now) == bits(state)) {
+        if whole_state(&record.constraint).is_some_and(|now| bits(&now) == bits(state)) {
             return;
         }
         let is_live = record

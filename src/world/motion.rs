@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 use super::dependencies::Ramp;
 use super::environments::Within;
 use super::quadrature::mean;
-use super::same::{
-    States, are_same_places, are_same_states, is_same_constraint, same_place,
-};
+use super::same::{States, are_same_places, are_same_states, is_same_constraint, same_place};
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
 use super::{Clock, ConstraintId, Ghost, PointId, Sample, World};
@@ -60,6 +58,12 @@ impl Motion {
             + exposed
     }
 
+    /// Whether paths or ghosts come back with it.
+    pub fn has_paths(&self) -> bool {
+        let mut traces = self.traces.iter();
+        traces.any(|tail| !tail.then().is_empty()) || !self.ghosts.then().is_empty()
+    }
+
     fn shrink(&mut self) {
         self.points.shrink_to_fit();
         self.at.shrink_to_fit();
@@ -98,9 +102,8 @@ impl World {
         let mut motors = motion.motors.iter().zip(&motion.headings);
         let mut traces = self.traces.iter().zip(&motion.traces);
         let constraint = |id: &ConstraintId| self.constraint(*id).map(|record| &record.constraint);
-        let has_turned_so = |motor: Option<&Constraint>, heading: Heading| match motor {
-            Some(Constraint::Motor(motor)) => motor.heading().is_same(heading),
-            _ => false,
+        let has_turned_so = |motor: Option<&Constraint>, then: Heading| {
+            motor.and_then(heading).is_some_and(|now| now.is_same(then))
         };
         self.clock == motion.clock
             && places.all(|(id, at)| same_place(&self.points.at[id.idx()], at))
@@ -138,11 +141,8 @@ impl World {
             }
         }
         for (id, heading) in motion.motors.iter().zip(&mut motion.headings) {
-            if let Some(record) = self.constraints.get_mut(id.idx())
-                && let Constraint::Motor(motor) = &mut record.constraint
-            {
-                let now = motor.heading();
-                motor.set_heading(std::mem::replace(heading, now));
+            if let Some(record) = self.constraints.get_mut(id.idx()) {
+                swap_heading(&mut record.constraint, heading);
                 self.touched.values.push(*id);
             }
         }
@@ -261,6 +261,22 @@ impl World {
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
+    }
+}
+
+/// How far a motor has turned; none if its angle is measured on the pose, or it is none.
+pub(super) fn heading(constraint: &Constraint) -> Option<Heading> {
+    match constraint {
+        Constraint::Motor(motor) => Some(motor.heading()),
+        _ => None,
+    }
+}
+
+/// Exchanges how far a motor has turned.
+pub(super) fn swap_heading(constraint: &mut Constraint, other: &mut Heading) {
+    if let Constraint::Motor(motor) = constraint {
+        let now = motor.heading();
+        motor.set_heading(std::mem::replace(other, now));
     }
 }
 

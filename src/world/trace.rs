@@ -70,19 +70,6 @@ impl<T> Tail<T> {
         size_of_val(&*self.then)
     }
 
-    /// Puts the list in this state, which it was in before; what `noted` says goes on to be true of it.
-    pub fn cut(self, list: &mut Vec<T>, noted: Option<&mut Self>) {
-        let gone = list.split_off(self.keep.min(list.len()));
-        if let Some(noted) = noted
-            && noted.keep > list.len()
-        {
-            let n_kept = noted.keep - list.len();
-            noted.then.splice(0..0, gone.into_iter().take(n_kept));
-            noted.keep = list.len();
-        }
-        list.extend(self.then);
-    }
-
     /// Puts the list in this state; gives the state it was in.
     pub fn swap(self, list: &mut Vec<T>) -> Self {
         let keep = self.keep.min(list.len());

@@ -153,7 +153,11 @@ impl Execution<'_> {
     fn restore_memory(&mut self, owner: Option<&Name>, values: &[Value]) -> Restored {
         let id = owner.map(|name| self.resolve().point(name)).transpose()?;
         let values = numbers(values)?;
-        if self.history.restore_memory(self.state, id, &values) { Ok(()) } else { Err(Unfit::Values) }
+        if self.history.restore_memory(self.state, id, &values) {
+            Ok(())
+        } else {
+            Err(Unfit::Values)
+        }
     }
 
     fn restore_past(&mut self, values: &[Value]) -> Restored {

@@ -98,7 +98,7 @@ impl Execution<'_> {
             Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
         };
         let limits = self.promised_here(promise)?;
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
@@ -119,7 +119,7 @@ impl Execution<'_> {
             );
         }
         let (n, limits) = (n as u64, self.promised_here(promise)?);
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)

@@ -77,6 +77,8 @@ pub enum Part {
 /// One command that changed something.
 #[derive(Debug)]
 pub struct Entry {
+    /// Counts commands: none has the number of another.
+    pub number: u64,
     /// Its text, for telling what was undone.
     pub label: String,
     /// What takes it back, in the order it was made.
@@ -85,7 +87,9 @@ pub struct Entry {
 
 impl Entry {
     fn n_bytes(&self) -> usize {
-        size_of::<Self>() + self.label.len() + self.changes.iter().map(Change::n_bytes).sum::<usize>()
+        size_of::<Self>()
+            + self.label.len()
+            + self.changes.iter().map(Change::n_bytes).sum::<usize>()
     }
 }
 
@@ -106,6 +110,8 @@ pub struct Journal {
     undone: VecDeque<(Entry, usize)>,
     /// The bytes of both.
     n_bytes: usize,
+    /// Commands that changed something so far.
+    n_commands: u64,
 }
 
 impl Journal {
@@ -115,8 +121,26 @@ impl Journal {
         if !changes.is_empty() {
             self.n_bytes -= self.undone.drain(..).map(|(_, n_bytes)| n_bytes).sum::<usize>();
             changes.shrink_to_fit();
-            self.keep(Entry { label: label.to_owned(), changes });
+            let number = self.n_commands;
+            self.n_commands += 1;
+            self.keep(Entry { number, label: label.to_owned(), changes });
+            self.forget_oldest();
         }
+    }
+
+    /// The number that the command under way will have.
+    pub const fn next_number(&self) -> u64 {
+        self.n_commands
+    }
+
+    /// How many commands are to be taken back, or else to be done again, until a command is the next
+    /// one to be done; none where it is forgotten.
+    pub fn way_before(&self, number: u64) -> Option<(usize, usize)> {
+        let place = |list: &VecDeque<(Entry, usize)>| {
+            list.iter().rev().position(|(entry, _)| entry.number == number)
+        };
+        let back = place(&self.done).map(|n| (n + 1, 0));
+        back.or_else(|| Some((0, place(&self.undone)?)))
     }
 
     /// Ends the command under way without a trace; gives what takes it back.
@@ -130,11 +154,10 @@ impl Journal {
         let n_bytes = entry.n_bytes();
         self.n_bytes += n_bytes;
         self.done.push_back((entry, n_bytes));
-        self.forget_oldest();
     }
 
     /// Forgets what is farthest from now, where there is more than is kept.
-    fn forget_oldest(&mut self) {
+    pub fn forget_oldest(&mut self) {
         while self.done.len() > UNDO_COMMANDS
             || self.n_bytes > UNDO_BYTES && self.done.len() + self.undone.len() > 1
         {
@@ -164,7 +187,6 @@ impl Journal {
         let n_bytes = entry.n_bytes();
         self.n_bytes += n_bytes;
         self.undone.push_back((entry, n_bytes));
-        self.forget_oldest();
     }
 
     /// The last command undone.

@@ -6,7 +6,7 @@ use super::recorder::Recorder;
 use crate::session::series::swap_sample;
 use crate::session::state::State;
 use crate::solve::{Memory, Settings, Solver};
-use crate::world::{Edit, PointId, World};
+use crate::world::{Edit, Moment, PointId, World};
 
 impl State {
     /// Makes a reversible change; gives the change that takes it back.
@@ -171,6 +171,15 @@ impl History {
         self.sync(state);
     }
 
+    /// Puts everything as it was at a moment, as part of the command under way.
+    pub fn go_to(&mut self, state: &mut State, moment: Moment) {
+        self.begin_motion(state);
+        let before = state.world.go_to(moment);
+        if before.has_paths() {
+            self.journal.current.push(Change::World(Edit::Motion(Box::new(before))));
+        }
+    }
+
     /// Keeps what the solver remembers from here on, before the command under way has it take in an
     /// edit.
     fn note_memory(&mut self, state: &mut State) {
@@ -219,23 +228,55 @@ impl History {
 
     /// Takes back the last command; gives its text, if there was one.
     pub fn undo(&mut self, state: &mut State) -> Option<String> {
+        let label = self.step_back(state);
+        self.journal.forget_oldest();
+        label
+    }
+
+    /// Does the command that was taken back last again; gives its text, if there was one.
+    pub fn redo(&mut self, state: &mut State) -> Option<String> {
+        let label = self.step_forth(state);
+        self.journal.forget_oldest();
+        label
+    }
+
+    fn step_back(&mut self, state: &mut State) -> Option<String> {
         let inverse = invert(state, self.journal.pop_done()?);
         let label = inverse.label.clone();
         self.journal.push_undone(inverse);
         Some(label)
     }
 
-    /// Does the command that was taken back last again; gives its text, if there was one.
-    pub fn redo(&mut self, state: &mut State) -> Option<String> {
+    fn step_forth(&mut self, state: &mut State) -> Option<String> {
         let inverse = invert(state, self.journal.pop_undone()?);
         let label = inverse.label.clone();
         self.journal.keep(inverse);
         Some(label)
+    }
+
+    /// Asks something of the state as it was before a command, or would be once it is the next to be
+    /// done again; none where that is forgotten, or a command is under way.
+    pub(super) fn before<T>(
+        &mut self,
+        number: u64,
+        state: &mut State,
+        ask: impl FnOnce(&State) -> T,
+    ) -> Option<T> {
+        if !self.journal.current.is_empty() {
+            return None;
+        }
+        let (n_back, n_forth) = self.journal.way_before(number)?;
+        (0..n_back).for_each(|_| drop(self.step_back(state)));
+        (0..n_forth).for_each(|_| drop(self.step_forth(state)));
+        let answer = ask(state);
+        (0..n_forth).for_each(|_| drop(self.step_back(state)));
+        (0..n_back).for_each(|_| drop(self.step_forth(state)));
+        Some(answer)
     }
 }
 
 /// Takes back one command, or does it again; gives what takes that back.
 fn invert(state: &mut State, entry: Entry) -> Entry {
     let changes = entry.changes.into_iter().rev().map(|change| state.apply(change)).collect();
-    Entry { label: entry.label, changes }
+    Entry { changes, ..entry }
 }

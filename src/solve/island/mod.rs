@@ -4,6 +4,7 @@ pub mod before;
 pub mod fingerprint;
 pub mod history;
 pub mod inputs;
+pub mod known_sides;
 pub mod memory;
 pub mod partition;
 pub mod recall;

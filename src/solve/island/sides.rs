@@ -1,6 +1,7 @@
 //! On which side of its singular pose everything in an island is, and what turned over.
 
 use super::Island;
+use super::known_sides::{KnownSides, WatchedSides};
 use crate::constraint::PointIdx;
 use crate::solve::frame::branch::{FLAT, PartSide};
 use crate::solve::frame::decomposition::Side;
@@ -21,31 +22,6 @@ pub(crate) struct Sides {
     /// Of each watched triangle.
     triangles: Vec<f64>,
     parts: Vec<Option<PartSide>>,
-}
-
-/// On which side everything was when last looked at, as far as that is known.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct KnownSides {
-    blocks: Box<[Side]>,
-    /// Of what is watched in parts that are solved as a whole; none if nothing is.
-    watched: Option<Box<WatchedSides>>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct WatchedSides {
-    triangles: Vec<f64>,
-    parts: Vec<Option<PartSide>>,
-    knows_parts: bool,
-}
-
-impl KnownSides {
-    /// Roughly how many bytes it holds, but for itself.
-    pub fn n_bytes(&self) -> usize {
-        let watched = self.watched.as_ref().map_or(0, |watched| {
-            size_of_val(&*watched.triangles) + size_of_val(&*watched.parts) + 64
-        });
-        size_of_val(&*self.blocks) + watched
-    }
 }
 
 impl Island {

@@ -1,7 +1,7 @@
 //! What is remembered of one island, and how it is written as plain numbers.
 
 use super::inputs::Inputs;
-use super::sides::KnownSides;
+use super::known_sides::KnownSides;
 use crate::constraint::Point;
 use crate::solve::report::Status;
 

@@ -93,9 +93,9 @@ impl Solver {
         let Self { partition, pending, notes, .. } = self;
         let made = partition.update(touched, &outdated, world, &mut |island| {
             notes.note(island);
-            pending.entry(island.points[0]).or_insert_with(|| {
-                (!island.is_new).then(|| memory::snapshot_of(island))
-            });
+            pending
+                .entry(island.points[0])
+                .or_insert_with(|| (!island.is_new).then(|| memory::snapshot_of(island)));
         });
         for &k in &made {
             self.is_awake.resize(self.is_awake.len().max(k as usize + 1), false);

@@ -229,7 +229,8 @@ impl Solver {
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
     /// to become so before the solver is called again.
     pub fn recall(&mut self, then: Recall) -> Recall {
-        let mut now = Recall { islands: Vec::with_capacity(then.islands.len()), settings: self.settings };
+        let mut now =
+            Recall { islands: Vec::with_capacity(then.islands.len()), settings: self.settings };
         for (first, snapshot) in then.islands {
             now.islands.push((first, self.remembered(first)));
             self.pending.insert(first, snapshot);
@@ -241,7 +242,8 @@ impl Solver {
 
     /// Whether what was noted is what is remembered.
     pub fn is_at(&self, recall: &Recall) -> bool {
-        let counts = |snapshot: Option<Arc<Snapshot>>| snapshot.filter(|snapshot| !snapshot.is_new());
+        let counts =
+            |snapshot: Option<Arc<Snapshot>>| snapshot.filter(|snapshot| !snapshot.is_new());
         let mut islands = recall.islands.iter();
         islands.all(|(first, then)| counts(self.remembered(*first)) == counts(then.clone()))
     }
