@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::diag::visible;
+
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
 /// Without a command a session begins: a prompt on a terminal, or statements read from
@@ -92,14 +94,24 @@ pub struct HostArguments {
     /// Work with so many cores, not with all; the results are the same to the bit.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Let scripts write anywhere, not only below the output folder.
+    /// Let scripts read and write anywhere, not only below their own folder and the output folder.
     #[arg(long)]
     pub allow_any_path: bool,
+    /// Let scripts read files in this folder and below it too; may be given several times.
+    #[arg(short = 'I', value_name = "DIR")]
+    pub libraries: Vec<PathBuf>,
+    /// Replace files even if linkwork did not write them.
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// The arguments of this process; on a mistake, or for `--help`, the process ends here.
 pub fn parse() -> Arguments {
-    Arguments::parse()
+    Arguments::try_parse().unwrap_or_else(|problem| {
+        // What is wrong is told with what was typed, as a terminal may show it.
+        let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
+        Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
+    })
 }
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.

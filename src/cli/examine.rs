@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use super::args::{AccuracyArguments, ExamineArguments, HostArguments};
-use super::output;
 use super::process_host::ProcessHost;
 use super::run::{ExitStatus, begin, script};
+use super::{files, output};
 use crate::session::{Flow, Session, Silent, Telling};
 
 /// Says what there is to know about the mechanism at a script's end.
@@ -63,7 +63,7 @@ pub fn accuracy(wish: &AccuracyArguments) -> ExitStatus {
 /// The status of a script that failed, which has said why.
 fn run_in_silence(file: &Path, host: &HostArguments) -> Result<(Session, ProcessHost), ExitStatus> {
     let mut session = begin(host);
-    let mut process = ProcessHost::new(host);
+    let mut process = ProcessHost::new(host, files::folder_of(file));
     match script(file, &mut session, &mut Silent::new(&mut process)) {
         ExitStatus::Fine => Ok((session, process)),
         status => Err(status),

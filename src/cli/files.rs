@@ -1,37 +1,168 @@
-//! Files: read whole, written whole or not at all.
+//! Files: read whole within bounds, written whole or not at all.
 
-use std::io::{self, Write};
-use std::path::Path;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 /// What some editors put before a text in UTF-8.
 pub const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Reads a text in UTF-8.
+/// How the name of a file begins that is being written.
+const DRAFT: &str = ".linkwork-";
+
+/// So many bytes of a file show what it is: the heading of a table may be long.
+const OPENING: u64 = 8 << 10;
+
+/// Bytes of a text that are read at most.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Reads a text in UTF-8 from a file, or from a pipe by the name of one.
 pub fn read(path: &Path) -> io::Result<String> {
-    text(std::fs::read(path)?)
+    read_text(File::open(path)?)
+}
+
+/// Reads a text in UTF-8, of which so much is there that it may be a script.
+pub fn read_text(source: impl Read) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(io::ErrorKind::FileTooLarge.into());
+    }
+    text(bytes)
 }
 
 /// The text that `bytes` are. A byte order mark is no part of it: columns count from behind it.
-pub fn text(mut bytes: Vec<u8>) -> io::Result<String> {
+fn text(mut bytes: Vec<u8>) -> io::Result<String> {
     if bytes.starts_with(BYTE_ORDER_MARK) {
         bytes.drain(..BYTE_ORDER_MARK.len());
     }
     String::from_utf8(bytes).map_err(|_| io::Error::from(io::ErrorKind::InvalidData))
 }
 
-/// Writes a file beside its place, then renames it into place; makes the folders it needs.
+/// How a regular file begins; none where there is none, or where it is empty.
+pub fn opening(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    if !is_regular(path)? {
+        return Ok(None);
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(OPENING).read_to_end(&mut bytes)?;
+    Ok(Some(bytes))
+}
+
+/// Whether there is a regular file.
+///
+/// # Errors
+/// Where there is something else, or where it cannot be told.
+pub fn is_regular(path: &Path) -> io::Result<bool> {
+    match fs::metadata(path) {
+        Ok(what) if what.is_file() => Ok(true),
+        Ok(what) if what.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(_) => Err(io::ErrorKind::InvalidInput.into()),
+        Err(e) if is_nothing(&e) => Ok(false),
+        Err(e) => Err(e),
+    }
+}
+
+/// Whether what a path leads to, symbolic links followed, lies in a folder or is still to be made
+/// there. A link that leads nowhere does not, and in a folder that is not there nothing does.
+pub fn is_below(folder: &Path, path: &Path) -> io::Result<bool> {
+    let Some(folder) = real(folder)? else { return Ok(false) };
+    let mut existing = path;
+    loop {
+        if let Some(place) = real(existing)? {
+            return Ok(place.starts_with(&folder));
+        }
+        match existing.parent() {
+            Some(parent) if !existing.is_symlink() => existing = parent,
+            _ => return Ok(false),
+        }
+    }
+}
+
+/// A path without links; none if it leads nowhere.
+fn real(path: &Path) -> io::Result<Option<PathBuf>> {
+    match or_here(path).canonicalize() {
+        Ok(place) => Ok(Some(place)),
+        Err(e) if is_nothing(&e) => Ok(None),
+        Err(e) => Err(e),
+    }
+}
+
+/// Whether this says that there is nothing.
+fn is_nothing(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
+}
+
+/// Writes a file beside its place, then renames it into place; makes the folders it needs. It is
+/// on the disk before it has its name.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new().prefix(".linkwork-").tempfile_in(folder)?;
-    file.write_all(bytes)?;
+    // A link stays one, and what it leads to is written.
+    let place = if path.is_symlink() { path.canonicalize()? } else { path.to_path_buf() };
+    let folder = folder_of(&place);
+    fs::create_dir_all(folder)?;
+    let mut draft = draft_in(folder)?;
+    draft.write_all(bytes)?;
+    if let Ok(old) = fs::metadata(&place) {
+        draft.as_file().set_permissions(old.permissions())?;
+    }
+    draft.as_file().sync_all()?;
+    draft.persist(&place).map_err(|e| e.error)?;
+    #[cfg(unix)]
+    // A file system without this keeps names in its own way.
+    drop(File::open(folder).and_then(|folder| folder.sync_all()));
+    Ok(())
+}
+
+/// A new file in a folder, as the user wants new files to be readable. It is locked for as long as
+/// it is being written: that tells it from one that a killed run left behind.
+fn draft_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(DRAFT);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // A temporary file is private; a result is as readable as any other file.
-        let mode = std::fs::metadata(path).map_or(0o644, |m| m.permissions().mode());
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(mode))?;
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
+    loop {
+        let draft = builder.tempfile_in(folder)?;
+        // Before it was locked it looked like one that was left behind, and may be gone.
+        let is_ours = match draft.as_file().try_lock() {
+            Err(fs::TryLockError::WouldBlock) => false,
+            Ok(()) => draft.path().exists(),
+            // Where nothing can be locked nothing is taken for left behind.
+            Err(fs::TryLockError::Error(_)) => true,
+        };
+        if is_ours {
+            return Ok(draft);
+        }
+    }
+}
+
+/// Removes what runs left behind in a folder that were killed while they wrote.
+pub fn remove_leftovers(folder: &Path) {
+    let Ok(entries) = fs::read_dir(or_here(folder)) else { return };
+    let is_draft = |name: &OsStr| name.to_string_lossy().starts_with(DRAFT);
+    for entry in entries.flatten().filter(|entry| is_draft(&entry.file_name())) {
+        let is_file = entry.file_type().is_ok_and(|it| it.is_file());
+        if is_file
+            && let Ok(draft) = File::open(entry.path())
+            && draft.try_lock().is_ok()
+        {
+            // What cannot be removed is no reason not to go on.
+            drop(fs::remove_file(entry.path()));
+        }
+    }
+}
+
+/// The folder that a file is in.
+pub fn folder_of(file: &Path) -> &Path {
+    file.parent().map_or(Path::new("."), or_here)
+}
+
+/// A path; that of the working folder if it is empty.
+fn or_here(path: &Path) -> &Path {
+    if path.as_os_str().is_empty() { Path::new(".") } else { path }
 }

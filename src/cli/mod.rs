@@ -23,5 +23,6 @@ pub fn run() -> ExitCode {
         None => run::session(&args.session),
     };
     output::flush();
-    status.into()
+    let is_lost = status == run::ExitStatus::Fine && output::has_failed();
+    if is_lost { run::ExitStatus::Unreadable.into() } else { status.into() }
 }

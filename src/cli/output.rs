@@ -3,37 +3,71 @@
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use crate::diag::{Diagnostic, Paint, Sources, render};
+use crate::diag::{Diagnostic, Paint, Sources, render, visible};
 
-/// Answers not yet written: to a file or a pipe they go in large pieces.
-fn out() -> MutexGuard<'static, BufWriter<Stdout>> {
-    static OUT: OnceLock<Mutex<BufWriter<Stdout>>> = OnceLock::new();
-    let out = OUT.get_or_init(|| Mutex::new(BufWriter::with_capacity(1 << 16, io::stdout())));
-    out.lock().unwrap_or_else(PoisonError::into_inner)
+/// Answers not yet written: to a file or a pipe they go in large pieces. Nothing once they cannot be
+/// written any more.
+struct Answers {
+    out: BufWriter<Stdout>,
+    is_terminal: bool,
+    state: State,
 }
 
-/// Writes one line of the answer. A reader that has gone away ends the process quietly.
-pub fn answer(line: &str) {
-    let mut out = out();
-    if let Err(e) = out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")) {
-        end_on(&e);
+/// Whether answers still reach anybody.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Open,
+    /// The reader has gone away, as `head` does: what it does not want is no failure.
+    Closed,
+    /// They could not be written, which the user was told.
+    Failed,
+}
+
+fn answers() -> MutexGuard<'static, Answers> {
+    static ANSWERS: OnceLock<Mutex<Answers>> = OnceLock::new();
+    let answers = ANSWERS.get_or_init(|| {
+        Mutex::new(Answers {
+            out: BufWriter::with_capacity(1 << 16, io::stdout()),
+            is_terminal: io::stdout().is_terminal(),
+            state: State::Open,
+        })
+    });
+    answers.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Answers {
+    fn write(&mut self, write: impl FnOnce(&mut BufWriter<Stdout>) -> io::Result<()>) {
+        if self.state != State::Open {
+            return;
+        }
+        match write(&mut self.out) {
+            Ok(()) => {}
+            Err(e) if e.kind() == io::ErrorKind::BrokenPipe => self.state = State::Closed,
+            Err(e) => {
+                self.state = State::Failed;
+                complain(&format!("error: cannot write the answer: {e}\n"));
+            }
+        }
     }
+}
+
+/// Writes one line of the answer. A reader that has gone away is no reason to stop: what else is
+/// done still counts.
+pub fn answer(line: &str) {
+    let mut answers = answers();
+    let line = if answers.is_terminal { visible(line) } else { line.into() };
+    answers.write(|out| out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")));
 }
 
 /// Writes what is still held back: before anything else is said, before waiting for input,
 /// and at the end.
 pub fn flush() {
-    if let Err(e) = out().flush() {
-        end_on(&e);
-    }
+    answers().write(Write::flush);
 }
 
-fn end_on(error: &io::Error) -> ! {
-    if error.kind() == io::ErrorKind::BrokenPipe {
-        std::process::exit(0);
-    }
-    complain(&format!("error: cannot write the answer: {error}\n"));
-    std::process::exit(3);
+/// Whether an answer could not be written though somebody wanted it.
+pub fn has_failed() -> bool {
+    answers().state == State::Failed
 }
 
 /// Shows a problem, underlined in its text.

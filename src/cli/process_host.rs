@@ -1,5 +1,6 @@
 //! The host of a session that runs in a process: files, a clock, Ctrl-C.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -12,7 +13,15 @@ use crate::session::{Host, contained};
 
 /// The process as a session sees it.
 pub struct ProcessHost {
+    /// Where files are written.
     out: PathBuf,
+    /// Where files may be read, symbolic links followed.
+    readable: Vec<PathBuf>,
+    /// Where what is not beside its script is looked for.
+    libraries: Vec<PathBuf>,
+    /// Folders in which nothing is left of runs that were killed.
+    tidy: BTreeSet<PathBuf>,
+    may_replace_any: bool,
     is_quiet: bool,
     allows_any_path: bool,
     begun: Instant,
@@ -20,10 +29,16 @@ pub struct ProcessHost {
 }
 
 impl ProcessHost {
-    /// The process with the user's wishes.
-    pub fn new(host: &HostArguments) -> Self {
+    /// The process with the user's wishes, for a script in a folder.
+    pub fn new(host: &HostArguments, folder: &Path) -> Self {
+        let mut readable = vec![folder.to_path_buf(), host.out.clone()];
+        readable.extend(host.libraries.iter().cloned());
         Self {
             out: host.out.clone(),
+            readable,
+            libraries: host.libraries.clone(),
+            tidy: BTreeSet::new(),
+            may_replace_any: host.force,
             is_quiet: host.quiet,
             allows_any_path: host.allow_any_path,
             begun: Instant::now(),
@@ -52,15 +67,54 @@ impl Host for ProcessHost {
     }
 
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        let path = if self.allows_any_path { path.to_path_buf() } else { contained(path)? };
-        Ok(self.out.join(path))
+        if self.allows_any_path {
+            return Ok(self.out.join(path));
+        }
+        let place = self.out.join(contained(path)?);
+        // In a folder that is still to be made there is no link yet.
+        if !self.out.exists() || files::is_below(&self.out, &place)? {
+            Ok(place)
+        } else {
+            Err(io::ErrorKind::PermissionDenied.into())
+        }
+    }
+
+    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
+        let folders = std::iter::once(folder).chain(self.libraries.iter().map(PathBuf::as_path));
+        let mut places = folders.map(|folder| folder.join(path));
+        let beside = folder.join(path);
+        let place = places.find(|place| place.exists()).unwrap_or(beside);
+        if self.allows_any_path {
+            return Ok(place);
+        }
+        for folder in &self.readable {
+            if files::is_below(folder, &place)? {
+                return Ok(place);
+            }
+        }
+        Err(io::ErrorKind::PermissionDenied.into())
     }
 
     fn read(&mut self, path: &Path) -> io::Result<String> {
-        files::read(path)
+        if files::is_regular(path)? {
+            files::read(path)
+        } else {
+            Err(io::ErrorKind::NotFound.into())
+        }
+    }
+
+    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
+        if self.may_replace_any {
+            return files::is_regular(path).map(|_| None);
+        }
+        files::opening(path)
     }
 
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let folder = files::folder_of(path);
+        if self.tidy.insert(folder.to_path_buf()) {
+            files::remove_leftovers(folder);
+        }
         files::write(path, bytes)
     }
 

@@ -1,7 +1,7 @@
 //! Running scripts in batch, and the session.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, IsTerminal, Read};
+use std::io::{self, BufRead, IsTerminal};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -49,7 +49,8 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
     let mut unused: Option<BTreeSet<String>> = None;
     for (k, file) in batch.files.iter().enumerate() {
         let mut session = begin(&batch.host);
-        let status = script(file, &mut session, &mut ProcessHost::new(&batch.host));
+        let mut process = ProcessHost::new(&batch.host, files::folder_of(file));
+        let status = script(file, &mut session, &mut process);
         if status != ExitStatus::Fine {
             return status;
         }
@@ -63,7 +64,7 @@ pub fn batch(batch: &RunArguments) -> ExitStatus {
     }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        ProcessHost::new(&batch.host).tell(&warning, &Sources::new());
+        ProcessHost::new(&batch.host, Path::new(".")).tell(&warning, &Sources::new());
     }
     ExitStatus::Fine
 }
@@ -93,9 +94,7 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
 }
 
 fn read_stdin() -> io::Result<String> {
-    let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes)?;
-    files::text(bytes)
+    files::read_text(io::stdin().lock())
 }
 
 /// An empty session.
@@ -113,7 +112,7 @@ pub(super) fn begin(host: &HostArguments) -> Session {
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
 pub fn session(host: &HostArguments) -> ExitStatus {
     let mut session = begin(host);
-    let mut process = ProcessHost::new(host);
+    let mut process = ProcessHost::new(host, Path::new("."));
     let status = if io::stdin().is_terminal() {
         crate::repl::converse(&mut session, &mut process);
         ExitStatus::Fine

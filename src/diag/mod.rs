@@ -9,6 +9,7 @@ mod nearest;
 mod number;
 mod render;
 mod source;
+mod visible;
 
 pub use diagnostic::{Diagnostic, Kind, Label, Severity};
 #[doc(hidden)]
@@ -23,3 +24,4 @@ pub use number::{
 };
 pub use render::{Paint, render};
 pub use source::{Place, Source, SourceId, Sources, Span};
+pub use visible::visible;

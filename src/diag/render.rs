@@ -3,7 +3,7 @@
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::source::clip;
-use super::{Diagnostic, Severity, Sources, Span};
+use super::{Diagnostic, Severity, Sources, Span, visible};
 
 /// Are escape codes for colours written?
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -16,6 +16,7 @@ pub enum Paint {
 
 /// Draws `problem` with the lines of text it is about, without a newline at the end.
 pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
+    let problem = &without_orders(problem);
     let level = match problem.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -44,6 +45,17 @@ pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
         Paint::Coloured => Renderer::styled(),
     };
     renderer.render(&report)
+}
+
+/// A problem whose words may quote anything, as a terminal may show them.
+fn without_orders(problem: &Diagnostic) -> Diagnostic {
+    let mut problem = problem.clone();
+    let shown = |text: &str| visible(text).into_owned();
+    problem.message = shown(&problem.message).into_boxed_str();
+    problem.labels.iter_mut().for_each(|label| label.text = shown(&label.text));
+    problem.notes.iter_mut().for_each(|note| *note = shown(note));
+    problem.helps.iter_mut().for_each(|help| *help = shown(help));
+    problem
 }
 
 /// Deeper chains of `for`, `use` and `include` are counted, not drawn.
@@ -105,7 +117,7 @@ fn snippet<'a>(marks: &[Mark<'a>], sources: &'a Sources) -> Option<Drawn<'a>> {
     });
     Some(
         Snippet::source(&text[from..to])
-            .path(&*source.name)
+            .path(visible(&source.name))
             .line_start(line)
             .annotations(annotations),
     )
@@ -168,6 +180,17 @@ mod tests {
         check("\tab", 1..2, "error: wrong\n --> a.link:1:2\n  |\n1 |     ab\n  |     ^ here");
         let escape = drawn("a\u{1b}[31mb", 0..1);
         assert!(!escape.contains('\u{1b}'), "{escape:?}");
+        let order = "\u{1b}[2J\u{9b}31m\r";
+        let mut sources = Sources::new();
+        let id = sources.add(order, order);
+        let problem = Diagnostic::error(order)
+            .at(Span::new(id, 0..1), order)
+            .also(Span::new(id, 1..2), order)
+            .note(order)
+            .help(order)
+            .reached_from(Span::new(id, 0..1));
+        let drawn = render(&problem, &sources, Paint::Plain);
+        assert!(drawn.chars().all(|c| c == '\n' || !c.is_control()), "{drawn:?}");
     }
 
     #[test]

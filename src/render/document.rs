@@ -11,7 +11,11 @@ use super::figure::{Figure, FigureShape, Outline};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
 use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
+use super::text::printable;
 use crate::diag::format_decimals;
+
+/// How a picture begins that this program drew: `svg` writes attributes in the order of their names.
+pub const FIRST_WORDS: &str = "<svg class=\"linkwork\"";
 
 /// Digits after the point of a px: a hundredth cannot be seen, a tenth can where lines meet.
 const PLACES: usize = 2;
@@ -55,6 +59,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = (format_decimals(width, PLACES), format_decimals(height, PLACES));
 
     let mut root = Element::new("svg");
+    root.assign("class", "linkwork");
     root.assign("xmlns", "http://www.w3.org/2000/svg");
     root.assign("viewBox", format!("0 0 {width} {height}"));
     root.assign("width", width.clone());
@@ -219,9 +224,6 @@ fn track_element(track: &AttributeTrack, duration: f64) -> Element {
 
 fn with_text(name: &str, text: &str) -> Element {
     let mut element = Element::new(name);
-    // XML has no way to write most control characters.
-    let text: String =
-        text.chars().filter(|c| !c.is_control() || matches!(c, '\n' | '\t')).collect();
-    element.append(Text::new(text));
+    element.append(Text::new(printable(text)));
     element
 }

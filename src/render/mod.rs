@@ -39,6 +39,7 @@ pub mod chart;
 // Figures that stand still, as a document.
 mod document;
 mod still;
+mod text;
 
 // Figures in motion.
 mod animation;
@@ -47,7 +48,7 @@ mod keyframes;
 mod trace_animation;
 
 pub use animation::Animation;
-pub use document::Options;
+pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
 pub use still::{svg, svg_with_view};
 pub use view::View;

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::host::{Host, reason};
+use super::file_kind::Parcel;
+use super::host::Host;
 use super::input::Input;
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
@@ -48,7 +49,7 @@ pub struct Execution<'a> {
     /// Files being included, the outermost first.
     pub included: Vec<PathBuf>,
     /// Files to be written when the command has succeeded.
-    pub outbox: Vec<(PathBuf, Vec<u8>, Span)>,
+    pub outbox: Vec<Parcel>,
     /// What has run so far.
     pub run: Option<Summary>,
     /// Where likely slips were found.
@@ -162,28 +163,5 @@ impl<'a> Execution<'a> {
     /// Warns the user.
     pub fn warn(&mut self, warning: &Diagnostic) {
         self.host.tell(warning, &self.input.sources);
-    }
-
-    /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
-    pub fn queue_file(&mut self, file: PathBuf, bytes: Vec<u8>, span: Span) {
-        self.outbox.retain(|(other, ..)| *other != file);
-        self.outbox.push((file, bytes, span));
-    }
-
-    /// Writes the files of a command that succeeded. One that cannot be written keeps no
-    /// other back.
-    pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
-        let mut result = Ok(());
-        for (path, bytes, span) in std::mem::take(&mut self.outbox) {
-            let written = self.host.resolve(&path).and_then(|at| self.host.write(&at, &bytes));
-            if let Err(e) = written
-                && result.is_ok()
-            {
-                let problem = Diagnostic::error(format!("cannot write `{}`", path.display()));
-                let why = reason(&e);
-                result = Err(problem.kind(Kind::Unreadable).at(span, why));
-            }
-        }
-        result
     }
 }

@@ -40,6 +40,24 @@ pub trait Host {
     /// Where there is none, or it cannot be read.
     fn read(&mut self, path: &Path) -> io::Result<String>;
 
+    /// Where a file that a script reads lies; `folder` is that of the text which names it. By
+    /// default it is looked for there, whatever it is.
+    ///
+    /// # Errors
+    /// [`PermissionDenied`](io::ErrorKind::PermissionDenied) where scripts may not read.
+    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
+        Ok(folder.join(path))
+    }
+
+    /// How a file begins that is to be replaced, up to some kilobytes; none where there is none, or
+    /// where any file may be replaced. By default all files are the session's own.
+    ///
+    /// # Errors
+    /// Where what is there is no file, or cannot be read.
+    fn opening(&mut self, _path: &Path) -> io::Result<Option<Vec<u8>>> {
+        Ok(None)
+    }
+
     /// Writes a file whole or not at all, at a place that [`resolve`](Self::resolve) gave;
     /// makes the folders it needs.
     ///
@@ -92,6 +110,8 @@ pub fn reason(error: &io::Error) -> String {
         io::ErrorKind::IsADirectory => "this is a folder".to_owned(),
         io::ErrorKind::AlreadyExists => "a file is where a folder has to be".to_owned(),
         io::ErrorKind::NotADirectory => "part of the path is not a folder".to_owned(),
+        io::ErrorKind::InvalidInput => "this is no regular file".to_owned(),
+        io::ErrorKind::FileTooLarge => "it is too large to be a script".to_owned(),
         io::ErrorKind::StorageFull => "the disk is full".to_owned(),
         _ => error.to_string(),
     }

@@ -49,6 +49,10 @@ impl Host for Silent<'_> {
         }
     }
 
+    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
+        self.host.find(folder, path)
+    }
+
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         self.written.insert(path.to_path_buf(), bytes.to_vec());
         Ok(())

@@ -37,12 +37,13 @@ pub fn table(study: &Study) -> Vec<String> {
     lines
 }
 
+/// The names over the columns of the CSV.
+pub const CSV_HEADING: &str = "method,iterations,tolerance,seconds_per_frame,spread,rounds,\
+     residual,position_error,failed_frames,efficient";
+
 /// The rows as CSV, with a line of names.
 pub fn csv(study: &Study) -> String {
-    let mut text = String::from(
-        "method,iterations,tolerance,seconds_per_frame,spread,rounds,residual,position_error,\
-         failed_frames,efficient\n",
-    );
+    let mut text = format!("{CSV_HEADING}\n");
     for row in &study.rows {
         let position = row.position_error.map(format_number).unwrap_or_default();
         // Writing to a string cannot fail.

@@ -5,41 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use tempfile::TempDir;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_linkwork");
-
-/// A folder with these files.
-fn folder(files: &[(&str, &str)]) -> TempDir {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for (name, text) in files {
-        let path = folder.path().join(name);
-        fs::create_dir_all(path.parent().expect("it has a folder")).expect("a folder");
-        fs::write(path, text).expect("a file");
-    }
-    folder
-}
-
-/// Runs the program in a folder with a text on standard input.
-fn run(folder: &Path, args: &[&str], input: &str) -> Output {
-    let mut command = Command::new(PROGRAM);
-    let command = command.current_dir(folder).args(args).env("RUST_BACKTRACE", "0");
-    let mut child = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let mut stdin = child.stdin.take().expect("it is piped");
-    // A program that has read enough closes its end.
-    drop(stdin.write_all(input.as_bytes()));
-    drop(stdin);
-    child.wait_with_output().expect("the program ends")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("the program writes text")
-}
+use crate::support::program::{PROGRAM, folder, run, text};
 
 /// A script in batch: its exit status, what it answers, and a part of what it says.
 fn check(script: &str, status: i32, answer: &str, says: &str) {
@@ -230,18 +196,6 @@ fn recordings_are_written_by_the_end_of_the_script_and_after_a_mistake() {
 }
 
 #[test]
-fn save_replaces_what_it_wrote_and_nothing_else() {
-    let folder = folder(&[("mine.link", "point A = (1, 2)  # by hand\n")]);
-    let out = run(folder.path(), &[], "point B = (3, 4)\nsave \"s.link\"\nsave \"s.link\"\n");
-    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
-    let out = run(folder.path(), &[], "save \"mine.link\"\nprint 5\n");
-    assert_eq!((out.status.code(), text(&out.stdout)), (Some(2), "5\n".to_owned()));
-    assert!(text(&out.stderr).contains("`save` did not write it"), "{}", text(&out.stderr));
-    let mine = fs::read_to_string(folder.path().join("mine.link")).expect("it is still there");
-    assert_eq!(mine, "point A = (1, 2)  # by hand\n");
-}
-
-#[test]
 fn the_same_script_writes_the_same_bytes() {
     let folder = folder(&[("a.link", RECORDED)]);
     let written = |out: &str| {
@@ -350,13 +304,55 @@ mod unix {
     }
 
     #[test]
-    fn a_reader_that_goes_away_ends_the_program_quietly() {
-        let folder = folder(&[("a.link", "for i in 1..200000 { print i }")]);
-        let mut child = endless(folder.path());
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("a line");
-        assert_eq!(line, "1\n");
-        let out = child.wait_with_output().expect("it ends");
-        assert_eq!((out.status.code(), text(&out.stderr)), (Some(0), String::new()));
+    fn a_reader_that_goes_away_leaves_the_rest_to_be_done() {
+        for (end, status) in [("", 0), ("assert 1 = 2", 1), ("nonsense", 2)] {
+            let script = format!("for i in 1..100000 {{ print i }}\nsvg \"late.svg\"\n{end}");
+            let folder = folder(&[("a.link", &script)]);
+            let mut child = endless(folder.path());
+            let mut line = String::new();
+            let answers = child.stdout.take().expect("piped");
+            BufReader::new(answers).read_line(&mut line).expect("a line");
+            assert_eq!(line, "1\n");
+            let out = child.wait_with_output().expect("it ends");
+            let said = text(&out.stderr);
+            assert_eq!(out.status.code(), Some(status), "{said}");
+            assert_eq!(said.is_empty(), status == 0, "{said}");
+            assert!(folder.path().join("late.svg").exists(), "before {end:?}");
+        }
     }
+
+    #[test]
+    fn an_answer_that_cannot_be_written_is_a_failure_told_once() {
+        let Ok(full) = fs::File::options().write(true).open("/dev/full") else { return };
+        let script = "for i in 1..100000 { print i }\nsvg \"late.svg\"";
+        let folder = folder(&[("a.link", script)]);
+        let out = Command::new(PROGRAM)
+            .current_dir(folder.path())
+            .args(["run", "a.link"])
+            .stdout(full)
+            .output()
+            .expect("the program starts");
+        assert_eq!(out.status.code(), Some(3));
+        assert_eq!(text(&out.stderr).matches("cannot write the answer").count(), 1);
+        assert!(folder.path().join("late.svg").exists());
+    }
+}
+
+#[test]
+fn what_is_quoted_gives_a_terminal_no_orders() {
+    let order = "\u{1b}[2J\u{7}\u{9b}";
+    let folder = folder(&[]);
+    let missing = format!("{order}.link");
+    for args in
+        [&["run", &missing][..], &[&format!("--{order}")], &["run", "a", "--threads", order]]
+    {
+        let out = run(folder.path(), args, "");
+        let said = text(&out.stderr);
+        assert!(!said.is_empty() && !said.contains(['\u{1b}', '\u{7}', '\u{9b}']), "{said:?}");
+    }
+    let typed = format!("include \"{order}\"\nhelp {order}\nsave \"{order}/\"\nprint \"{order}\"");
+    let out = run(folder.path(), &[], &typed);
+    let said = text(&out.stderr);
+    assert!(said.contains('\u{fffd}') && !said.contains(['\u{1b}', '\u{7}']), "{said:?}");
+    assert_eq!(text(&out.stdout), format!("{order}\n"), "a program gets what was printed");
 }

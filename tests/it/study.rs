@@ -350,5 +350,5 @@ fn series_are_undone_saved_and_plotted() {
     assert_eq!(&*problem.message, "there is nothing to plot");
     let problem = run(&mut session, &mut notebook, "sample \"c\" = 2; plot \"e.png\"")
         .expect_err("not an SVG");
-    assert_eq!(&*problem.message, "`plot` writes an SVG picture");
+    assert_eq!(&*problem.message, "this is no name of a picture");
 }

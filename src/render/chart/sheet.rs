@@ -8,6 +8,8 @@ use std::fmt::Write;
 
 use crate::constraint::Point;
 use crate::diag::format_decimals;
+use crate::render::FIRST_WORDS;
+use crate::render::text::printable;
 
 const FONT: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
 
@@ -86,7 +88,7 @@ impl Sheet {
         let (width, height, title) = (number(width), number(height), escaped(title));
         Self {
             svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+                "{FIRST_WORDS} xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
                  width=\"{width}\" height=\"{height}\" font-family=\"{FONT}\">\n\
                  <title>{title}</title>\n\
                  <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
@@ -188,5 +190,6 @@ impl Sheet {
 }
 
 fn escaped(words: &str) -> String {
+    let words = printable(words);
     words.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

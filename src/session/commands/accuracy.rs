@@ -5,12 +5,17 @@ use std::path::{Path, PathBuf};
 use crate::diag::{Diagnostic, Span, format_rounded, format_seconds};
 use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
+use crate::session::file_kind::FileKind;
 use crate::session::host::NO_CLOCK;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::study::{
-    Advice, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, json, ladder, picture,
-    study, table,
+    Advice, CSV_HEADING, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, json, ladder,
+    picture, study, table,
 };
+
+/// The files that a study writes.
+const FILES: [(&str, FileKind); 2] =
+    [("accuracy.csv", FileKind::Table(CSV_HEADING)), ("accuracy.svg", FileKind::Picture)];
 
 /// How long a study takes at most, roughly, seconds: longer and nobody would ask.
 const SECONDS: f64 = 30.0;
@@ -63,6 +68,9 @@ impl Execution<'_> {
         if self.host.seconds().is_none() {
             return Err(Diagnostic::error(NO_CLOCK)
                 .at(span, "`accuracy` measures what accuracy costs in time"));
+        }
+        for (name, kind) in FILES {
+            self.must_be_replaceable(Path::new(name), kind, span)?;
         }
         let motion = self.repeatable_motion(n_frames);
         let host = &self.host;
@@ -127,10 +135,9 @@ impl Execution<'_> {
         }
         self.note(study.summary());
         let title = self.title(span);
-        let picture = picture(study, &title).into_bytes();
-        let files = [("accuracy.csv", csv(study).into_bytes()), ("accuracy.svg", picture)];
-        for (name, bytes) in files {
-            self.outbox.push((PathBuf::from(name), bytes, span));
+        let texts = [csv(study), picture(study, &title)];
+        for ((name, kind), text) in FILES.into_iter().zip(texts) {
+            self.queue_file(PathBuf::from(name), kind, text.into_bytes(), span);
         }
     }
 

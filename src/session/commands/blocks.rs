@@ -1,6 +1,7 @@
 //! Blocks: `for`, `define` and `use`, `include` and `load`.
 
 use std::fmt::Write;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -155,8 +156,7 @@ impl Execution<'_> {
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
-        let folder = self.input.folder(path.span.source);
-        let file = folder.join(Path::new(&*path.value));
+        let file = self.find(path)?;
         if self.included.contains(&file) {
             return Err(Diagnostic::error(format!("`{}` includes itself", path.value))
                 .at(path.span, "this file is being included already"));
@@ -175,26 +175,39 @@ impl Execution<'_> {
         Some((file, text))
     }
 
-    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
-        self.host.read(file).map_err(|e| {
-            Diagnostic::error(format!("cannot read `{}`", path.value))
-                .kind(Kind::Unreadable)
-                .at(path.span, reason(&e))
+    /// Where a file lies that is to be read.
+    fn find(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+        let folder = self.input.folder(path.span.source);
+        self.host.find(&folder, Path::new(&*path.value)).map_err(|e| match e.kind() {
+            io::ErrorKind::PermissionDenied => elsewhere(path),
+            _ => unreadable(path, &e),
         })
+    }
+
+    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
+        self.host.read(file).map_err(|e| unreadable(path, &e))
     }
 
     /// Carries out the statements of a file as part of the command under way.
     fn perform_text(&mut self, file: &Path, text: &str, span: Span) -> Result<Flow, Diagnostic> {
         let folder = file.parent().map(Path::to_path_buf);
         let source = self.input.add_piece(&file.to_string_lossy(), text, 1, folder);
-        self.nested(span, |execution| {
+        let mut n_done = 0;
+        let result = self.nested(span, |execution| {
             for statement in crate::lang::parse(source, text) {
                 let flow = execution.dispatch(&statement?)?;
                 if flow != Flow::On {
                     return Ok(flow);
                 }
+                n_done += 1;
             }
             Ok(Flow::On)
+        });
+        // What is no script at all may hold what is not for everybody's eyes.
+        let is_script = n_done > 0 || file.extension().is_some_and(|ending| ending == "link");
+        result.map_err(|problem| match problem.kind {
+            Kind::Mistake if !is_script => no_script(file, span),
+            _ => problem,
         })
     }
 
@@ -202,15 +215,35 @@ impl Execution<'_> {
     /// then beside the text that loads it.
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
-        let folder = self.input.folder(path.span.source);
-        let beside = folder.join(Path::new(&*path.value));
         let (file, text) = if let Some(found) = self.saved(Path::new(&*path.value)) {
             found
         } else {
-            let text = self.read(&beside, path)?;
-            (beside, text)
+            let file = self.find(path)?;
+            let text = self.read(&file, path)?;
+            (file, text)
         };
         self.clear();
         self.perform_text(&file, &text, span)
     }
+}
+
+fn unreadable(path: &Text, error: &io::Error) -> Diagnostic {
+    Diagnostic::error(format!("cannot read `{}`", path.value))
+        .kind(Kind::Unreadable)
+        .at(path.span, reason(error))
+}
+
+/// What is wrong with a path that leads where scripts may not read.
+fn elsewhere(path: &Text) -> Diagnostic {
+    Diagnostic::error("files are read below the folder of the first script only")
+        .at(path.span, "this path leads elsewhere")
+        .help("`-I DIR` on the command line adds a folder")
+        .help("`--allow-any-path` on the command line permits it")
+}
+
+/// What is wrong where a file was read that is no script; nothing of it is shown.
+fn no_script(file: &Path, span: Span) -> Diagnostic {
+    Diagnostic::error(format!("`{}` is no script", file.display()))
+        .at(span, "its first statement cannot be carried out")
+        .help("what is wrong with it is shown where its name ends in `.link`")
 }

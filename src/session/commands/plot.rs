@@ -6,6 +6,7 @@ use crate::diag::Diagnostic;
 use crate::lang::ast::{Expr, PlotPart, Text};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
+use crate::session::file_kind::FileKind;
 use crate::session::undo::journal::Change;
 
 impl Execution<'_> {
@@ -18,11 +19,7 @@ impl Execution<'_> {
     }
 
     pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
-        let file = self.output_path(path)?;
-        if !path.value.to_ascii_lowercase().ends_with(".svg") {
-            return Err(Diagnostic::error("`plot` writes an SVG picture")
-                .at(path.span, "expected a name that ends in `.svg`"));
-        }
+        let file = self.output_file(path, FileKind::Picture)?;
         if self.state.series.is_empty() {
             return Err(Diagnostic::error("there is nothing to plot")
                 .at(path.span, "no series has a value")
@@ -49,7 +46,7 @@ impl Execution<'_> {
             data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
-        self.outbox.push((file, chart.svg().into_bytes(), path.span));
+        self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), path.span);
         Ok(())
     }
 }

@@ -11,30 +11,18 @@ use crate::lang::ast::{
     Binding, Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
 };
 use crate::session::execution::Execution;
+use crate::session::file_kind::{FileKind, SCRIPT_MARK};
 use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, text_of, vector};
 use crate::session::state::State;
 use crate::solve::CogForm;
 use crate::terms::Shape;
 use crate::world::{ConstraintId, Drivers, Formula, Mention, ParameterId, Record};
 
-/// How a file that `save` wrote begins.
-const FIRST_WORDS: &str = "# A linkwork session.";
-
 impl Execution<'_> {
     pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
-        let file = self.output_file(path)?;
-        let there = self.host.resolve(&file).and_then(|at| self.host.read(&at));
-        // What a hand wrote cannot be written anew by a machine.
-        if there.is_ok_and(|text| !text.trim().is_empty() && !text.starts_with(FIRST_WORDS)) {
-            let name = &path.value;
-            return Err(Diagnostic::error(format!(
-                "`{name}` is there, and `save` did not write it"
-            ))
-            .at(path.span, "it would be lost")
-            .help("choose another name, or remove the file first"));
-        }
+        let file = self.output_file(path, FileKind::Script)?;
         let text = self.state.to_script();
-        self.queue_file(file, text.into_bytes(), path.span);
+        self.queue_file(file, FileKind::Script, text.into_bytes(), path.span);
         Ok(())
     }
 }
@@ -42,7 +30,7 @@ impl Execution<'_> {
 impl State {
     /// The script that makes this world, its settings and its state.
     pub fn to_script(&self) -> String {
-        let mut script = format!("{FIRST_WORDS} `load` it, or run it as a script.\n");
+        let mut script = format!("{SCRIPT_MARK} `load` it, or run it as a script.\n");
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
             line(&mut script, Building::Define(definition.clone()));

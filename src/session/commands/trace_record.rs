@@ -1,13 +1,12 @@
 //! Traces, ghosts, pictures and recordings.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::diag::{Diagnostic, Kind, Span};
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
 use crate::render::{Animation, Scene, View, svg, svg_with_view};
 use crate::session::execution::Execution;
-use crate::session::host::{contained, reason};
+use crate::session::file_kind::{FileKind, Parcel, ends_in};
 use crate::session::preferences::Preferences;
 use crate::session::resolve::scope::ALL;
 use crate::session::undo::journal::Change;
@@ -96,41 +95,8 @@ impl Execution<'_> {
         }
     }
 
-    /// Where an output path that is to be one file leads.
-    pub(crate) fn output_file(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
-        let file = self.output_path(path)?;
-        if path.value.ends_with('/') || file.file_name().is_none() {
-            return Err(Diagnostic::error("this is no file")
-                .at(path.span, "expected a file name, this names a folder"));
-        }
-        Ok(file)
-    }
-
-    /// Where an output path leads; refused where the host does not let scripts write.
-    pub(crate) fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
-        let given = Path::new(&*path.value);
-        if path.value.is_empty() || path.value.contains('\0') {
-            return Err(
-                Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
-            );
-        }
-        match self.host.resolve(given) {
-            // The same file by another name is the same file.
-            Ok(_) => Ok(contained(given).unwrap_or_else(|_| given.to_path_buf())),
-            Err(e) if e.kind() == io::ErrorKind::PermissionDenied => {
-                Err(Diagnostic::error("files are written below the output folder only")
-                    .at(path.span, "this path leads elsewhere")
-                    .help("name the file alone: the output folder is `--out`, or where you are")
-                    .help("`--allow-any-path` on the command line permits it"))
-            }
-            Err(e) => Err(Diagnostic::error(format!("cannot write `{}`", path.value))
-                .kind(Kind::Unreadable)
-                .at(path.span, reason(&e))),
-        }
-    }
-
     pub(crate) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
-        let file = self.output_file(path).map_err(|problem| {
+        let file = self.output_file(path, FileKind::Picture).map_err(|problem| {
             if !path.value.ends_with('/') {
                 return problem;
             }
@@ -141,24 +107,31 @@ impl Execution<'_> {
             &scene,
             &self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref())),
         );
-        self.queue_file(file, picture.into_bytes(), path.span);
+        self.queue_file(file, FileKind::Picture, picture.into_bytes(), path.span);
         Ok(())
     }
 
     pub(crate) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
         let every = self.every(every)?;
-        let file = self.output_path(path)?;
-        let is_named = |ending: &str| path.value.to_ascii_lowercase().ends_with(ending);
         let format = if path.value.ends_with('/') {
             Format::Frames
-        } else if is_named(".svg") {
+        } else if ends_in(&path.value, ".svg") {
             Format::Movie
-        } else if is_named(".csv") {
+        } else if ends_in(&path.value, ".csv") {
             Format::Table
         } else {
+            self.output_path(path)?;
             return Err(Diagnostic::error("what is this recording to become?")
                 .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
                 .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
+        };
+        let file = match format {
+            Format::Frames => {
+                let folder = self.output_path(path)?;
+                self.must_be_replaceable(&folder.join(frame_name(0)), format.kind(), path.span)?;
+                folder
+            }
+            Format::Movie | Format::Table => self.output_file(path, format.kind())?,
         };
         if self.state.recorders.iter().any(|r| r.path == file) {
             return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
@@ -203,9 +176,7 @@ impl Execution<'_> {
                     if recorder.has_times_only() {
                         bare.push(recorder.span);
                     }
-                    let file =
-                        (recorder.path.clone(), recorder.table().into_bytes(), recorder.span);
-                    self.outbox.push(file);
+                    self.outbox.push(parcel(recorder, recorder.path.clone(), recorder.table()));
                 }
                 Format::Frames => {
                     let view = View::of(recorder.scenes().map(|(scene, _)| scene));
@@ -214,8 +185,8 @@ impl Execution<'_> {
                             break;
                         }
                         let picture = svg_with_view(scene, &view, &options);
-                        let path = recorder.path.join(format!("frame-{k:04}.svg"));
-                        self.outbox.push((path, picture.into_bytes(), recorder.span));
+                        let path = recorder.path.join(frame_name(k));
+                        self.outbox.push(parcel(recorder, path, picture));
                     }
                 }
                 Format::Movie => {
@@ -227,8 +198,7 @@ impl Execution<'_> {
                         }
                         movie.push(scene, time);
                     }
-                    let file = (recorder.path.clone(), movie.finish().into_bytes(), recorder.span);
-                    self.outbox.push(file);
+                    self.outbox.push(parcel(recorder, recorder.path.clone(), movie.finish()));
                 }
             }
         }
@@ -253,4 +223,14 @@ impl Execution<'_> {
             self.change(Change::Recorder(idx, None));
         }
     }
+}
+
+/// What a frame of a recording is called in its folder.
+fn frame_name(frame: usize) -> String {
+    format!("frame-{frame:04}.svg")
+}
+
+fn parcel(recorder: &Recorder, file: PathBuf, text: String) -> Parcel {
+    let (kind, span) = (recorder.format.kind(), recorder.span);
+    Parcel { file, bytes: text.into_bytes(), kind, span }
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
 use crate::render::Scene;
+use crate::session::file_kind::FileKind;
 use crate::world::World;
 
 /// One recording.
@@ -31,6 +32,16 @@ pub enum Format {
     Movie,
     /// A table of the traced points.
     Table,
+}
+
+impl Format {
+    /// What each of its files is.
+    pub const fn kind(self) -> FileKind {
+        match self {
+            Self::Frames | Self::Movie => FileKind::Picture,
+            Self::Table => FileKind::PathTable,
+        }
+    }
 }
 
 /// What is kept of one frame.

@@ -3,6 +3,7 @@
 pub mod compare;
 pub mod fresh;
 pub mod notebook;
+pub mod program;
 pub mod scene;
 pub mod sources;
 pub mod talk;
