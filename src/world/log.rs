@@ -1,20 +1,85 @@
-//! Notes, while a command is under way, what running changes as it was before it was changed first:
-//! what it takes to go back is then as much as what was touched, however large the scene.
+//! What running changes, as it was before a command changed it first: what it takes to go back is as
+//! much as what was touched, however large the scene.
 
 use super::marks::Marks;
-use super::motion::{Motion, Start, heading, swap_heading};
-use super::{ConstraintId, PointId, World};
+use super::same::States;
+use super::trace::Tail;
+use super::turning::TurnCounts;
+use super::{Clock, ConstraintId, Ghost, PointId, Sample};
+use crate::constraint::{Constraint, Heading, Point};
+
+/// What takes back all that running changed since a moment, and does it again: of points, motors
+/// and constraints those that changed, as they were.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    pub(super) points: Vec<PointId>,
+    pub(super) at: Vec<Point>,
+    /// Motors of which nothing changed but how far they have turned.
+    pub(super) motors: Vec<ConstraintId>,
+    pub(super) headings: Vec<Heading>,
+    /// Constraints that changed in another way, whole.
+    pub(super) constraints: Vec<(ConstraintId, Constraint)>,
+    /// What `reset` brings back, where that changed.
+    pub(super) start: Option<Box<Start>>,
+    pub(super) clock: Clock,
+    /// None if nothing was counted.
+    pub(super) turn_counts: Option<TurnCounts>,
+    pub(super) traces: Vec<Tail<Sample>>,
+    pub(super) ghosts: Tail<Ghost>,
+}
+
+/// What `reset` brings back.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    pub at: Vec<Point>,
+    pub states: States,
+}
+
+impl Motion {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
+        let traces: usize = self.traces.iter().map(Tail::n_bytes).sum();
+        let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
+        size_of::<Self>()
+            + size_of_val(&**points)
+            + size_of_val(&**at)
+            + size_of_val(&**motors)
+            + size_of_val(&**headings)
+            + size_of_val(&**constraints)
+            + start.as_ref().map_or(0, |s| size_of_val(&*s.at) + 80 * s.states.len())
+            + turn_counts.as_ref().map_or(0, |counts| 80 * counts.len())
+            + size_of_val(&*self.traces)
+            + traces
+            + exposed
+    }
+
+    /// Whether paths or ghosts come back with it.
+    pub fn has_paths(&self) -> bool {
+        let mut traces = self.traces.iter();
+        traces.any(|tail| !tail.then().is_empty()) || !self.ghosts.then().is_empty()
+    }
+
+    /// Gives up room that is not needed.
+    pub(super) fn shrink(&mut self) {
+        self.points.shrink_to_fit();
+        self.at.shrink_to_fit();
+        self.motors.shrink_to_fit();
+        self.headings.shrink_to_fit();
+        self.constraints.shrink_to_fit();
+    }
+}
 
 /// What was noted since it was asked for.
 #[derive(Debug, Default)]
 pub(super) struct Log {
     /// All of it; none while nobody asks.
-    motion: Option<Box<Motion>>,
-    points: Marks,
-    constraints: Marks,
-    headings: Marks,
+    pub motion: Option<Box<Motion>>,
+    pub points: Marks,
+    pub constraints: Marks,
+    pub headings: Marks,
     /// Whether the headings of all motors that are running now are noted.
-    has_headings: bool,
+    pub has_headings: bool,
 }
 
 /// A copy of a world notes nothing until it is asked to.
@@ -28,89 +93,5 @@ impl Log {
     /// Other motors may be running from here on.
     pub fn note_motor_lists(&mut self) {
         self.has_headings = false;
-    }
-}
-
-impl World {
-    /// From here on what running changes is noted as it is now, as soon as it is about to change.
-    pub fn begin_motion(&mut self) {
-        let motion = Box::new(self.bare_motion());
-        let log = &mut self.log;
-        log.points.begin();
-        log.constraints.begin();
-        log.headings.begin();
-        log.has_headings = false;
-        log.motion = Some(motion);
-    }
-
-    /// What brings back all that running changed since [`begin_motion`](Self::begin_motion).
-    pub fn end_motion(&mut self) -> Option<Box<Motion>> {
-        self.log.motion.take()
-    }
-
-    /// A point is about to be put elsewhere.
-    #[inline]
-    pub(super) fn note_place(&mut self, id: PointId) {
-        if let Some(motion) = &mut self.log.motion
-            && self.log.points.mark(id.idx())
-        {
-            motion.points.push(id);
-            motion.at.push(self.points.at[id.idx()]);
-        }
-    }
-
-    /// A constraint is about to change.
-    #[inline]
-    pub(super) fn note_constraint(&mut self, id: ConstraintId) {
-        if self.log.motion.is_some() && self.log.constraints.mark(id.idx()) {
-            self.keep_constraint(id);
-        }
-    }
-
-    fn keep_constraint(&mut self, id: ConstraintId) {
-        let (Some(motion), Some(record)) = (&mut self.log.motion, self.constraints.get(id.idx()))
-        else {
-            return;
-        };
-        let mut constraint = record.constraint.clone();
-        if !self.log.headings.mark(id.idx())
-            && let Some(k) = motion.motors.iter().position(|motor| *motor == id)
-        {
-            // It has turned since it was noted: that goes into the whole.
-            motion.motors.swap_remove(k);
-            swap_heading(&mut constraint, &mut motion.headings.swap_remove(k));
-        }
-        motion.constraints.push((id, constraint));
-    }
-
-    /// Motors are about to turn.
-    pub(super) fn note_headings(&mut self) {
-        if self.log.motion.is_none() || std::mem::replace(&mut self.log.has_headings, true) {
-            return;
-        }
-        for k in 0..self.dependencies.motors().len() {
-            let id = self.dependencies.motors()[k];
-            let record = self.constraints.get(id.idx()).expect("a listed constraint lives");
-            let Some(heading) = heading(&record.constraint) else {
-                self.note_constraint(id);
-                continue;
-            };
-            if self.log.headings.mark(id.idx())
-                && let Some(motion) = &mut self.log.motion
-            {
-                motion.motors.push(id);
-                motion.headings.push(heading);
-            }
-        }
-    }
-
-    /// What `reset` brings back is about to change.
-    pub(super) fn note_start(&mut self) {
-        if let Some(motion) = &mut self.log.motion
-            && motion.start.is_none()
-        {
-            let (at, states) = (self.points.start.clone(), self.start_states.clone());
-            motion.start = Some(Box::new(Start { at, states }));
-        }
     }
 }

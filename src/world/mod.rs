@@ -41,6 +41,7 @@ mod log;
 pub(crate) mod marks;
 mod moment;
 mod motion;
+mod noting;
 mod quadrature;
 mod same;
 mod turn_count;
@@ -58,9 +59,9 @@ pub use environments::Rates;
 pub use formula::{Depends, Environment, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
-pub use moment::Moment;
+pub use log::Motion;
 #[doc(hidden)]
-pub use motion::Motion;
+pub use moment::Moment;
 pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};

@@ -1,7 +1,8 @@
 //! All that running changes at one moment, of the whole scene: where a motion that is to be done again
 //! began, and what `reset` goes back to.
 
-use super::motion::{Motion, restore_whole, whole_state};
+use super::log::Motion;
+use super::motion::{restore_whole, whole_state};
 use super::same::{States, bits, is_same_constraint, same_place};
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead};

@@ -4,74 +4,14 @@ use std::collections::BTreeMap;
 
 use super::dependencies::Ramp;
 use super::environments::Within;
+use super::log::Motion;
 use super::quadrature::mean;
-use super::same::{States, are_same_places, are_same_states, is_same_constraint, same_place};
+use super::same::{are_same_places, are_same_states, is_same_constraint, same_place};
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
-use super::{Clock, ConstraintId, Ghost, PointId, Sample, World};
+use super::{Clock, ConstraintId, Ghost, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Heading, Point};
 use crate::diag::Diagnostic;
-
-/// What takes back all that running changed since a moment, and does it again: of points, motors
-/// and constraints those that changed, as they were.
-#[derive(Debug, Clone)]
-pub struct Motion {
-    pub(super) points: Vec<PointId>,
-    pub(super) at: Vec<Point>,
-    /// Motors of which nothing changed but how far they have turned.
-    pub(super) motors: Vec<ConstraintId>,
-    pub(super) headings: Vec<Heading>,
-    /// Constraints that changed in another way, whole.
-    pub(super) constraints: Vec<(ConstraintId, Constraint)>,
-    /// What `reset` brings back, where that changed.
-    pub(super) start: Option<Box<Start>>,
-    pub(super) clock: Clock,
-    /// None if nothing was counted.
-    pub(super) turn_counts: Option<TurnCounts>,
-    pub(super) traces: Vec<Tail<Sample>>,
-    pub(super) ghosts: Tail<Ghost>,
-}
-
-/// What `reset` brings back.
-#[derive(Debug, Clone)]
-pub(super) struct Start {
-    pub at: Vec<Point>,
-    pub states: States,
-}
-
-impl Motion {
-    /// Roughly how many bytes it holds.
-    pub fn n_bytes(&self) -> usize {
-        let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
-        let traces: usize = self.traces.iter().map(Tail::n_bytes).sum();
-        let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
-        size_of::<Self>()
-            + size_of_val(&**points)
-            + size_of_val(&**at)
-            + size_of_val(&**motors)
-            + size_of_val(&**headings)
-            + size_of_val(&**constraints)
-            + start.as_ref().map_or(0, |s| size_of_val(&*s.at) + 80 * s.states.len())
-            + turn_counts.as_ref().map_or(0, |counts| 80 * counts.len())
-            + size_of_val(&*self.traces)
-            + traces
-            + exposed
-    }
-
-    /// Whether paths or ghosts come back with it.
-    pub fn has_paths(&self) -> bool {
-        let mut traces = self.traces.iter();
-        traces.any(|tail| !tail.then().is_empty()) || !self.ghosts.then().is_empty()
-    }
-
-    fn shrink(&mut self) {
-        self.points.shrink_to_fit();
-        self.at.shrink_to_fit();
-        self.motors.shrink_to_fit();
-        self.headings.shrink_to_fit();
-        self.constraints.shrink_to_fit();
-    }
-}
 
 impl World {
     /// The traces and ghosts as they are, to go back to.

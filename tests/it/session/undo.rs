@@ -28,7 +28,7 @@ fn kept_by(talking: &mut Talking, command: &str) -> isize {
     let before = talking.session.undo_bytes();
     // One that fails is one of those.
     let _ = talking.execute(command);
-    talking.session.undo_bytes() as isize - before as isize
+    talking.session.undo_bytes().cast_signed() - before.cast_signed()
 }
 
 #[test]
