@@ -7,6 +7,11 @@ use smallvec::SmallVec;
 use crate::constraint::{Constraint, ConstraintKind, Jet, Point, PointIdx, Row, Vec2, Vector};
 use crate::linalg::DisjointSets;
 
+/// At how many other poses what seems to hold everywhere is looked at.
+const OTHER_POSES: u32 = 3;
+/// The angle between directions no few of which are alike, radians.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
 /// Constraints, in order of creation, at a pose.
 #[derive(Clone, Copy)]
 pub struct ConstraintSystem<'a> {
@@ -160,19 +165,49 @@ impl ConstraintSystem<'_> {
         (rows, unsatisfiable)
     }
 
-    /// The constraints that hold whatever the pose: they are met, and no point, frozen or not, has a
-    /// part in any of their rows.
+    /// The constraints that hold wherever their points go, or, where all of them are frozen, would
+    /// go: no row of theirs feels a point that can, neither here nor at other poses, and all rows are
+    /// met at each of them.
     pub fn identities(&self, tolerance: f64) -> Vec<usize> {
-        let is_identity = |constraint: &Constraint| {
-            let mut is_one = constraint.n_rows() > 0;
-            constraint.jacobian(self.x, &mut |row| {
-                let is_felt = row.terms().any(|(_, g)| g != Vector::ZERO);
-                is_one &= row.is_active && !is_felt && row.f.abs() <= tolerance;
-            });
-            is_one
-        };
         let all = self.constraints.iter().enumerate();
-        all.filter(|(_, constraint)| is_identity(constraint)).map(|(k, _)| k).collect()
+        let is_one = |constraint: &Constraint| {
+            let is_free = |p: PointIdx| self.w[p as usize] > 0.0;
+            let is_any_free = constraint.points().iter().any(|&p| is_free(p));
+            let can_move = |p: PointIdx| is_free(p) || !is_any_free;
+            let holds_at = |x: &[Point]| {
+                let mut holds = constraint.n_rows() > 0;
+                constraint.jacobian(x, &mut |row| {
+                    let is_felt = row.terms().any(|(p, g)| g != Vector::ZERO && can_move(p));
+                    holds &= row.is_active && !is_felt && row.f.abs() <= tolerance;
+                });
+                holds
+            };
+            // At one pose a gradient may vanish though it does not at others, as that of a square.
+            holds_at(self.x)
+                && (1..=OTHER_POSES).all(|k| holds_at(&self.elsewhere(constraint, &can_move, k)))
+        };
+        all.filter(|(_, constraint)| is_one(constraint)).map(|(k, _)| k).collect()
+    }
+
+    /// The `k`th of some poses in which those points of a constraint that can move are somewhere
+    /// else, about as far apart as they are.
+    fn elsewhere(
+        &self,
+        constraint: &Constraint,
+        can_move: &impl Fn(PointIdx) -> bool,
+        k: u32,
+    ) -> Vec<Point> {
+        let mut x = self.x.to_vec();
+        let points = constraint.points();
+        let first = points.first().map_or(Point::ORIGIN, |&p| self.x[p as usize]);
+        let size = points.iter().map(|&p| self.x[p as usize].distance(first)).fold(0.0, f64::max);
+        let reach = if size > 0.0 { 0.5 * size } else { 1.0 };
+        for (n, &p) in points.iter().enumerate().filter(|(_, p)| can_move(**p)) {
+            // A golden angle apart no two points go the same way.
+            let way = Vector::polar(reach, GOLDEN_ANGLE * f64::from(k) * (n + 1) as f64);
+            x[p as usize] = self.x[p as usize] + way;
+        }
+        x
     }
 
     /// The places of all constraints that hang together with some through points that move,

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::figure::Key;
 use super::symbols::{
-    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Gears,
-    Joint, Link, Multiple, Plate, Rail, Ring, Rod, Round, Sense, Support, Symbol, SymbolForm,
-    Symmetry, Telescope, Ticks, TouchMark, Toucher, Web,
+    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Equation,
+    Gears, Joint, Link, Multiple, Plate, Rail, Ring, Rod, Round, Sense, Support, Symbol,
+    SymbolForm, Symmetry, Telescope, Ticks, TouchMark, Toucher, Web,
 };
 use crate::constraint::{
     Bounds, Constraint, ConstraintKind, Contact, Curve, Equal, Field, Length, Orientation, Point,
@@ -246,7 +246,7 @@ impl<'a> Classifier<'a> {
                 self.add(id, record, Round { curve });
             }
             Constraint::Touch(c) => self.touch(id, record, c),
-            Constraint::Hold(_) => {}
+            Constraint::Hold(_) => self.equation(id, record),
             Constraint::Measured(_) => unreachable!("what is stated measures nothing"),
         }
     }
@@ -306,6 +306,26 @@ impl<'a> Classifier<'a> {
             },
         };
         self.add(id, record, TouchMark { curve: first, other });
+    }
+
+    /// An equation at what it measures: at segments whose length or direction it mentions, at its
+    /// other points by themselves.
+    fn equation(&mut self, id: ConstraintId, record: &Record) {
+        let mut segments: Vec<[PointIdx; 2]> = Vec::new();
+        for (_, formula) in record.drivers() {
+            formula.segments(&mut |ends| {
+                let ends = sorted(ends.map(|p| p.0));
+                if !segments.contains(&ends) {
+                    segments.push(ends);
+                }
+            });
+        }
+        let is_alone = |p: &&PointIdx| !segments.iter().flatten().any(|q| q == *p);
+        let points: Vec<PointIdx> =
+            record.constraint.points().iter().filter(is_alone).copied().collect();
+        segments.iter().for_each(|&ends| self.connection(id, record, ends));
+        let is_equality = record.constraint.traits().bounds.is_none_or(Bounds::is_equality);
+        self.add(id, record, Equation { segments, points, is_equality });
     }
 
     fn length(&mut self, id: ConstraintId, record: &Record, length: &Length) {

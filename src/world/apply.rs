@@ -26,7 +26,7 @@ impl World {
                 self.touched.points.push(id);
                 let was = std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen);
                 if was != frozen {
-                    self.rebind_measures();
+                    self.rebind_measures(id);
                 }
                 Edit::Freeze(id, was)
             }

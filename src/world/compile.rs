@@ -64,18 +64,20 @@ impl World {
         }
     }
 
-    /// Binds anew what measures points, after one of them was frozen or thawed.
-    pub(super) fn rebind_measures(&mut self) {
+    /// Binds anew what measures a point, directly or through others, after it was frozen or thawed.
+    pub(super) fn rebind_measures(&mut self, point: PointId) {
         if !self.dependencies.has_measures() {
             return;
         }
-        let mentions_points =
-            |record: &Record| record.drivers().iter().any(|(_, f)| self.depends(f).on_points);
-        let all: Vec<ConstraintId> =
-            self.constraints().filter(|(_, r)| mentions_points(r)).map(|(id, _)| id).collect();
+        let users = self.point_users.of(point, &self.constraints, &self.parameters);
+        let (_, constraints) = self.affected(users);
         let measured = |constraint: &Constraint| Field::ALL.map(|field| constraint.measures(field));
-        for id in all {
-            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
+        for id in constraints {
+            let record = self.constraint(id).expect("a listed constraint lives");
+            if !record.drivers().iter().any(|(_, formula)| self.depends(formula).on_points) {
+                continue;
+            }
+            let mut record = record.clone();
             let before = measured(&record.constraint);
             self.bind(&mut record);
             if measured(&record.constraint) != before {
@@ -388,6 +390,7 @@ impl<'a> Compiler<'a> {
             Function::Clamp => {
                 let (x, lo, hi) = (number(0), number(1), number(2));
                 let x = self.push(Operation::OfTwo(Function::Min, x, hi));
+                let lo = self.push(Operation::LowerEnd(lo, hi));
                 self.push(Operation::OfTwo(Function::Max, x, lo))
             }
             _ if function.is_rate() => unreachable!("no rate drives a constraint"),

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use super::dependencies::Dependencies;
 use super::environments::{Here, Moving};
 use super::{
-    ConstraintId, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User, Value,
-    World,
+    ConstraintId, Depends, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User,
+    Value, World,
 };
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real};
 use crate::diag::Diagnostic;
@@ -40,7 +41,10 @@ impl World {
         undo: &mut Vec<Edit>,
     ) -> Result<(), Diagnostic> {
         let depends = self.depends(&formula);
-        let value = if depends.on_rates { None } else { Some(self.evaluate(&formula, None)?) };
+        if depends.on_parameters {
+            self.refresh_parameters();
+        }
+        let value = self.parameter_value(&formula, depends)?;
         let record = Parameter { name, formula, value, depends };
         undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
         if self.dependencies.users(id).next().is_none() {
@@ -72,33 +76,6 @@ impl World {
         self.evaluate_anew(parameters, constraints, undo)
     }
 
-    /// Evaluates parameters, each after those it mentions, and then constraints.
-    fn evaluate_anew(
-        &mut self,
-        parameters: Vec<ParameterId>,
-        constraints: Vec<ConstraintId>,
-        undo: &mut Vec<Edit>,
-    ) -> Result<(), Diagnostic> {
-        for id in parameters {
-            let mut record = self.parameter(id).expect("a listed parameter lives").clone();
-            record.depends = self.depends(&record.formula);
-            record.value = if record.depends.on_rates {
-                None
-            } else {
-                Some(record.formula.evaluate(&Here::new(self, None))?)
-            };
-            undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
-        }
-        for id in constraints {
-            let mut record = self.constraint(id).expect("a listed constraint lives").clone();
-            self.bind(&mut record);
-            record.drive(&Here::new(self, None))?;
-            record.flaw().map_or(Ok(()), Err)?;
-            undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
-        }
-        Ok(())
-    }
-
     /// Makes a parameter that was there before, whether or not it has a value now, and binds what
     /// mentions it; what takes it back is added to `undo` edit by edit.
     pub fn restore_parameter(
@@ -109,25 +86,57 @@ impl World {
         undo: &mut Vec<Edit>,
     ) {
         let depends = self.depends(&formula);
-        let value = (!depends.on_rates).then(|| self.evaluate(&formula, None).ok()).flatten();
+        if depends.on_parameters {
+            self.refresh_parameters();
+        }
+        let value = self.parameter_value(&formula, depends).unwrap_or_default();
         // Why it has none is noted once it is asked for.
         self.dependencies.note_change();
         let parameter = Parameter { name, formula, value, depends };
         undo.push(self.apply(Edit::Parameter(id, Some(Box::new(parameter)))));
         let (parameters, constraints) = self.affected(self.dependencies.users(id));
+        // A constraint that is given no value now keeps the one that it had last.
+        let _ = self.evaluate_anew(parameters, constraints, undo);
+    }
+
+    /// The value of a parameter, those it mentions being up to date; none of what only a motion has.
+    fn parameter_value(
+        &self,
+        formula: &Formula,
+        depends: Depends,
+    ) -> Result<Option<Value>, Diagnostic> {
+        let value = || formula.evaluate(&Here::new(self, None));
+        if depends.on_rates { Ok(None) } else { value().map(Some) }
+    }
+
+    /// Evaluates parameters, each after those it mentions, and then constraints, all of them whether
+    /// or not some have no value.
+    ///
+    /// # Errors
+    /// The first reason why a value cannot be had.
+    fn evaluate_anew(
+        &mut self,
+        parameters: Vec<ParameterId>,
+        constraints: Vec<ConstraintId>,
+        undo: &mut Vec<Edit>,
+    ) -> Result<(), Diagnostic> {
+        let mut first = Ok(());
         for id in parameters {
             let mut record = self.parameter(id).expect("a listed parameter lives").clone();
             record.depends = self.depends(&record.formula);
+            let value = self.parameter_value(&record.formula, record.depends);
+            record.value = *value.as_ref().unwrap_or(&None);
+            first = first.and(value.map(drop));
             undo.push(self.apply(Edit::Parameter(id, Some(Box::new(record)))));
         }
-        self.sort_parameters();
         for id in constraints {
             let mut record = self.constraint(id).expect("a listed constraint lives").clone();
             self.bind(&mut record);
-            // What has no value now is given the one that it had last.
-            let _ = record.drive(&Here::new(self, None));
+            let driven = record.drive(&Here::new(self, None));
+            first = first.and(driven).and_then(|()| record.flaw().map_or(Ok(()), Err));
             undo.push(self.apply(Edit::Constraint(id, Some(Box::new(record)))));
         }
+        first
     }
 
     /// Why a parameter cannot drive a constraint.
@@ -190,10 +199,7 @@ impl World {
         if let Some(why) = self.dependencies.first_failure() {
             return Err(why.clone());
         }
-        for k in 0..self.dependencies.driven().len() {
-            self.refresh_constraint(self.dependencies.driven()[k])?;
-        }
-        Ok(())
+        self.refresh_constraints(|dependencies| dependencies.driven())
     }
 
     /// Evaluates driven constraints anew for the pose as it is now, whether or not parameters that
@@ -205,10 +211,7 @@ impl World {
         self.dependencies.note_change();
         self.refresh_parameters();
         self.sort_constraints();
-        for k in 0..self.dependencies.driven().len() {
-            self.refresh_constraint(self.dependencies.driven()[k])?;
-        }
-        Ok(())
+        self.refresh_constraints(|dependencies| dependencies.driven())
     }
 
     /// Evaluates live parameters anew if time or points changed; one that has no value now
@@ -245,8 +248,16 @@ impl World {
         }
         self.dependencies.note_change();
         self.refresh_parameters();
-        for k in 0..self.dependencies.turned().len() {
-            self.refresh_constraint(self.dependencies.turned()[k])?;
+        self.refresh_constraints(|dependencies| dependencies.turned())
+    }
+
+    /// Evaluates those of a list anew; doing so changes no list.
+    fn refresh_constraints(
+        &mut self,
+        list: impl Fn(&Dependencies) -> &[ConstraintId],
+    ) -> Result<(), Diagnostic> {
+        for k in 0..list(&self.dependencies).len() {
+            self.refresh_constraint(list(&self.dependencies)[k])?;
         }
         Ok(())
     }

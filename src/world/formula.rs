@@ -189,6 +189,37 @@ impl Formula {
         }
     }
 
+    /// Calls `visit` for each pair of points between which it measures: a distance, a direction, a
+    /// difference, a middle.
+    pub fn segments(&self, visit: &mut impl FnMut([PointId; 2])) {
+        match self.node() {
+            Node::Number(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Point(_)
+            | Node::Member(..) => {}
+            Node::Negate(a) | Node::X(a) | Node::Y(a) => a.segments(visit),
+            Node::Vector(a, b) | Node::Binary(_, a, b) => {
+                let ends = a.as_point().zip(b.as_point());
+                if let (Node::Binary(Operator::Subtract, ..), Some((from, to))) =
+                    (self.node(), ends)
+                {
+                    visit([from, to]);
+                }
+                a.segments(visit);
+                b.segments(visit);
+            }
+            Node::Call(_, arguments) => {
+                // A line stands behind the point whose distance from it is meant.
+                let (_, pairs) = arguments.as_rchunks::<2>();
+                if arguments.iter().all(|a| a.as_point().is_some()) {
+                    pairs.iter().for_each(|[from, to]| visit([from.point(), to.point()]));
+                }
+                arguments.iter().for_each(|a| a.segments(visit));
+            }
+        }
+    }
+
     /// The value in an environment.
     ///
     /// # Errors

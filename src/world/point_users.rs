@@ -8,7 +8,8 @@ use super::{ConstraintId, Formula, Mention, Parameter, ParameterId, PointId, Rec
 use crate::constraint::ConstraintKind;
 
 /// By point, what holds or mentions it. Made when it is first asked for, since only `delete` asks,
-/// and kept up from then on, so that a thousand deletions look at the scene once.
+/// and freezing where points are measured, and kept up from then on, so that a thousand deletions
+/// look at the scene once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PointUsers(OnceLock<BTreeSet<(PointId, User)>>);
 

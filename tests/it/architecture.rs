@@ -45,7 +45,7 @@ const HOMES: [(&str, &[&str]); 14] = [
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("serde_json", &["session/json.rs"]),
-    ("smallvec", &["mobility/system.rs"]),
+    ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
 ];

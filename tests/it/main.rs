@@ -18,6 +18,7 @@ mod laws;
 mod long_texts;
 mod mobility;
 mod motors;
+mod pictures;
 mod program;
 mod readme;
 mod render;

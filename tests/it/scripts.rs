@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::thread;
 
-const FOLDERS: [&str; 5] = ["paper", "study", "gallery", "hard", "bench"];
+const FOLDERS: [&str; 6] = ["paper", "study", "gallery", "hard", "bench", "constraints"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts")

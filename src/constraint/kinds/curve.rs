@@ -170,10 +170,8 @@ impl ConstraintKind for Curve {
     }
 
     fn nominal_length(&self) -> f64 {
-        match self {
-            Self::Circle { radius, .. } => radius.abs(),
-            Self::Through { .. } | Self::Arc { .. } => 0.0,
-        }
+        // It asks nothing of its centre; where something touches it, the pose is as large as it is.
+        0.0
     }
 
     fn traits(&self) -> Traits {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::program::{Program, ROUNDING, Register, Slope, with_room};
+use crate::constraint::parts::two_rows::{Pair, Shortest};
 use crate::constraint::{
     Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Stateful, Traits, Vec2,
     Vector,
@@ -17,18 +18,6 @@ use crate::constraint::{
 const MOST_ROWS: usize = 2;
 /// No kind has more values than this that can be measured.
 const MOST_VALUES: usize = 4;
-
-/// The displacement `-W J^T m` that meets two rows.
-struct Shortest {
-    /// Its length in the metric of the weights.
-    length: f64,
-    /// The numbers m.
-    multipliers: [f64; MOST_ROWS],
-}
-
-/// A direction of two rows that points move by less than this part of the other is one that nothing
-/// moves.
-const PARALLEL: f64 = 1e-12;
 
 /// A constraint, some of whose values are measured on the pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,43 +153,25 @@ impl Measured {
         // One between frozen points is measured as if they all could move.
         let is_free = self.points.iter().any(|&p| w[p as usize] > 0.0);
         let weight = |p: PointIdx| if is_free { w[p as usize] } else { 1.0 };
-        let mut values = [0.0; MOST_ROWS];
-        let [mut a, mut b, mut c] = [0.0; 3];
+        let mut pair = Pair::default();
+        let [of_first, of_both, of_second] = &mut pair.products;
         with_room(self.points.len(), Vector::ZERO, |first| {
             let mut n = 0;
             self.jacobian(x, &mut |row| {
-                values[n] = row.f;
+                pair.values[n] = row.f;
                 for (k, (p, g)) in row.terms().enumerate() {
                     if n == 0 {
                         first[k] = g;
-                        a += weight(p) * g.norm_squared();
+                        *of_first += weight(p) * g.norm_squared();
                     } else {
-                        b += weight(p) * g.dot(first[k]);
-                        c += weight(p) * g.norm_squared();
+                        *of_both += weight(p) * g.dot(first[k]);
+                        *of_second += weight(p) * g.norm_squared();
                     }
                 }
                 n += 1;
             });
         });
-        // The two directions of `J W J^T`, in which the rows do not mix.
-        let (mean, half) = (0.5 * (a + c), 0.5 * (a - c));
-        let radius = Vector::new(half, b).norm();
-        let along = Vector::polar(1.0, 0.5 * libm::atan2(b, half));
-        let f = Vector::new(values[0], values[1]);
-        let mut shortest = Shortest { length: 0.0, multipliers: [0.0; MOST_ROWS] };
-        for (direction, size) in [(along, mean + radius), (along.perp(), mean - radius)] {
-            let part = f.dot(direction);
-            // What nothing can move is measured by itself.
-            let is_movable = size > PARALLEL * mean;
-            let length = if is_movable { part / size.sqrt() } else { part };
-            shortest.length = Vector::new(shortest.length, length).norm();
-            if is_movable {
-                let multipliers = direction * (part / size);
-                shortest.multipliers[0] += multipliers.x;
-                shortest.multipliers[1] += multipliers.y;
-            }
-        }
-        shortest
+        pair.shortest()
     }
 
     /// The places of its points, each once.

@@ -35,6 +35,8 @@ pub enum Operation {
     OfTwo(Function, Register, Register),
     /// The angle that differs from the first by whole turns and is nearest to the second.
     NearestTurn(Register, Register),
+    /// The first, the lower end of a range up to the second; there is none in an empty range.
+    LowerEnd(Register, Register),
 }
 
 /// Operations, each on the results of those before it.
@@ -72,7 +74,8 @@ impl Program {
                     Operation::Binary(_, a, b)
                     | Operation::Norm(a, b)
                     | Operation::OfTwo(_, a, b)
-                    | Operation::NearestTurn(a, b) => operation.apply(at(a), at(b)),
+                    | Operation::NearestTurn(a, b)
+                    | Operation::LowerEnd(a, b) => operation.apply(at(a), at(b)),
                 };
             }
             look(results)
@@ -103,7 +106,8 @@ impl Program {
                     Operation::Binary(_, a, b)
                     | Operation::Norm(a, b)
                     | Operation::OfTwo(_, a, b)
-                    | Operation::NearestTurn(a, b) => {
+                    | Operation::NearestTurn(a, b)
+                    | Operation::LowerEnd(a, b) => {
                         let still = [at(a), at(b)].map(Jet::constant);
                         let moving = [at(a), at(b)].map(|v| Jet::new(v, 1.0, 0.0));
                         adjoint[a as usize].add(s, operation.apply(moving[0], still[1]).d);
@@ -135,7 +139,8 @@ impl Program {
                 Operation::Binary(_, a, b)
                 | Operation::Norm(a, b)
                 | Operation::OfTwo(_, a, b)
-                | Operation::NearestTurn(a, b) => (!still(&[a, b]), still(&[a, b])),
+                | Operation::NearestTurn(a, b)
+                | Operation::LowerEnd(a, b) => (!still(&[a, b]), still(&[a, b])),
                 Operation::Of(_, a) => (!still(&[a]), still(&[a])),
             };
             known.push(of);
@@ -157,6 +162,7 @@ impl Program {
                 Operation::Negate(a) => (4, a, 0),
                 Operation::Norm(a, b) => (5, a, b),
                 Operation::NearestTurn(a, b) => (6, a, b),
+                Operation::LowerEnd(a, b) => (7, a, b),
                 Operation::Binary(operator, a, b) => (0x100 + operator as u64, a, b),
                 Operation::Of(function, a) => (0x200 + function as u64, a, 0),
                 Operation::OfTwo(function, a, b) => (0x300 + function as u64, a, b),
@@ -168,8 +174,19 @@ impl Program {
 }
 
 impl Operation {
-    /// The result for operands; that of one operand gets it twice.
+    /// The result for operands; that of one operand gets it twice. Not a number where an operand is
+    /// none, also where the result would not depend on it, and where it overflows: so it is where
+    /// expressions are evaluated.
     fn apply<T: Real>(self, a: T, b: T) -> T {
+        let none = || T::constant(f64::NAN);
+        if a.value().is_nan() || b.value().is_nan() {
+            return none();
+        }
+        let result = self.apply_to_numbers(a, b);
+        if result.value().is_finite() { result } else { none() }
+    }
+
+    fn apply_to_numbers<T: Real>(self, a: T, b: T) -> T {
         let none = || T::constant(f64::NAN);
         match self {
             Self::Negate(_) => -a,
@@ -183,10 +200,11 @@ impl Operation {
                 let turns = ((b.value() - a.value()) / TAU).round();
                 a + T::constant(turns * TAU)
             }
+            Self::LowerEnd(..) if a.value() > b.value() => none(),
             Self::Norm(..) => length(Vec2 { x: a, y: b }),
             Self::Of(function, _) => value_of(function, &[a]).unwrap_or_else(none),
             Self::OfTwo(function, ..) => value_of(function, &[a, b]).unwrap_or_else(none),
-            Self::Constant(_) | Self::Input(_) | Self::X(_) | Self::Y(_) => a,
+            Self::LowerEnd(..) | Self::Constant(_) | Self::Input(_) | Self::X(_) | Self::Y(_) => a,
         }
     }
 }

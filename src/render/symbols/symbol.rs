@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::draw::Draw;
 use super::{
-    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Joint, Link,
-    Multiple, Plate, Rail, Ring, Rod, Round, Symmetry, Telescope, Ticks, TouchMark, Train, Web,
+    Angle, Arrows, AxisMark, Belt, Block, Construction, Cord, Crank, Cross, Dimension, Equation,
+    Joint, Link, Multiple, Plate, Rail, Ring, Rod, Round, Symmetry, Telescope, Ticks, TouchMark,
+    Train, Web,
 };
 use crate::constraint::{Point, PointIdx};
 use crate::render::canvas::Canvas;
@@ -47,7 +48,7 @@ macro_rules! forms {
 forms! {
     Rod Cord Telescope Link Plate Web Crank Rail Train Joint
     Cross Ring Ticks Arrows Angle Dimension Construction AxisMark
-    Symmetry Multiple Belt Round Block TouchMark
+    Symmetry Multiple Belt Round Block TouchMark Equation
 }
 
 /// One thing to be drawn.

@@ -1,6 +1,8 @@
 //! Velocities and accelerations at a pose, point by point in the order in which they are found: no
 //! squares are made of the rows, so they are exact next to a singular pose too.
 
+use smallvec::SmallVec;
+
 use super::decomposition::Part;
 use crate::constraint::{Constraint, ConstraintKind, Field, Jet, PointIdx, Vec2, Vector};
 use crate::linalg::{MOST_UNKNOWNS, Square};
@@ -44,11 +46,12 @@ pub(crate) fn point_by_point(
 /// them: that it was expected there does.
 const UNKNOWN: f64 = 1e-5;
 
+/// Of some points, by their places among those that are looked for, the gradient.
+type Gradient = SmallVec<[(usize, Vector); 4]>;
+
 /// A row of some points, and what it times their unknown rates has to be.
 struct Row {
-    /// Of each point, by its place among them, the gradient.
-    gradient: [(usize, Vector); 4],
-    n_points: usize,
+    gradient: Gradient,
     rhs: f64,
 }
 
@@ -81,19 +84,13 @@ fn gather(
             if !row.is_active {
                 return;
             }
-            let mut gradient = [(0, Vector::ZERO); 4];
-            let (mut n_points, mut squared) = (0, 0.0);
-            for (p, g) in row.terms() {
-                if let Ok(k) = points.binary_search(&p) {
-                    gradient[n_points] = (k, g);
-                    n_points += 1;
-                    squared += g.norm_squared();
-                }
-            }
+            let own = row.terms().filter_map(|(p, g)| Some((points.binary_search(&p).ok()?, g)));
+            let mut gradient: Gradient = own.collect();
+            let squared: f64 = gradient.iter().map(|(_, g)| g.norm_squared()).sum();
             if squared > 0.0 {
                 let scale = 1.0 / squared.sqrt();
                 gradient.iter_mut().for_each(|(_, g)| *g *= scale);
-                rows.push(Row { gradient, n_points, rhs: value * scale });
+                rows.push(Row { gradient, rhs: value * scale });
             }
         });
     }
@@ -142,7 +139,7 @@ fn solve_part(
     for (r, row) in rows.iter().enumerate() {
         square.set_right_side(r, row.rhs);
         let to = square.row(r);
-        for (k, g) in &row.gradient[..row.n_points] {
+        for (k, g) in &row.gradient {
             to[2 * k] += g.x;
             to[2 * k + 1] += g.y;
         }

@@ -182,8 +182,17 @@ pub(crate) fn project_prediction(
     let mut way = std::mem::take(&mut workspace.trial_step);
     workspace.equations.way(origin, &workspace.before, &mut way);
     workspace.slope.iter_mut().zip(&way).for_each(|(g, y)| *g += mu * y);
+    if solve_step(workspace, mu, work).is_none() {
+        return false;
+    }
+    if workspace.equations.is_affine() {
+        // An expectation may be exact, and mu next to nothing then.
+        workspace.step.iter_mut().zip(&way).for_each(|(step, y)| *step += y);
+        workspace.keep_to_rows();
+        workspace.step.iter_mut().zip(&way).for_each(|(step, y)| *step -= y);
+    }
     workspace.trial_step = way;
-    solve_step(workspace, mu, work).is_some() && workspace.try_step(pose, 1.0, work) <= energy
+    workspace.try_step(pose, 1.0, work) <= energy
 }
 
 /// Why a descent ended.
@@ -254,8 +263,12 @@ fn descend_by(
         loop {
             let damping = if is_affine { REFINED_FLOOR } else { way.nu * unit + way.floor };
             let Some(promised) = solve_step(workspace, damping, work) else {
-                return End::Stuck;
+                // Linear rows may be met to the last bit by the first step.
+                return if workspace.is_met(limits) { End::Met } else { End::Stuck };
             };
+            if is_affine {
+                workspace.keep_to_rows();
+            }
             way.n_iterations += 1;
             let longest = workspace.longest_step(LONGEST_STEP, limits);
             let is_near = is_affine || workspace.equations.reach(&workspace.step) <= longest;

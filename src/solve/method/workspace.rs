@@ -145,6 +145,26 @@ impl Workspace {
         });
     }
 
+    /// Takes out of the step what no row asks for, `J^T J (J^T J + mu)^-1 y` with the factored
+    /// matrix: that is a sum of multiples of rows however inexact the factor is. For a tiny mu
+    /// rounding gives a step parts in the directions that the rows leave open.
+    pub fn keep_to_rows(&mut self) {
+        let mut way = std::mem::take(&mut self.trial_step);
+        way.clone_from(&self.step);
+        self.matrix().solve(&mut way);
+        let Self { rows, equations, step, .. } = self;
+        step.fill(0.0);
+        for (_, unknowns, gradient, _) in rows.iter(equations) {
+            let entries = unknowns.iter().map(|&u| 2 * u as usize).zip(gradient.as_chunks::<2>().0);
+            let along: f64 = entries.clone().map(|(u, g)| g[0] * way[u] + g[1] * way[u + 1]).sum();
+            for (u, g) in entries {
+                step[u] += along * g[0];
+                step[u + 1] += along * g[1];
+            }
+        }
+        self.trial_step = way;
+    }
+
     /// The norm of the slope.
     pub fn steepness(&self) -> f64 {
         self.slope.iter().map(|g| g * g).sum::<f64>().sqrt()

@@ -267,6 +267,10 @@ proptest! {
         let by = Similarity { angle: 0.0, scale, shift: Vector::ZERO };
         let mut c = scene.constraint(by);
         let x = by.points(&scene.x);
+        // A line whose points are in one place has no distance from a centre.
+        let touches_line = scene.kind == Kind::Touch && scene.variant == 2;
+        let [a, b] = [0, 1].map(|k| scene.points[k] as usize);
+        prop_assume!(!touches_line || scene.x[a] != scene.x[b] && scene.before[a] != scene.before[b]);
         if c.traits().carried == Carried::ByFrame {
             c.accept(&x);
         }
@@ -316,6 +320,8 @@ fn has_solution(scene: &Scene, c: &Constraint) -> bool {
     match scene.kind {
         // Two frozen points may contradict the shape.
         Kind::Rigid => n_frozen < 2,
+        // On a circle of a given radius there is a place in every direction, but from its centre.
+        Kind::Touch => scene.variant == 0 && is_free(0) && !scene.has_repeats(),
         // A frozen segment may be shorter than the difference asked of the other. Where the
         // two share a point, a segment that shrinks to 0 is a kink on the way.
         Kind::Equal => {

@@ -8,6 +8,7 @@ mod random_constraint;
 mod random_measure;
 mod random_scene;
 mod random_session;
+mod random_touch;
 mod scenes;
 mod session;
 mod solve;

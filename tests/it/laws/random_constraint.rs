@@ -9,6 +9,7 @@ use linkwork::lang::catalogue::{ConstraintWord, Slot};
 use proptest::prelude::*;
 
 use super::random_measure::measured;
+use super::random_touch::touch;
 
 /// Points of a scene.
 pub const N_POINTS: usize = 6;
@@ -56,6 +57,9 @@ pub struct Scene {
 impl Scene {
     /// The constraint, as it would have been stated in the plane so moved.
     pub fn constraint(&self, by: Similarity) -> Constraint {
+        if self.kind == Kind::Touch {
+            return touch(self, by);
+        }
         let plain = self.plain(by);
         if self.is_measured { measured(self, plain, by) } else { plain }
     }
@@ -220,7 +224,13 @@ impl Scene {
     pub fn is_exact(&self) -> bool {
         let is_closed = !matches!(
             self.kind,
-            Kind::Cog | Kind::Rack | Kind::Distance | Kind::Symmetric | Kind::Hold | Kind::Curve
+            Kind::Cog
+                | Kind::Rack
+                | Kind::Distance
+                | Kind::Symmetric
+                | Kind::Hold
+                | Kind::Curve
+                | Kind::Touch
         );
         is_closed && !self.is_between_links() && !self.is_measured && !self.has_repeats()
     }
@@ -260,9 +270,7 @@ pub fn scenes(frozen: f64, n_places: usize) -> impl Strategy<Value = Scene> {
     } else {
         Just((0..N_POINTS as PointIdx).collect::<Vec<_>>()).prop_shuffle().boxed()
     };
-    // What touches is measured on what it names: by itself it holds nothing.
-    let kinds: Vec<Kind> = Kind::ALL.iter().copied().filter(|&k| k != Kind::Touch).collect();
-    let kinds = proptest::sample::select(kinds);
+    let kinds = proptest::sample::select(Kind::ALL);
     let numbers = proptest::array::uniform3(-1.0..1.0);
     let variants = (0..5u8, any::<bool>());
     (kinds, places, shifts, weights, points, numbers, variants).prop_map(

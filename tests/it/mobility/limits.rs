@@ -226,6 +226,23 @@ fn limits_says_what_it_cannot_tell() {
 }
 
 #[test]
+fn a_steering_rack_goes_until_an_arm_is_in_line_with_its_rod() {
+    let script = include_str!("../../../scripts/gallery/ackermann-steering.link");
+    let (at_rest, _) = script.split_once("set dt").expect("it runs after it was set up");
+    let found = range(&Talking::after(at_rest).session, "rack");
+    let Reach::Between(End::DeadPoint(from), End::DeadPoint(to)) = found.reach else {
+        panic!("{found:?}")
+    };
+    // The end of the rack and the knuckle are an arm and a tie rod apart.
+    let (track, base, arm, half, low) = (1.4_f64, 2.6_f64, 0.15, 0.3, 0.19);
+    let lean = (0.5 * track).atan2(base);
+    let rod = (0.5 * track - arm * lean.sin() - half).hypot(arm * lean.cos() - low);
+    let reach = ((arm + rod).powi(2) - low * low).sqrt() - (0.5 * track - half);
+    let errors = [from - (-reach - half), to - (reach - half)];
+    assert!(errors.iter().all(|e| e.abs() < 1e-9), "{errors:?}");
+}
+
+#[test]
 fn a_jansen_leg_turns_fully() {
     let script = include_str!("../../../scripts/hard/jansen.link");
     let mut talking = Talking::after(&format!(

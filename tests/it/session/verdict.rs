@@ -182,3 +182,19 @@ fn what_sleeps_is_held_to_a_promise_too() {
     let problem = talking.execute("step within 1e-9").unwrap_err();
     assert!(problem.message.contains("did not reach the tolerance 1e-9"), "{problem:?}");
 }
+
+#[test]
+fn a_rod_is_judged_by_its_own_size_and_not_by_that_of_a_circle_about_its_end() {
+    let around = |radius: &str| {
+        let script = format!(
+            "set tolerance 1e-5
+             point A = (0, 0) frozen, B = (1, 0)
+             r: length A B = 1.2
+             circle ring = B radius {radius}"
+        );
+        let mut talking = Talking::after(&script);
+        [talking.ask("check"), talking.ask("why r")].concat()
+    };
+    assert!(around("1").contains(&"as drawn: r is off by 0.2; solved from here: satisfied".into()));
+    assert_eq!(around("1"), around("1e6"));
+}

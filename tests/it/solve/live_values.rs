@@ -179,3 +179,20 @@ fn no_number_is_said_of_what_has_no_value() {
     let told = [talking.ask("check"), talking.ask("show h"), talking.ask("why h")].concat();
     assert!(!told.concat().contains("inf"), "{told:?}");
 }
+
+#[test]
+fn an_equation_over_five_points_that_move_is_followed() {
+    let mut talking = Talking::after(
+        "point O = (0, 0) frozen
+         point A = (2, 0), B = (2, 0), C = (2, 0), D = (2, 0), E = (2, 0)
+         hold A.y = 0; hold B.y = 0; hold C.y = 0; hold D.y = 0; hold E.y = 0
+         hold A.x * B.x + B.x * C.x + C.x * D.x + D.x * E.x + E.x * A.x = 5 * (2 + time) ^ 2
+         hold A.x ^ 2 + B.x ^ 2 = 2 * C.x ^ 2; hold B.x ^ 2 + C.x ^ 2 = 2 * D.x ^ 2
+         hold C.x ^ 2 + D.x ^ 2 = 2 * E.x ^ 2; hold D.x ^ 2 + E.x ^ 2 = 2 * A.x ^ 2
+         set dt 1/4; step 8",
+    );
+    // All squares are equal, and five times each is what is asked for.
+    for point in ["A", "B", "C", "D", "E"] {
+        talking.run(&format!("assert {point} = (4, 0) within 1e-9"));
+    }
+}
