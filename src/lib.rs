@@ -51,6 +51,7 @@
 pub mod cli;
 pub mod constraint;
 pub mod diag;
+pub mod errors;
 pub mod lang;
 #[doc(hidden)]
 pub mod linalg;

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+use super::output::MessageFormat;
 
 use crate::diag::visible;
 
@@ -19,6 +21,9 @@ pub struct Arguments {
     /// How a session talks and where it writes.
     #[command(flatten)]
     pub session: HostArguments,
+    /// How errors, warnings and notes are written.
+    #[arg(long, global = true, value_name = "FORMAT", default_value = "full")]
+    pub message_format: MessageFormat,
 }
 
 /// What to do.
@@ -35,6 +40,17 @@ pub enum Invocation {
     /// Run a script and tell which effects its scene has switched on at the end, why, and what
     /// each costs.
     Effects(ExamineArguments),
+    /// Set scripts in canonical form; comments and line breaks are kept.
+    Fmt(FormatArguments),
+    /// Run a script again whenever it is saved, or a file that it includes.
+    Watch(WatchArguments),
+    /// Print what completes the command line in a shell.
+    Completions(CompletionArguments),
+    /// Print the manual page.
+    Man,
+    /// Serve an editor as a language server, on standard input and output: mistakes, help,
+    /// completion, form.
+    Lsp,
 }
 
 /// A script to be examined.
@@ -79,6 +95,36 @@ pub struct RunArguments {
     pub host: HostArguments,
 }
 
+/// Scripts to be set in canonical form.
+#[derive(Debug, Args)]
+pub struct FormatArguments {
+    /// Scripts, each written in its place; `-` is standard input, to standard output.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Write nothing; name the scripts that are in another form, with exit status 1 if there are.
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// A script to be watched.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// The script. It need not be there yet.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
+/// A shell to be told how the program is called.
+#[derive(Debug, Args)]
+pub struct CompletionArguments {
+    /// The shell.
+    #[arg(value_name = "SHELL")]
+    pub shell: clap_complete::Shell,
+}
+
 /// How a session talks and where it writes.
 #[derive(Debug, Clone, Args)]
 pub struct HostArguments {
@@ -112,6 +158,11 @@ pub fn parse() -> Arguments {
         let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
         Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
     })
+}
+
+/// The command line as data.
+pub fn command() -> clap::Command {
+    Arguments::command()
 }
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.

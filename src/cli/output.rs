@@ -3,7 +3,9 @@
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use crate::diag::{Diagnostic, Paint, Sources, render, visible};
+use clap::ValueEnum;
+
+use crate::diag::{Diagnostic, Paint, Sources, render_within, short, visible};
 
 /// Answers not yet written: to a file or a pipe they go in large pieces. Nothing once they cannot be
 /// written any more.
@@ -70,10 +72,56 @@ pub fn has_failed() -> bool {
     answers().state == State::Failed
 }
 
+/// The form of errors, warnings and notes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum MessageFormat {
+    /// With the text they are about, the place underlined.
+    #[default]
+    Full,
+    /// A line each, `file:line:column: error[E0201]: ...`, for editors.
+    Short,
+}
+
+/// How problems are written; set once, from the command line.
+static FORMAT: OnceLock<MessageFormat> = OnceLock::new();
+
+/// Has problems written so from here on.
+pub fn set_format(format: MessageFormat) {
+    FORMAT.get_or_init(|| format);
+}
+
+/// Begins on an empty page; what is no terminal keeps all.
+pub fn clear_page() {
+    flush();
+    if io::stdout().is_terminal() && wants_colours() {
+        answers().write(|out| out.write_all(b"\x1b[2J\x1b[H").and_then(|()| out.flush()));
+    }
+}
+
+/// Says something beside the answer, on standard error.
+pub fn remark(line: &str) {
+    flush();
+    complain(&format!("{line}\n"));
+}
+
+/// Columns for what is said: those of the terminal, or of a wide page.
+fn n_columns() -> usize {
+    match terminal_size::terminal_size_of(io::stderr()) {
+        Some((terminal_size::Width(n), _)) if n > 0 => n.into(),
+        _ => WIDE,
+    }
+}
+
+/// Columns where there is no terminal to say.
+const WIDE: usize = 140;
+
 /// Shows a problem, underlined in its text.
 pub fn show(problem: &Diagnostic, sources: &Sources) {
     flush();
-    let mut text = render(problem, sources, paint());
+    let mut text = match FORMAT.get() {
+        Some(MessageFormat::Short) => short(problem, sources),
+        _ => render_within(problem, sources, paint(), n_columns()),
+    };
     if !text.ends_with('\n') {
         text.push('\n');
     }

@@ -9,11 +9,12 @@ use super::args::{HostArguments, RunArguments};
 use super::process_host::ProcessHost;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
+use crate::errors;
 use crate::lang::Growing;
 use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
 
 /// What the process says of how it went.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
     /// Everything was done.
     Fine = 0,
@@ -78,7 +79,8 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
         Ok(text) => text,
         Err(e) => {
             let why = reason(&e);
-            let problem = Diagnostic::error(format!("cannot read `{name}`: {why}"));
+            let problem =
+                Diagnostic::error(errors::CANNOT_READ, format!("cannot read `{name}`: {why}"));
             output::show(&problem, session.sources());
             return ExitStatus::Unreadable;
         }
@@ -140,7 +142,10 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
         match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
             Ok(_) => {}
             Err(e) => {
-                let problem = Diagnostic::error(format!("cannot read standard input: {e}"));
+                let problem = Diagnostic::error(
+                    errors::CANNOT_READ,
+                    format!("cannot read standard input: {e}"),
+                );
                 output::show(&problem, session.sources());
                 return ExitStatus::Unreadable;
             }

@@ -9,11 +9,11 @@ use super::Span;
 /// Something to tell the user, with the places it is about.
 ///
 /// ```
-/// use linkwork::diag::{Diagnostic, Sources, Span};
+/// use linkwork::diag::{Code, Diagnostic, Sources, Span};
 ///
 /// let mut sources = Sources::new();
 /// let id = sources.add("a.link", "lenght A B");
-/// let problem = Diagnostic::error("unknown command `lenght`")
+/// let problem = Diagnostic::error(Code::new(101), "unknown command `lenght`")
 ///     .at(Span::new(id, 0..6), "not a command")
 ///     .help("did you mean `length`?");
 /// assert_eq!(&*problem.message, "unknown command `lenght`");
@@ -30,6 +30,8 @@ pub struct Problem {
     pub severity: Severity,
     /// What sort of failure it is to a batch.
     pub kind: Kind,
+    /// Which error it is; warnings and notes have none.
+    pub code: Option<Code>,
     /// What is wrong, in one line.
     pub message: Box<str>,
     /// The places it is about.
@@ -66,6 +68,29 @@ pub enum Kind {
     Interrupted,
 }
 
+/// Which error it is: what programs tell errors apart by, and `help` explains.
+///
+/// ```
+/// use linkwork::diag::Code;
+///
+/// assert_eq!(Code::new(201).to_string(), "E0201");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Code(u16);
+
+impl Code {
+    /// The code with a number.
+    pub const fn new(number: u16) -> Self {
+        Self(number)
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "E{:04}", self.0)
+    }
+}
+
 /// A place and what is to be said about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Label {
@@ -81,10 +106,11 @@ pub struct Label {
 /// whole of it, with the text it is about.
 ///
 /// ```
-/// use linkwork::diag::{Diagnostic, SourceId, Span};
+/// use linkwork::diag::{Code, Diagnostic, SourceId, Span};
 ///
 /// let place = Span::new(SourceId(0), 0..6);
-/// let problem = Diagnostic::error("unknown command `lenght`").at(place, "not a command");
+/// let problem = Diagnostic::error(Code::new(101), "unknown command `lenght`")
+///     .at(place, "not a command");
 /// assert_eq!(problem.to_string(), "unknown command `lenght`: not a command");
 /// ```
 impl fmt::Display for Diagnostic {
@@ -115,8 +141,10 @@ impl DerefMut for Diagnostic {
 
 impl Diagnostic {
     /// An error of kind [`Kind::Mistake`].
-    pub fn error(message: impl Into<String>) -> Self {
-        Self::new(Severity::Error, message)
+    pub fn error(code: Code, message: impl Into<String>) -> Self {
+        let mut problem = Self::new(Severity::Error, message);
+        problem.code = Some(code);
+        problem
     }
 
     /// A warning.
@@ -133,6 +161,7 @@ impl Diagnostic {
         Self(Box::new(Problem {
             severity,
             kind: Kind::Mistake,
+            code: None,
             message: message.into().into_boxed_str(),
             labels: Vec::new(),
             helps: Vec::new(),

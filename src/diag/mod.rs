@@ -11,7 +11,7 @@ mod render;
 mod source;
 mod visible;
 
-pub use diagnostic::{Diagnostic, Kind, Label, Severity};
+pub use diagnostic::{Code, Diagnostic, Kind, Label, Severity};
 #[doc(hidden)]
 pub use list::{listed, listed_first, listed_ways};
 #[doc(hidden)]
@@ -22,6 +22,6 @@ pub use number::{
     format_count, format_decimals, format_degrees, format_digits, format_exponent, format_rounded,
     format_seconds, push_decimals, push_integer,
 };
-pub use render::{Paint, render};
+pub use render::{Paint, render, render_within, short};
 pub use source::{Place, Source, SourceId, Sources, Span};
 pub use visible::visible;

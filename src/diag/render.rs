@@ -1,9 +1,11 @@
 //! Draws a diagnostic the way `rustc` does; the only place that names annotate-snippets.
 
+use std::borrow::Cow;
+
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::source::clip;
-use super::{Diagnostic, Severity, Sources, Span, visible};
+use super::{Diagnostic, Place, Severity, Sources, Span, visible};
 
 /// Are escape codes for colours written?
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -16,13 +18,32 @@ pub enum Paint {
 
 /// Draws `problem` with the lines of text it is about, without a newline at the end.
 pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
+    render_within(problem, sources, paint, WIDTH)
+}
+
+/// Columns of a terminal that says nothing of its width.
+const WIDTH: usize = 140;
+
+/// As [`render`](fn@render), no text so wide that it would be broken in a terminal of so many
+/// columns: a line that is broken takes the marks below it away from their places.
+pub fn render_within(
+    problem: &Diagnostic,
+    sources: &Sources,
+    paint: Paint,
+    n_columns: usize,
+) -> String {
     let problem = &without_orders(problem);
     let level = match problem.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };
-    let mut group = level.primary_title(&*problem.message).elements(snippets(problem, sources));
+    let title = level.primary_title(&*problem.message);
+    let title = match problem.code {
+        Some(code) => title.id(code.to_string()),
+        None => title,
+    };
+    let mut group = title.elements(snippets(problem, sources));
     for note in &problem.notes {
         group = group.element(Level::NOTE.message(note));
     }
@@ -44,7 +65,42 @@ pub fn render(problem: &Diagnostic, sources: &Sources, paint: Paint) -> String {
         Paint::Plain => Renderer::plain(),
         Paint::Coloured => Renderer::styled(),
     };
-    renderer.render(&report)
+    renderer.term_width(n_columns).render(&report)
+}
+
+/// Says `problem` in one line that editors and `grep` can take apart:
+/// `file:line:column: error[E0201]: message: label`.
+///
+/// ```
+/// use linkwork::diag::{Code, Diagnostic, Sources, Span, short};
+///
+/// let mut sources = Sources::new();
+/// let id = sources.add("a.link", "step\nlenght A B");
+/// let problem = Diagnostic::error(Code::new(101), "unknown command `lenght`")
+///     .at(Span::new(id, 5..11), "not a command");
+/// let line = "a.link:2:1: error[E0101]: unknown command `lenght`: not a command";
+/// assert_eq!(short(&problem, &sources), line);
+/// ```
+pub fn short(problem: &Diagnostic, sources: &Sources) -> String {
+    let problem = &without_orders(problem);
+    let mut line = String::new();
+    let place = problem.place().and_then(|span| Some((sources.get(span.source)?, span)));
+    if let Some((source, span)) = place
+        && let Some(Place { line: row, column }) = sources.place(span)
+    {
+        line = format!("{}:{row}:{column}: ", visible(&source.name));
+    }
+    line.push_str(match problem.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    });
+    if let Some(code) = problem.code {
+        line = format!("{line}[{code}]");
+    }
+    let line = format!("{line}: {problem}");
+    let line = problem.helps.iter().fold(line, |line, help| line + "; " + help);
+    line.replace('\n', " ")
 }
 
 /// A problem whose words may quote anything, as a terminal may show them.
@@ -116,11 +172,18 @@ fn snippet<'a>(marks: &[Mark<'a>], sources: &'a Sources) -> Option<Drawn<'a>> {
         kind.span(range.start - from..range.end - from).label(label)
     });
     Some(
-        Snippet::source(&text[from..to])
+        Snippet::source(without_second_controls(&text[from..to]))
             .path(visible(&source.name))
             .line_start(line)
             .annotations(annotations),
     )
+}
+
+/// A text without the control characters from U+0080 on, which the drawing lets through; what takes
+/// their place is as long, so that places stay where they are.
+fn without_second_controls(text: &str) -> Cow<'_, str> {
+    let is_control = |char: char| ('\u{80}'..='\u{9f}').contains(&char);
+    if text.contains(is_control) { text.replace(is_control, "¿").into() } else { text.into() }
 }
 
 fn line_start(text: &str, at: usize) -> usize {
@@ -136,13 +199,13 @@ fn line_end(text: &str, at: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::{Diagnostic, SourceId};
+    use crate::diag::{Code, Diagnostic, SourceId};
 
     /// Draws an error at `range` of `text`.
     fn drawn(text: &str, range: std::ops::Range<usize>) -> String {
         let mut sources = Sources::new();
         let id = sources.add("a.link", text);
-        let problem = Diagnostic::error("wrong").at(Span::new(id, range), "here");
+        let problem = Diagnostic::error(Code::new(7), "wrong").at(Span::new(id, range), "here");
         render(&problem, &sources, Paint::Plain)
     }
 
@@ -155,35 +218,39 @@ mod tests {
         check(
             "one\ntwo three\nfour",
             8..13,
-            "error: wrong\n --> a.link:2:5\n  |\n2 | two three\n  |     ^^^^^ here",
+            "error[E0007]: wrong\n --> a.link:2:5\n  |\n2 | two three\n  |     ^^^^^ here",
         );
     }
 
     #[test]
     fn odd_line_ends_and_empty_texts_are_survived() {
-        let empty = "error: wrong\n --> a.link:1:1\n  |\n1 |\n  | ^ here";
+        let empty = "error[E0007]: wrong\n --> a.link:1:1\n  |\n1 |\n  | ^ here";
         check("", 0..0, empty);
         check("", 7..9, empty);
         check("\r\n", 0..1, empty);
-        check("ab\r\ncd", 0..2, "error: wrong\n --> a.link:1:1\n  |\n1 | ab\n  | ^^ here");
-        check("ab\n", 3..3, "error: wrong\n --> a.link:2:1\n  |\n2 |\n  | ^ here");
-        check("ab", 2..2, "error: wrong\n --> a.link:1:3\n  |\n1 | ab\n  |   ^ here");
+        check("ab\r\ncd", 0..2, "error[E0007]: wrong\n --> a.link:1:1\n  |\n1 | ab\n  | ^^ here");
+        check("ab\n", 3..3, "error[E0007]: wrong\n --> a.link:2:1\n  |\n2 |\n  | ^ here");
+        check("ab", 2..2, "error[E0007]: wrong\n --> a.link:1:3\n  |\n1 | ab\n  |   ^ here");
     }
 
     #[test]
     fn of_several_lines_the_first_is_underlined() {
-        check("ab\ncd\nef", 1..8, "error: wrong\n --> a.link:1:2\n  |\n1 | ab\n  |  ^ here");
+        check("ab\ncd\nef", 1..8, "error[E0007]: wrong\n --> a.link:1:2\n  |\n1 | ab\n  |  ^ here");
     }
 
     #[test]
     fn tabs_and_control_characters_are_made_visible() {
-        check("\tab", 1..2, "error: wrong\n --> a.link:1:2\n  |\n1 |     ab\n  |     ^ here");
+        check(
+            "\tab",
+            1..2,
+            "error[E0007]: wrong\n --> a.link:1:2\n  |\n1 |     ab\n  |     ^ here",
+        );
         let escape = drawn("a\u{1b}[31mb", 0..1);
         assert!(!escape.contains('\u{1b}'), "{escape:?}");
         let order = "\u{1b}[2J\u{9b}31m\r";
         let mut sources = Sources::new();
         let id = sources.add(order, order);
-        let problem = Diagnostic::error(order)
+        let problem = Diagnostic::error(Code::new(7), order)
             .at(Span::new(id, 0..1), order)
             .also(Span::new(id, 1..2), order)
             .note(order)
@@ -216,7 +283,7 @@ mod tests {
         let mut sources = Sources::new();
         let text = format!("({}\n)", "x".repeat(100_000));
         let id = sources.add("a.link", &*text);
-        let problem = Diagnostic::error("wrong")
+        let problem = Diagnostic::error(Code::new(7), "wrong")
             .at(Span::new(id, text.len() - 1..text.len()), "here")
             .also(Span::new(id, 0..1), "opened here");
         let drawn = render(&problem, &sources, Paint::Plain);
@@ -229,13 +296,13 @@ mod tests {
         let mut sources = Sources::new();
         let inner = sources.add("leg.link", "length A Q");
         let outer = sources.add("a.link", "step\ninclude \"leg.link\"");
-        let problem = Diagnostic::error("there is no `Q`")
+        let problem = Diagnostic::error(Code::new(7), "there is no `Q`")
             .at(Span::new(inner, 9..10), "")
             .note("the points are `A` and `B`")
             .help("did you mean `B`?")
             .reached_from(Span::new(outer, 5..23));
         let wanted = "\
-error: there is no `Q`
+error[E0007]: there is no `Q`
  --> leg.link:1:10
   |
 1 | length A Q
@@ -262,7 +329,7 @@ note: reached from here
         let sources = Sources::new();
         let problem = Diagnostic::warning("the disk is full");
         assert_eq!(render(&problem, &sources, Paint::Plain), "warning: the disk is full");
-        let lost = Diagnostic::error("lost").at(Span::new(SourceId(9), 0..1), "x");
-        assert_eq!(render(&lost, &sources, Paint::Plain), "error: lost");
+        let lost = Diagnostic::error(Code::new(7), "lost").at(Span::new(SourceId(9), 0..1), "x");
+        assert_eq!(render(&lost, &sources, Paint::Plain), "error[E0007]: lost");
     }
 }

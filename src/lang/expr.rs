@@ -1,10 +1,10 @@
 //! Expressions and the names in them, as written: nothing is looked up or computed here.
 
-use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use crate::diag::Span;
+use crate::diag::{Span, format_digits};
 
+pub use crate::terms::Unit;
 use crate::terms::{Function, Operator};
 
 /// A value to be computed, and its place in the text.
@@ -33,6 +33,31 @@ impl Expr {
         match &self.node {
             Node::Name(name) => Some(name),
             _ => None,
+        }
+    }
+
+    /// The unit that it is typed in, if it is a number: `-90deg` is in degrees.
+    pub fn unit(&self) -> Unit {
+        match &self.node {
+            Node::Number(number) => number.unit,
+            Node::Negate(of) => of.unit(),
+            _ => Unit::None,
+        }
+    }
+
+    /// The literal `value` in a unit, where that reads back to the same bits; without it
+    /// otherwise.
+    pub fn literal_in(value: f64, unit: Unit, span: Span) -> Self {
+        let exact = value.abs() / unit.scale();
+        let rounded = format_digits(exact, 15).parse().unwrap_or(exact);
+        let reads_back = |written: &f64| written * unit.scale() == value.abs();
+        let written = [rounded, exact].into_iter().find(reads_back).filter(|_| unit != Unit::None);
+        let Some(written) = written else { return Self::literal(value, span) };
+        let number = Self { node: Node::Number(Number { written, unit }), span };
+        if value.is_sign_negative() {
+            Self { node: Node::Negate(Box::new(number)), span }
+        } else {
+            number
         }
     }
 
@@ -86,54 +111,6 @@ impl Number {
     /// What it is worth: `90deg` is pi/2.
     pub fn value(self) -> f64 {
         self.written * self.unit.scale()
-    }
-}
-
-/// The suffix of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Unit {
-    /// No suffix.
-    None,
-    /// Degrees.
-    Deg,
-    /// Radians.
-    Rad,
-    /// Turns.
-    Rev,
-    /// Turns per minute.
-    Rpm,
-    /// Seconds.
-    S,
-    /// Milliseconds.
-    Ms,
-}
-
-impl Unit {
-    /// Every suffix, [`Unit::None`] left out.
-    pub const ALL: [Self; 6] = [Self::Deg, Self::Rad, Self::Rev, Self::Rpm, Self::S, Self::Ms];
-
-    /// How it is written.
-    pub const fn suffix(self) -> &'static str {
-        match self {
-            Self::None => "",
-            Self::Deg => "deg",
-            Self::Rad => "rad",
-            Self::Rev => "rev",
-            Self::Rpm => "rpm",
-            Self::S => "s",
-            Self::Ms => "ms",
-        }
-    }
-
-    /// What a number with it is multiplied by.
-    pub const fn scale(self) -> f64 {
-        match self {
-            Self::None | Self::Rad | Self::S => 1.0,
-            Self::Deg => PI / 180.0,
-            Self::Rev => TAU,
-            Self::Rpm => TAU / 60.0,
-            Self::Ms => 1e-3,
-        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod catalogue;
 mod commands;
 mod constraint;
 mod expr;
+mod format;
 mod grammar;
 mod growing;
 mod layout;
@@ -16,5 +17,6 @@ mod lower;
 mod parts;
 mod print;
 
+pub use format::format;
 pub use growing::Growing;
 pub use lower::{Statements, is_incomplete, parse};

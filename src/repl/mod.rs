@@ -21,7 +21,7 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
     println!("linkwork {}; `help` for help, Ctrl-D to leave", env!("CARGO_PKG_VERSION"));
-    let mut transcript = Transcript::new("<prompt>");
+    let mut transcript = Transcript::conversation("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
         match editor.readline("> ") {

@@ -3,6 +3,7 @@
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
 use crate::diag::{Diagnostic, SourceId, Sources};
+use crate::errors;
 use crate::lang::ast::{Command, Expr, Looking, Making, PrintItem};
 use crate::lang::parse;
 use crate::world::Value;
@@ -21,7 +22,7 @@ pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<V
     };
     match (expr, next) {
         (Some(expr), None) => Resolver::new(state, &mut Scopes::default(), sources).value(expr),
-        _ => Err(Diagnostic::error("expected one expression")),
+        _ => Err(Diagnostic::error(errors::UNEXPECTED, "expected one expression")),
     }
 }
 
@@ -38,7 +39,8 @@ pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<V
 /// assert!(evaluate_binding("r").is_err());
 /// ```
 pub fn evaluate_binding(text: &str) -> Result<(String, f64), Diagnostic> {
-    let expected = || Diagnostic::error("expected `name=value`, the value a number");
+    let expected =
+        || Diagnostic::error(errors::UNEXPECTED, "expected `name=value`, the value a number");
     let statement = format!("let {text}");
     let mut sources = Sources::new();
     let source = sources.add("value", statement.as_str());

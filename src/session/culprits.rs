@@ -36,6 +36,30 @@ impl Culprits {
 }
 
 impl State {
+    /// As [`Session::unsolved`](super::Session::unsolved).
+    pub(super) fn unsolved(&self) -> Option<Diagnostic> {
+        let State { world, preferences, .. } = self;
+        let verdict = verdict(world, &preferences.solve);
+        if verdict.is_met() || preferences.is_live {
+            return None;
+        }
+        let (world, _) = present(world);
+        let off = worst_first(&verdict, |_| true);
+        let record = world.constraint(off.first()?.id)?;
+        let others = match off.len() - 1 {
+            0 => String::new(),
+            n => format!(", {n} more are off"),
+        };
+        let miss = miss(&world, &record.constraint);
+        let note = format!("not solved yet: {} is off by {miss}{others}", record.name);
+        Some(
+            Diagnostic::note_only(note)
+                .help("`solve` solves it; `set live on` does so after each edit"),
+        )
+    }
+}
+
+impl State {
     /// Who is to blame for the present pose, where solving ended so; `held` are points that a hand
     /// holds now.
     pub(super) fn culprits(&self, status: Status, held: &[PointId]) -> Culprits {

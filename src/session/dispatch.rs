@@ -5,6 +5,7 @@ use super::quotas::MOST_STATEMENTS;
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
 };
@@ -14,7 +15,7 @@ impl Execution<'_> {
     pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements += 1;
         if self.n_statements > MOST_STATEMENTS {
-            return Err(Diagnostic::error("this command never seems to end")
+            return Err(Diagnostic::error(errors::TOO_MUCH, "this command never seems to end")
                 .at(statement.span, "20 million statements were carried out")
                 .help("split it into several commands"));
         }
@@ -152,10 +153,15 @@ impl Execution<'_> {
             n_done += 1;
         }
         if n_done == 0 {
-            return Err(Diagnostic::error(format!("nothing to {}", way.word)).at(span, ""));
+            return Err(Diagnostic::error(
+                errors::NOTHING_TO_UNDO,
+                format!("nothing to {}", way.word),
+            )
+            .at(span, ""));
         }
         if n_done < n {
-            self.note(format!("only {n_done} commands could be {}", way.done));
+            let commands = if n_done == 1 { "command" } else { "commands" };
+            self.note(format!("only {n_done} {commands} could be {}", way.done));
         }
         Ok(())
     }
@@ -165,7 +171,7 @@ impl Execution<'_> {
         if self.depth == 0 {
             return Ok(());
         }
-        Err(Diagnostic::error(format!("`{word}` cannot be part of another command"))
+        Err(Diagnostic::error(errors::ALONE, format!("`{word}` cannot be part of another command"))
             .at(span, "inside of a `for`, a definition or an included file"))
     }
 }

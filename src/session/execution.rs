@@ -12,6 +12,7 @@ use super::summary::Summary;
 use super::undo::history::History;
 use super::undo::journal::Change;
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::errors;
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
@@ -83,6 +84,9 @@ impl<'a> Execution<'a> {
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         let result = self.dispatch(statement).and_then(|flow| {
+            if self.state.preferences.is_live && statement.command.is_edit() {
+                self.solve_after_edit()?;
+            }
             self.flush_outbox()?;
             Ok(flow)
         });
@@ -105,8 +109,11 @@ impl<'a> Execution<'a> {
     pub fn finish(mut self) -> Result<(), Diagnostic> {
         if !self.stop_recording() {
             self.drop_recordings();
-            return Err(Diagnostic::error("stopped before the recording was written")
-                .kind(Kind::Interrupted));
+            return Err(Diagnostic::error(
+                errors::INTERRUPTED,
+                "stopped before the recording was written",
+            )
+            .kind(Kind::Interrupted));
         }
         self.flush_outbox()?;
         self.history.commit(self.state, "");

@@ -7,6 +7,7 @@
 //! Its parts: `state` is all that commands change, `input` what they are read from, `undo` what
 //! takes them back; `execution` is the command under way, the only one who meets the host.
 
+mod advice;
 mod answer;
 mod ask;
 mod commands;
@@ -23,6 +24,7 @@ mod preferences;
 mod quotas;
 mod report;
 mod resolve;
+mod review;
 mod scene_hash;
 mod series;
 mod settled;
@@ -222,7 +224,8 @@ impl Session {
     ) -> Result<Flow, Diagnostic> {
         let text = self.input.sources.get(source).map(|s| s.text.clone()).unwrap_or_default();
         for statement in crate::lang::parse(source, &text) {
-            let flow = self.execute(&statement?, host)?;
+            let statement = statement.map_err(|problem| self.advise(problem))?;
+            let flow = self.execute(&statement, host)?;
             if flow != Flow::On {
                 return Ok(flow);
             }
@@ -261,6 +264,11 @@ impl Session {
     /// live expressions have values.
     pub fn effects_on(&self, host: &dyn Host) -> Effects {
         self.state.effects_on(host)
+    }
+
+    /// What to say of a pose that waits to be solved, if it does.
+    pub fn unsolved(&self) -> Option<Diagnostic> {
+        self.state.unsolved()
     }
 
     /// How far what drives can go, a motor, a constraint with a value or a parameter, the rest held as

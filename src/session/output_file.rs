@@ -7,6 +7,7 @@ use super::execution::Execution;
 use super::file_kind::{FileKind, Parcel, ends_in};
 use super::host::{contained, reason};
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::errors;
 use crate::lang::ast::Text;
 
 impl Execution<'_> {
@@ -16,7 +17,7 @@ impl Execution<'_> {
     pub fn output_file(&mut self, path: &Text, kind: FileKind) -> Result<PathBuf, Diagnostic> {
         let file = self.output_path(path)?;
         if path.value.ends_with('/') || file.file_name().is_none() {
-            return Err(Diagnostic::error("this is no file")
+            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "this is no file")
                 .at(path.span, "expected a file name, this names a folder"));
         }
         if let Some(ending) = kind.ending()
@@ -26,14 +27,14 @@ impl Execution<'_> {
                 FileKind::Picture => "this is no name of a picture",
                 _ => "this is no name of a table",
             };
-            return Err(Diagnostic::error(message)
+            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, message)
                 .at(path.span, format!("expected a name that ends in `{ending}`")));
         }
         let foreign = [".svg", ".csv"].into_iter().find(|ending| ends_in(&path.value, ending));
         if kind == FileKind::Script
             && let Some(ending) = foreign
         {
-            return Err(Diagnostic::error("`save` writes a script")
+            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "`save` writes a script")
                 .at(path.span, format!("a name that ends in `{ending}` says something else"))
                 .help("end it in `.link`"));
         }
@@ -45,19 +46,19 @@ impl Execution<'_> {
     pub fn output_path(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let given = Path::new(&*path.value);
         if path.value.is_empty() || path.value.contains('\0') {
-            return Err(
-                Diagnostic::error("this is not a file name").at(path.span, "nothing to write to")
-            );
+            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "this is not a file name")
+                .at(path.span, "nothing to write to"));
         }
         match self.host.resolve(given) {
             // The same file by another name is the same file.
             Ok(_) => Ok(contained(given).unwrap_or_else(|_| given.to_path_buf())),
-            Err(e) if e.kind() == io::ErrorKind::PermissionDenied => {
-                Err(Diagnostic::error("files are written below the output folder only")
-                    .at(path.span, "this path leads elsewhere")
-                    .help("name the file alone: the output folder is `--out`, or where you are")
-                    .help("`--allow-any-path` on the command line permits it"))
-            }
+            Err(e) if e.kind() == io::ErrorKind::PermissionDenied => Err(Diagnostic::error(
+                errors::OUTSIDE,
+                "files are written below the output folder only",
+            )
+            .at(path.span, "this path leads elsewhere")
+            .help("name the file alone: the output folder is `--out`, or where you are")
+            .help("`--allow-any-path` on the command line permits it")),
             Err(e) => Err(unwritable(Path::new(&*path.value), path.span, &e)),
         }
     }
@@ -76,7 +77,7 @@ impl Execution<'_> {
             Ok(Some(_)) => {
                 let message =
                     format!("`{}` is there, and linkwork did not write it", file.display());
-                Err(Diagnostic::error(message)
+                Err(Diagnostic::error(errors::FOREIGN_FILE, message)
                     .at(span, "it would be lost")
                     .help("choose another name, or remove the file first")
                     .help("`--force` on the command line replaces it"))
@@ -109,7 +110,7 @@ impl Execution<'_> {
 }
 
 fn unwritable(file: &Path, span: Span, error: &io::Error) -> Diagnostic {
-    Diagnostic::error(format!("cannot write `{}`", file.display()))
+    Diagnostic::error(errors::CANNOT_WRITE, format!("cannot write `{}`", file.display()))
         .kind(Kind::Unreadable)
         .at(span, reason(error))
 }

@@ -11,6 +11,8 @@ pub struct Preferences {
     pub dead_points: AtDeadPoint,
     /// A ghost of the mechanism is kept every so many frames.
     pub expose_every: Option<u64>,
+    /// Whether each edit is followed by a solution.
+    pub is_live: bool,
 }
 
 /// What happens where a motor cannot go on.

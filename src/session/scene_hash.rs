@@ -22,7 +22,7 @@ impl State {
     pub fn scene_hash(&self) -> u64 {
         let mut text = String::new();
         // Writing to a string cannot fail.
-        for setting in &SETTINGS {
+        for setting in SETTINGS.iter().filter(|setting| setting.is_of_scene) {
             let _ = writeln!(text, "set {} {}", setting.name, (setting.text)(self));
         }
         let points = self.world.points();

@@ -46,12 +46,21 @@ impl Session {
 pub struct Transcript {
     name: &'static str,
     n_lines: usize,
+    /// Whether somebody sees each answer before they go on.
+    is_conversation: bool,
+    /// Whether the pose was solved when it was looked at last.
+    was_solved: bool,
 }
 
 impl Transcript {
     /// A text that errors call `name`.
     pub const fn new(name: &'static str) -> Self {
-        Self { name, n_lines: 0 }
+        Self { name, n_lines: 0, is_conversation: false, was_solved: true }
+    }
+
+    /// A conversation: who types is told when an edit leaves the pose unsolved.
+    pub const fn conversation(name: &'static str) -> Self {
+        Self { is_conversation: true, ..Self::new(name) }
     }
 
     /// Carries out a piece. After a mistake the rest of its line is left out, as it was typed
@@ -70,8 +79,10 @@ impl Transcript {
             if (span.start as usize) < left_out {
                 continue;
             }
+            let statement = statement.map_err(|problem| session.advise(problem));
+            let is_edit = statement.as_ref().is_ok_and(|statement| statement.command.is_edit());
             match statement.and_then(|statement| session.execute(&statement, host)) {
-                Ok(Flow::On) => {}
+                Ok(Flow::On) => self.look_at_pose(is_edit, session, host),
                 Ok(flow) => {
                     outcome.flow = flow;
                     break;
@@ -84,6 +95,20 @@ impl Transcript {
             }
         }
         outcome
+    }
+}
+
+impl Transcript {
+    /// Says once that an edit left the pose unsolved, until it is solved again.
+    fn look_at_pose(&mut self, is_edit: bool, session: &Session, host: &mut dyn Host) {
+        if !self.is_conversation {
+            return;
+        }
+        let unsolved = session.unsolved();
+        if let Some(note) = unsolved.as_ref().filter(|_| is_edit && self.was_solved) {
+            host.tell(note, session.sources());
+        }
+        self.was_solved = unsolved.is_none();
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Value;
 use crate::constraint::{Real, Vec2, length, limited_argument, power, value_of};
 use crate::diag::{Diagnostic, Span, format_number};
+use crate::errors;
 use crate::terms::{Function, Operator};
 
 /// The value itself if it is finite.
@@ -13,7 +14,7 @@ pub fn finite<T: Real>(value: Value<T>, span: Span) -> Result<Value<T>, Diagnost
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(Diagnostic::error("this has no finite value").at(span, "overflows"))
+        Err(Diagnostic::error(errors::NO_VALUE, "this has no finite value").at(span, "overflows"))
     }
 }
 
@@ -40,7 +41,9 @@ pub fn operate<T: Real>(
             Vector(v.scale(k))
         }
         (Operator::Divide, _, Number(b)) if b.value() == 0.0 => {
-            return Err(Diagnostic::error("division by zero").at(right, "this is 0"));
+            return Err(
+                Diagnostic::error(errors::NO_VALUE, "division by zero").at(right, "this is 0")
+            );
         }
         (Operator::Divide, Number(a), Number(b)) => Number(a / b),
         (Operator::Divide, Vector(v), Number(b)) => Vector(Vec2 { x: v.x / b, y: v.y / b }),
@@ -50,7 +53,7 @@ pub fn operate<T: Real>(
             } else {
                 "a negative number to a power that is not whole"
             };
-            Diagnostic::error("this power has no value").at(span, what)
+            Diagnostic::error(errors::NO_VALUE, "this power has no value").at(span, what)
         })?),
         _ => unreachable!("shapes are checked when a formula is bound"),
     };
@@ -87,8 +90,11 @@ pub fn call<T: Real>(
             let (p, a, b) = (vector(0), vector(1), vector(2));
             let l = length(b - a);
             if l.value() == 0.0 {
-                return Err(Diagnostic::error("the two points of the line coincide")
-                    .at(span, "no line to measure from"));
+                return Err(Diagnostic::error(
+                    errors::NO_DIRECTION,
+                    "the two points of the line coincide",
+                )
+                .at(span, "no line to measure from"));
             }
             Number((b - a).cross(p - a) / l)
         }
@@ -113,8 +119,11 @@ pub fn call<T: Real>(
             Number(value.ok_or_else(|| {
                 let given = number(limited_argument(function)).value();
                 let at = format_number(given);
-                Diagnostic::error(format!("`{}` has no value at {at}", function.name()))
-                    .at(span, "outside its domain")
+                Diagnostic::error(
+                    errors::NO_VALUE,
+                    format!("`{}` has no value at {at}", function.name()),
+                )
+                .at(span, "outside its domain")
             })?)
         }
     };
@@ -123,9 +132,11 @@ pub fn call<T: Real>(
 
 fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
     if x.value() == 0.0 && y.value() == 0.0 {
-        return Err(
-            Diagnostic::error("two points coincide, so there is no direction").at(span, "no angle")
-        );
+        return Err(Diagnostic::error(
+            errors::NO_DIRECTION,
+            "two points coincide, so there is no direction",
+        )
+        .at(span, "no angle"));
     }
     Ok(Value::Number(y.atan2(x)))
 }
@@ -134,7 +145,7 @@ fn angle<T: Real>(x: T, y: T, span: Span) -> Result<Value<T>, Diagnostic> {
 fn clamp<T: Real>([x, lo, hi]: [T; 3], span: Span) -> Result<T, Diagnostic> {
     if lo.value() > hi.value() {
         let [lo, hi] = [lo, hi].map(|end| format_number(end.value()));
-        return Err(Diagnostic::error("`clamp` has an empty range")
+        return Err(Diagnostic::error(errors::NO_VALUE, "`clamp` has an empty range")
             .at(span, format!("its least value, {lo}, is above its greatest, {hi}")));
     }
     Ok(match x.value() {

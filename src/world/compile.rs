@@ -268,7 +268,7 @@ impl<'a> Compiler<'a> {
             };
         }
         match formula.node() {
-            Node::Number(n) => Place::Number(self.push(Operation::Constant(*n))),
+            Node::Number(n, _) => Place::Number(self.push(Operation::Constant(*n))),
             Node::Point(id) => {
                 let (x, y) = self.point(*id);
                 Place::Vector(x, y)

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real, Vec2, Vector};
 use crate::diag::Diagnostic;
+use crate::errors;
 use crate::terms::Member;
 
 /// Velocities and accelerations of all points, by handle.
@@ -52,9 +53,12 @@ impl Environment<f64> for Here<'_> {
             return value.clone();
         }
         Err(self.world.dependencies.failure(id).cloned().unwrap_or_else(|| {
-            Diagnostic::error(format!("`{}` follows from a velocity", parameter.name))
-                .at(parameter.formula.span(), "a velocity cannot be had here")
-                .help("use it in `print`, `assert`, or a parameter that these use")
+            Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                format!("`{}` follows from a velocity", parameter.name),
+            )
+            .at(parameter.formula.span(), "a velocity cannot be had here")
+            .help("use it in `print`, `assert`, or a parameter that these use")
         }))
     }
 

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real};
 use crate::diag::Diagnostic;
+use crate::errors;
 
 impl World {
     /// The value of an expression, live parameters brought up to date first.
@@ -143,7 +144,7 @@ impl World {
     fn follows_from_a_constraint(&self, id: ParameterId) -> Diagnostic {
         let parameter = self.parameter(id).expect("a named parameter lives");
         let text = format!("`{}` follows from a constraint", parameter.name);
-        Diagnostic::error(text)
+        Diagnostic::error(errors::NOT_A_DRIVER, text)
             .at(parameter.formula.span(), "what a constraint comes to cannot drive one")
             .help("use it in `print`, `assert`, or a parameter that these use")
     }

@@ -9,7 +9,8 @@ use super::turning::whole_turns;
 use super::{ConstraintId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::terms::{Function, Member, Operator, Shape};
+use crate::errors;
+use crate::terms::{Function, Member, Operator, Shape, Unit};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -30,7 +31,7 @@ struct Inner {
 #[derive(Debug)]
 pub enum Node {
     /// A number.
-    Number(f64),
+    Number(f64, Unit),
     /// A vector from its two coordinates.
     Vector(Formula, Formula),
     /// The value of a parameter.
@@ -126,7 +127,7 @@ impl Formula {
 
     /// A constant number without a place in a text.
     pub fn constant(value: f64) -> Self {
-        Self::new(Node::Number(value), Shape::Number, Depends::default(), NOWHERE)
+        Self::new(Node::Number(value, Unit::None), Shape::Number, Depends::default(), NOWHERE)
     }
 
     /// A node that stands in no text.
@@ -176,7 +177,7 @@ impl Formula {
     /// Calls `visit` for each point, parameter and member it mentions.
     pub fn mentions(&self, visit: &mut impl FnMut(Mention)) {
         match self.node() {
-            Node::Number(_) | Node::Time => {}
+            Node::Number(..) | Node::Time => {}
             Node::Parameter(id) => visit(Mention::Parameter(*id)),
             Node::Point(id) => visit(Mention::Point(*id)),
             Node::Member(id, member) => visit(Mention::Member(*id, *member)),
@@ -193,7 +194,7 @@ impl Formula {
     /// difference, a middle.
     pub fn segments(&self, visit: &mut impl FnMut([PointId; 2])) {
         match self.node() {
-            Node::Number(_)
+            Node::Number(..)
             | Node::Time
             | Node::Parameter(_)
             | Node::Point(_)
@@ -228,7 +229,7 @@ impl Formula {
     pub fn evaluate<T: Real>(&self, env: &impl Environment<T>) -> Result<Value<T>, Diagnostic> {
         use Value::{Number, Vector};
         let value = match self.node() {
-            Node::Number(n) => return Ok(Number(T::constant(*n))),
+            Node::Number(n, _) => return Ok(Number(T::constant(*n))),
             Node::Time => return Ok(Number(env.time())),
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
@@ -282,9 +283,12 @@ impl Formula {
             Some(MovingPoint { at: env.position(id), velocity, acceleration })
         });
         let Some(moving) = moving.collect::<Option<Vec<_>>>() else {
-            return Err(Diagnostic::error(format!("`{}` cannot be had here", function.name()))
-                .at(self.span(), "only where a value is looked at")
-                .help("use it in `print`, `assert`, or a parameter that these use"));
+            return Err(Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                format!("`{}` cannot be had here", function.name()),
+            )
+            .at(self.span(), "only where a value is looked at")
+            .help("use it in `print`, `assert`, or a parameter that these use"));
         };
         rate(function, &moving, self.span())
     }

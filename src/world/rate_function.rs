@@ -4,6 +4,7 @@ use super::Value;
 use super::arithmetic::finite;
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::terms::Function;
 
 /// Two angular velocities that differ by less than this part are the same: far above what rounding
@@ -49,9 +50,11 @@ fn turning<T: Real>(
     let (v, acceleration) = (b.velocity - a.velocity, b.acceleration - a.acceleration);
     let square = r.dot(r);
     if square.value() == 0.0 {
-        return Err(
-            Diagnostic::error("two points coincide, so there is no direction").at(span, "no angle")
-        );
+        return Err(Diagnostic::error(
+            errors::NO_DIRECTION,
+            "two points coincide, so there is no direction",
+        )
+        .at(span, "no angle"));
     }
     let omega = r.cross(v) / square;
     let stretching = T::constant(2.0) * r.dot(v) / square;
@@ -66,7 +69,7 @@ fn instant_centre<T: Real>(points: &[MovingPoint<T>], span: Span) -> Result<Vec2
     let largest = omega.value().abs().max(other.value().abs());
     if difference.value().abs() <= SAME * largest {
         let why = if largest == 0.0 { "neither turns now" } else { "both turn alike now" };
-        return Err(Diagnostic::error("these bodies have no instant centre")
+        return Err(Diagnostic::error(errors::NO_DIRECTION, "these bodies have no instant centre")
             .at(span, why)
             .help("where nothing drives a mechanism it stands still, and has none"));
     }
@@ -81,8 +84,11 @@ fn instant_centre<T: Real>(points: &[MovingPoint<T>], span: Span) -> Result<Vec2
 fn curvature<T: Real>(p: MovingPoint<T>, span: Span) -> Result<T, Diagnostic> {
     let square = p.velocity.dot(p.velocity);
     if square.value() == 0.0 {
-        return Err(Diagnostic::error("the point stands still, so its path has no curvature")
-            .at(span, "its velocity is 0"));
+        return Err(Diagnostic::error(
+            errors::NO_DIRECTION,
+            "the point stands still, so its path has no curvature",
+        )
+        .at(span, "its velocity is 0"));
     }
     Ok(p.velocity.cross(p.acceleration) / (square * square.sqrt()))
 }

@@ -3,6 +3,8 @@
 use super::{Depends, Formula, NameText, Value};
 use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, Traits};
 use crate::diag::{Diagnostic, format_number};
+use crate::errors;
+use crate::terms::Unit;
 
 /// A constraint with its name and what drives its values.
 #[derive(Debug, Clone)]
@@ -27,6 +29,8 @@ struct Extra {
     /// those that are measured are given from outside.
     live: Option<Drivers>,
     rho: Option<f64>,
+    /// The units that its values were typed in, where they are plain numbers.
+    units: Vec<(Field, Unit)>,
 }
 
 impl Record {
@@ -85,6 +89,21 @@ impl Record {
         self.extra.get_or_insert_default().rho = Some(rho);
     }
 
+    /// The unit that a value was typed in.
+    pub fn unit(&self, field: Field) -> Unit {
+        let units = self.extra.as_ref().map_or(&[][..], |extra| &extra.units);
+        units.iter().find(|(f, _)| *f == field).map_or(Unit::None, |(_, unit)| *unit)
+    }
+
+    /// Notes the units of values that are given anew, in the place of those of all these.
+    pub fn set_units(&mut self, fields: &[Field], new: Vec<(Field, Unit)>) {
+        if self.extra.is_some() || !new.is_empty() {
+            let units = &mut self.extra.get_or_insert_default().units;
+            units.retain(|(field, _)| !fields.contains(field));
+            units.extend(new);
+        }
+    }
+
     /// The expression behind a value, if it is live.
     pub fn driver(&self, field: Field) -> Option<&Formula> {
         self.drivers().iter().find(|(f, _)| *f == field).map(|(_, formula)| formula)
@@ -100,7 +119,10 @@ impl Record {
             Some(_) if self.driver(Field::Lo).is_some() => Field::Lo,
             _ => flaw.field(),
         };
-        let problem = Diagnostic::error(format!("{} in `{}`", flaw.noun(), self.name));
+        let problem = Diagnostic::error(
+            errors::NONSENSE_VALUE,
+            format!("{} in `{}`", flaw.noun(), self.name),
+        );
         let problem = match self.driver(field) {
             Some(formula) => {
                 let value = self.constraint.get(field).map_or_else(String::new, format_number);

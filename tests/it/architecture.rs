@@ -7,35 +7,71 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("diag", &[]),
+    ("errors", &["diag"]),
     ("terms", &[]),
-    ("lang", &["diag", "terms"]),
-    ("constraint", &["diag", "terms"]),
-    ("world", &["diag", "terms", "constraint"]),
+    ("lang", &["diag", "errors", "terms"]),
+    ("constraint", &["diag", "errors", "terms"]),
+    ("world", &["diag", "errors", "terms", "constraint"]),
     ("linalg", &[]),
     ("mobility", &["constraint", "linalg"]),
-    ("solve", &["diag", "constraint", "world", "linalg", "mobility"]),
-    ("render", &["diag", "constraint", "linalg", "world"]),
-    ("study", &["diag", "constraint", "world", "mobility", "solve", "render"]),
+    ("solve", &["diag", "errors", "constraint", "world", "linalg", "mobility"]),
+    ("render", &["diag", "errors", "constraint", "linalg", "world"]),
+    ("study", &["diag", "errors", "constraint", "world", "mobility", "solve", "render"]),
     (
         "session",
-        &["diag", "terms", "lang", "constraint", "world", "mobility", "solve", "render", "study"],
+        &[
+            "diag",
+            "errors",
+            "terms",
+            "lang",
+            "constraint",
+            "world",
+            "mobility",
+            "solve",
+            "render",
+            "study",
+        ],
     ),
     (
         "repl",
-        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "cli"],
+        &[
+            "diag",
+            "errors",
+            "lang",
+            "constraint",
+            "world",
+            "solve",
+            "render",
+            "study",
+            "session",
+            "cli",
+        ],
     ),
     (
         "cli",
-        &["diag", "lang", "constraint", "world", "solve", "render", "study", "session", "repl"],
+        &[
+            "diag",
+            "errors",
+            "lang",
+            "constraint",
+            "world",
+            "solve",
+            "render",
+            "study",
+            "session",
+            "repl",
+        ],
     ),
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 14] = [
+const HOMES: [(&str, &[&str]); 18] = [
     ("annotate_snippets", &["diag/render.rs"]),
-    ("clap", &["cli/args.rs"]),
+    ("clap", &["cli/"]),
+    ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
+    ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
@@ -44,10 +80,12 @@ const HOMES: [(&str, &[&str]); 14] = [
     ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
-    ("serde_json", &["session/json.rs"]),
+    ("lsp_server", &["cli/language_server/"]),
+    ("serde_json", &["cli/language_server/", "session/json.rs"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
+    ("terminal_size", &["cli/output.rs"]),
 ];
 
 /// All that the library builds on without its features, where there is neither a thread nor a

@@ -6,14 +6,18 @@
 
 mod architecture;
 mod circles;
+mod editors;
+mod errors;
 mod examples;
 mod expressions;
 mod files;
+mod format;
 mod front_door;
 mod golden;
 mod guide;
 mod habits;
 mod hard_cases;
+mod language_server;
 mod laws;
 mod long_texts;
 mod mobility;
@@ -30,5 +34,7 @@ mod solve;
 mod study;
 mod support;
 mod touches;
+mod watch;
 mod well_formed;
+mod words;
 mod work;

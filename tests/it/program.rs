@@ -35,7 +35,10 @@ fn exit_statuses_say_how_a_batch_went() {
     let folder = folder(&[]);
     let out = run(folder.path(), &["run", "missing.link"], "");
     assert_eq!(out.status.code(), Some(3));
-    assert_eq!(text(&out.stderr), "error: cannot read `missing.link`: no such file or folder\n");
+    assert_eq!(
+        text(&out.stderr),
+        "error[E0701]: cannot read `missing.link`: no such file or folder\n"
+    );
     assert_eq!(run(folder.path(), &["run"], "").status.code(), Some(2));
     assert_eq!(run(folder.path(), &["--version"], "").status.code(), Some(0));
 }

@@ -22,14 +22,11 @@ const OF_A_KIND: [&str; 4] =
 /// What names one kind to go a shorter way with it, or to say more of it. Without that it would
 /// go the way of all others; what would be wrong then does not belong here.
 const SHORTER_WAYS: &[(Kind, &[&str])] = &[
-    // What other tools call it, and what is likely meant instead.
-    (Kind::Coincidence, &["lang/lower/prefix.rs"]),
     // One on a circle is of another kind.
     (
         Kind::Glider,
         &[
             "constraint/kinds/touch.rs",
-            "lang/lower/prefix.rs",
             "session/commands/constrain.rs",
             "session/commands/touch.rs",
             "solve/frame/dyad.rs",
@@ -84,7 +81,6 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Orientation,
         &[
-            "lang/lower/prefix.rs",
             "session/commands/diagnose.rs",
             "session/commands/slips.rs",
             "session/resolve/unbind.rs",
@@ -117,7 +113,6 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Cog,
         &[
             "constraint/kinds/cog_velocity.rs",
-            "lang/lower/prefix.rs",
             "session/commands/constrain.rs",
             "session/commands/save.rs",
             "session/commands/setting_table.rs",
@@ -269,6 +264,10 @@ fn scripts() -> Vec<String> {
 
 /// Whether a source names a kind of constraint: its type, its variant, or its word.
 fn names_kind(source: &Source, kind: Kind) -> bool {
+    // Words that people bring are answered by any kind.
+    if source.path == "lang/catalogue/trade.rs" {
+        return false;
+    }
     // What else is called so.
     let others =
         ["Quantity::Length", "feature = \"parallel\"", "Hold => \"hold\"", "\"holds\", \"hold\""];

@@ -2,10 +2,12 @@
 
 mod constraints;
 mod topics;
+mod trade;
 
 use super::commands::{FAMILIES, Verb};
 use super::grammar::Rule;
 pub use constraints::{ConstraintWord, Pattern, Slot};
+pub use trade::{TRADE, Trade, trade, trade_words};
 
 /// A command, or a subject that `help` knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

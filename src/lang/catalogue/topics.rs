@@ -80,6 +80,7 @@ pub(super) const TOPICS: &[Entry] = &[
              iterations  most iterations between two frames, 30\n\
              tolerance   stop below this residual, relative to the scene's size, 1e-12\n\
              dead-points where a motor cannot go on: hold, stop or reverse\n\
+             live        on: each edit is followed by a solution; off\n\
              cog         wheels that are made from here on: holonomic, or the paper's velocity form",
         example: "set tolerance 1e-9",
     },

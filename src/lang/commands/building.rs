@@ -146,6 +146,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Building {
+    /// Whether it makes or changes things, without letting time pass.
+    pub(super) fn is_edit(&self) -> bool {
+        matches!(self, Self::For { .. } | Self::Use { .. })
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(
         rule: Rule,

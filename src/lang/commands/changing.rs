@@ -166,6 +166,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Changing {
+    /// Whether it makes or changes things, without letting time pass.
+    pub(super) fn is_edit(&self) -> bool {
+        matches!(self, Self::Delete { .. } | Self::Off(_) | Self::On(_) | Self::Change { .. })
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {

@@ -78,6 +78,17 @@ pub(super) const FAMILIES: [&[Verb]; 6] = [
 ];
 
 impl Command {
+    /// Whether it makes or changes things by itself, without letting time pass.
+    pub fn is_edit(&self) -> bool {
+        match self {
+            Self::Constrain(_) => true,
+            Self::Making(it) => it.is_edit(),
+            Self::Changing(it) => it.is_edit(),
+            Self::Building(it) => it.is_edit(),
+            Self::Running(_) | Self::Looking(_) | Self::Drawing(_) => false,
+        }
+    }
+
     /// The command whose statement `rule` has read.
     pub(super) fn read(
         rule: Rule,

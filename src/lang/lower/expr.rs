@@ -3,6 +3,7 @@
 use pest::iterators::Pair as Parsed;
 
 use crate::diag::{Diagnostic, Span, nearest};
+use crate::errors;
 use crate::lang::ast::{Axis, Expr, Function, Node, Number, Operator, Unit};
 
 use super::cursor::Cursor;
@@ -155,15 +156,23 @@ fn digits_end(text: &str) -> usize {
     end
 }
 
+/// Units of length: here all lengths of a scene are in one, whichever that is.
+const LENGTHS: [&str; 8] = ["mm", "cm", "dm", "m", "km", "in", "inch", "ft"];
+
 fn unknown_suffix(digits: &str, suffix: &str, span: Span) -> Diagnostic {
     let (digits, suffix) = (brief(digits), brief(suffix));
-    let problem = Diagnostic::error(format!("unknown unit `{suffix}`"))
+    let problem = Diagnostic::error(errors::UNKNOWN_UNIT, format!("unknown unit `{suffix}`"))
         .at(span, "not the suffix of a number");
     if suffix.eq_ignore_ascii_case("e") {
         return problem.help(format!("an exponent has digits: `{digits}e-3`"));
     }
     if suffix.starts_with('_') {
         return problem.help("the digits of a number stand together: `1000000`, or `1e6`");
+    }
+    if LENGTHS.contains(&&*suffix) {
+        return problem.help(format!(
+            "lengths have no unit: write `{digits}`, and all lengths of a scene in one unit"
+        ));
     }
     match nearest(&suffix, Unit::ALL.map(Unit::suffix)) {
         // A letter that is no unit is more likely a factor: `2r`.

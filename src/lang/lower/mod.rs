@@ -9,6 +9,7 @@ mod cursor;
 mod errors;
 mod expr;
 mod prefix;
+mod signs;
 
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,8 @@ use super::layout::{Flaw, Layout, Piece};
 pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
+pub(super) use prefix::is_word_char;
+pub(super) use signs::Signs;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///
@@ -100,8 +103,8 @@ enum State {
 /// A text and the name under which diagnostics know it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reader<'a> {
-    source: SourceId,
-    text: &'a str,
+    pub source: SourceId,
+    pub text: &'a str,
 }
 
 impl<'a> Reader<'a> {

@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use crate::diag::{Diagnostic, Span, nearest};
+use crate::errors;
 use crate::lang::ast::Name;
-use crate::lang::catalogue;
+use crate::lang::catalogue::{self, Trade};
 
 use super::errors::mistake::brief;
 use super::{Reader, constraint};
@@ -53,7 +54,7 @@ impl<'a> Reader<'a> {
         let is_constraint = constraint::rule(word).is_some();
         let span = self.span(range.start..range.start + word.len());
         if let Some(label) = prefix.label.as_ref().filter(|_| !is_constraint) {
-            let problem = Diagnostic::error("only a constraint has a name in front")
+            let problem = Diagnostic::error(errors::LABEL, "only a constraint has a name in front")
                 .at(label.span, "this name")
                 .also(span, "not a constraint");
             return Err(if rule == Rule::point {
@@ -63,10 +64,13 @@ impl<'a> Reader<'a> {
             });
         }
         if let Some(add) = prefix.add.filter(|_| !is_constraint && rule != Rule::point) {
-            return Err(Diagnostic::error("`add` goes before a constraint or `point`")
-                .at(add, "")
-                .also(span, "neither of them")
-                .help(format!("leave it out: `{word} ...`")));
+            return Err(Diagnostic::error(
+                errors::LABEL,
+                "`add` goes before a constraint or `point`",
+            )
+            .at(add, "")
+            .also(span, "neither of them")
+            .help(format!("leave it out: `{word} ...`")));
         }
         Ok((word, rule))
     }
@@ -79,7 +83,7 @@ impl<'a> Reader<'a> {
         let name = brief(text[..colon].trim_end());
         let span = self.span(start + colon..start + colon + 2);
         Some(
-            Diagnostic::error("unexpected `:=`")
+            Diagnostic::error(errors::UNEXPECTED, "unexpected `:=`")
                 .at(span, "not an operator")
                 .help(format!("to define a parameter, write `let {name} = ...`")),
         )
@@ -96,24 +100,27 @@ impl<'a> Reader<'a> {
         if let Some(name) = is_assigned {
             let span = self.span(range.start..range.start + name.len());
             let name = brief(name);
-            return Diagnostic::error(format!("`{name} = ...` is not a statement"))
-                .at(span, "expected a command")
-                .help(format!("to define a parameter, write `let {name} = ...`"))
-                .help(format!("to declare a point, write `point {name} = (x, y)`"));
+            return Diagnostic::error(
+                errors::ASSIGNMENT,
+                format!("`{name} = ...` is not a statement"),
+            )
+            .at(span, "expected a command")
+            .help(format!("to define a parameter, write `let {name} = ...`"))
+            .help(format!("to declare a point, write `point {name} = (x, y)`"));
         }
         let shown = brief(word);
-        let problem = Diagnostic::error(format!("unknown command `{shown}`"));
+        let problem =
+            Diagnostic::error(errors::UNKNOWN_COMMAND, format!("unknown command `{shown}`"));
         let expects_constraint = prefix.label.is_some() || prefix.add.is_some();
         let problem = problem
             .at(span, if expects_constraint { "expected a constraint" } else { "not a command" });
-        let words = catalogue::commands().map(|entry| entry.keyword);
-        let near = if expects_constraint {
-            nearest(word, words.filter(|word| constraint::rule(word).is_some()))
-        } else {
-            nearest(word, words.chain(["add"]))
-        };
-        let fits = |word: &&str| !expects_constraint || constraint::rule(word).is_some();
-        match near.or_else(|| other_tongue(word).filter(fits)) {
+        let fits = |word: &str| !expects_constraint || constraint::rule(word).is_some();
+        if let Some(trade) = catalogue::trade(word).filter(|trade| fits(trade.command)) {
+            let statement = in_our_words(trade, prefix.label.as_ref(), rest);
+            return problem.help(format!("`{shown}` {}: `{statement}`", trade.says));
+        }
+        let words = catalogue::commands().map(|entry| entry.keyword).chain(["add"]);
+        match nearest(word, words.filter(|word| fits(word))) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.is_empty() => {
                 problem.help(format!("to see what it is worth, write `print {shown}`"))
@@ -129,7 +136,7 @@ impl<'a> Reader<'a> {
     fn no_verb(&self, text: &str, prefix: &Prefix, range: &Range<usize>) -> Diagnostic {
         let has_prefix = prefix.label.is_some() || prefix.add.is_some();
         if text.is_empty() && has_prefix {
-            return Diagnostic::error("the statement is not complete")
+            return Diagnostic::error(errors::INCOMPLETE, "the statement is not complete")
                 .at(self.span(range.end..range.end), "expected a constraint")
                 .help("as in `coupler: length B C = 3.5`");
         }
@@ -137,8 +144,8 @@ impl<'a> Reader<'a> {
         // A block without a head leaves nothing in front of its brace.
         let end = if text.is_empty() { self.text.len() } else { range.end };
         let found = self.found_at(range.start, end);
-        let problem =
-            Diagnostic::error(format!("unexpected {}", found.term)).at(found.span, expected);
+        let problem = Diagnostic::error(errors::UNEXPECTED, format!("unexpected {}", found.term))
+            .at(found.span, expected);
         match self.text.as_bytes()[range.start] {
             b'0'..=b'9' | b'.' | b'(' | b'-' => {
                 problem.help("to compute a value, write `print ...`")
@@ -155,30 +162,37 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What the verbs of other tools are called here.
-fn other_tongue(word: &str) -> Option<&'static str> {
-    Some(match word {
-        "plot" | "draw" => "svg",
-        "remove" | "rm" | "del" => "delete",
-        "ls" | "dir" => "list",
-        "echo" | "puts" => "print",
-        "enable" => "on",
-        "disable" => "off",
-        "var" | "param" => "let",
-        "source" | "import" | "read" => "include",
-        "write" => "save",
-        "open" => "load",
-        "repeat" | "while" | "loop" => "for",
-        "function" | "def" | "macro" => "define",
-        "bye" | "q" => "quit",
-        "rename" | "modify" | "edit" => "change",
-        "fix" | "ground" => "freeze",
-        "pin" => "coincidence",
-        "gear" => "cog",
-        "slider" => "glider",
-        "angle" => "orientation",
-        _ => return None,
-    })
+/// The statement to type for a word of the trade: with what was typed behind it if that reads,
+/// an example otherwise.
+fn in_our_words(trade: &Trade, label: Option<&Name>, rest: &str) -> String {
+    let label = label.map_or(String::new(), |label| format!("{label}: "));
+    let sign = ["<=", "=", "in"]
+        .into_iter()
+        .find(|sign| trade.example.split(' ').any(|word| word == *sign));
+    let with_sign = sign.and_then(|sign| related(rest, sign));
+    // Without its relation a rope would be a rod.
+    let as_it_is = (sign != Some("<=") && sign != Some("in")).then(|| rest.to_owned());
+    let reworded = [as_it_is, with_sign].into_iter().flatten();
+    let mut reworded = reworded.map(|rest| format!("{label}{} {rest}", trade.command));
+    let is_short = |text: &String| text.len() < LONGEST_STATEMENT;
+    reworded
+        .find(|text| !rest.is_empty() && is_short(text) && reads(text))
+        .unwrap_or_else(|| trade.example.to_owned())
+}
+
+/// Longer statements are not repeated in a suggestion.
+const LONGEST_STATEMENT: usize = 72;
+
+/// What stands behind a verb, with `sign` before the number that it ends in.
+fn related(rest: &str, sign: &str) -> Option<String> {
+    let (before, number) = rest.rsplit_once([' ', '\t'])?;
+    Some(format!("{} {sign} {number}", before.trim_end()))
+}
+
+/// Is it one whole statement?
+fn reads(text: &str) -> bool {
+    let mut statements = crate::lang::parse(crate::diag::SourceId(0), text);
+    matches!((statements.next(), statements.next()), (Some(Ok(_)), None))
 }
 
 #[derive(Clone, Copy)]
@@ -217,7 +231,7 @@ pub(super) fn first_word(text: &str) -> &str {
 }
 
 /// As the grammar's `word_char`.
-pub(super) fn is_word_char(char: char) -> bool {
+pub(in crate::lang) fn is_word_char(char: char) -> bool {
     matches!(char, '_' | '\'') || char.is_ascii_digit() || char.is_alphabetic()
 }
 

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Span, format_rounded, format_seconds};
+use crate::errors;
 use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
 use crate::session::file_kind::FileKind;
@@ -66,7 +67,7 @@ impl Execution<'_> {
             return Err(self.nothing_to_solve(span));
         }
         if self.host.seconds().is_none() {
-            return Err(Diagnostic::error(NO_CLOCK)
+            return Err(Diagnostic::error(errors::NO_CLOCK, NO_CLOCK)
                 .at(span, "`accuracy` measures what accuracy costs in time"));
         }
         for (name, kind) in FILES {
@@ -85,7 +86,10 @@ impl Execution<'_> {
 
     /// What is wrong, and what to type, where no constraint is switched on.
     fn nothing_to_solve(&self, span: Span) -> Diagnostic {
-        let problem = Diagnostic::error("this scene has no motion whose accuracy could be studied");
+        let problem = Diagnostic::error(
+            errors::NO_MOTION,
+            "this scene has no motion whose accuracy could be studied",
+        );
         match self.state.world.constraints().next() {
             Some((_, record)) => problem
                 .at(span, "all of its constraints are switched off")

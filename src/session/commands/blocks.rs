@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Kind, Span, format_count, format_number, suggest};
+use crate::errors;
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::reason;
@@ -24,7 +25,7 @@ impl Execution<'_> {
         inside: impl FnOnce(&mut Self) -> Result<T, Diagnostic>,
     ) -> Result<T, Diagnostic> {
         if self.depth >= DEEPEST_NESTING {
-            return Err(Diagnostic::error("nested too deeply")
+            return Err(Diagnostic::error(errors::TOO_MUCH, "nested too deeply")
                 .at(span, format!("{DEEPEST_NESTING} levels of `for`, `use` and `include`"))
                 .help("does a definition use itself, or a file include itself?"));
         }
@@ -61,7 +62,7 @@ impl Execution<'_> {
             if value.fract() == 0.0 {
                 return Ok(value);
             }
-            Err(Diagnostic::error("expected a whole number")
+            Err(Diagnostic::error(errors::OUT_OF_RANGE, "expected a whole number")
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
@@ -73,7 +74,7 @@ impl Execution<'_> {
             if n_outer > 1.0 {
                 let _ = write!(text, " in each of {}", format_count(n_outer));
             }
-            return Err(Diagnostic::error("this loop has too many rounds").at(
+            return Err(Diagnostic::error(errors::TOO_MUCH, "this loop has too many rounds").at(
                 range.from.span.to(range.to.span),
                 format!("{text}, no more than 20 million statements a command"),
             ));
@@ -108,8 +109,11 @@ impl Execution<'_> {
         span: Span,
     ) -> Result<Flow, Diagnostic> {
         let Some(definition) = self.state.definitions.get(&word.text).cloned() else {
-            let problem = Diagnostic::error(format!("unknown definition `{}`", word.text))
-                .at(word.span, "nothing is defined under this name");
+            let problem = Diagnostic::error(
+                errors::UNKNOWN_DEFINITION,
+                format!("unknown definition `{}`", word.text),
+            )
+            .at(word.span, "nothing is defined under this name");
             return Err(suggest(problem, &word.text, self.state.definitions.keys().map(|n| &**n)));
         };
         let wanted = definition.parameters.len();
@@ -118,7 +122,7 @@ impl Execution<'_> {
             let plural = if wanted == 1 { "argument" } else { "arguments" };
             let given = arguments.len();
             let message = format!("`{}` takes {wanted} {plural}, not {given}", word.text);
-            return Err(Diagnostic::error(message)
+            return Err(Diagnostic::error(errors::ARGUMENTS, message)
                 .at(span, format!("expected `{}({})`", word.text, names.join(", ")))
                 .also(definition.name.span, "defined here"));
         }
@@ -130,12 +134,34 @@ impl Execution<'_> {
             Some(name) => self.resolve().declare(name)?.to_string(),
             None => self.resolve().numbered(&word.text),
         };
-        self.nested(span, |execution| {
+        let result = self.nested(span, |execution| {
             execution.scopes.enter(Scope { prefix: format!("{name}."), bindings });
             let flow = execution.perform_all(&definition.body)?;
             execution.scopes.leave();
             Ok(flow)
-        })
+        });
+        result.map_err(|problem| self.blame_argument(problem, &definition, arguments))
+    }
+
+    /// Points at the argument where a parameter turned out to stand for the wrong sort of thing.
+    fn blame_argument(
+        &self,
+        mut problem: Diagnostic,
+        definition: &Definition,
+        arguments: &[Expr],
+    ) -> Diagnostic {
+        let is_of_sort = matches!(problem.code, Some(errors::WRONG_SORT | errors::MIXED_SORTS));
+        let Some(place) = problem.place().filter(|_| is_of_sort) else { return problem };
+        let text = self.input.sources.slice(place);
+        let parameters = definition.parameters.iter();
+        let passed = parameters.zip(arguments).find(|(parameter, _)| *parameter.text == *text);
+        let Some((parameter, argument)) = passed else { return problem };
+        if argument.span == place {
+            return problem;
+        }
+        problem.labels.iter_mut().for_each(|label| label.primary = false);
+        problem.via.clear();
+        problem.at(argument.span, format!("passed for `{}`", parameter.text))
     }
 
     /// What an argument stands for: a point itself, or a number that stays live.
@@ -149,7 +175,7 @@ impl Execution<'_> {
         match self.resolve().live(argument)? {
             Term::Constant(Value::Number(n)) => Ok(Bound::Number(n)),
             Term::Live(formula) if formula.shape() == Shape::Number => Ok(Bound::Formula(formula)),
-            _ => Err(Diagnostic::error("expected a point or a number")
+            _ => Err(Diagnostic::error(errors::MIXED_SORTS, "expected a point or a number")
                 .at(argument.span, "this is a vector")
                 .help("make it a point first: `point P = ... frozen`")),
         }
@@ -158,8 +184,11 @@ impl Execution<'_> {
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         let file = self.find(path)?;
         if self.included.contains(&file) {
-            return Err(Diagnostic::error(format!("`{}` includes itself", path.value))
-                .at(path.span, "this file is being included already"));
+            return Err(Diagnostic::error(
+                errors::INCLUDES_ITSELF,
+                format!("`{}` includes itself", path.value),
+            )
+            .at(path.span, "this file is being included already"));
         }
         let text = self.read(&file, path)?;
         self.included.push(file.clone());
@@ -195,7 +224,9 @@ impl Execution<'_> {
         let mut n_done = 0;
         let result = self.nested(span, |execution| {
             for statement in crate::lang::parse(source, text) {
-                let flow = execution.dispatch(&statement?)?;
+                let advised = |problem| execution.state.advise(problem, &execution.input.sources);
+                let statement = statement.map_err(advised)?;
+                let flow = execution.dispatch(&statement)?;
                 if flow != Flow::On {
                     return Ok(flow);
                 }
@@ -228,22 +259,25 @@ impl Execution<'_> {
 }
 
 fn unreadable(path: &Text, error: &io::Error) -> Diagnostic {
-    Diagnostic::error(format!("cannot read `{}`", path.value))
+    Diagnostic::error(errors::CANNOT_READ, format!("cannot read `{}`", path.value))
         .kind(Kind::Unreadable)
         .at(path.span, reason(error))
 }
 
 /// What is wrong with a path that leads where scripts may not read.
 fn elsewhere(path: &Text) -> Diagnostic {
-    Diagnostic::error("files are read below the folder of the first script only")
-        .at(path.span, "this path leads elsewhere")
-        .help("`-I DIR` on the command line adds a folder")
-        .help("`--allow-any-path` on the command line permits it")
+    Diagnostic::error(
+        errors::READ_OUTSIDE,
+        "files are read below the folder of the first script only",
+    )
+    .at(path.span, "this path leads elsewhere")
+    .help("`-I DIR` on the command line adds a folder")
+    .help("`--allow-any-path` on the command line permits it")
 }
 
 /// What is wrong where a file was read that is no script; nothing of it is shown.
 fn no_script(file: &Path, span: Span) -> Diagnostic {
-    Diagnostic::error(format!("`{}` is no script", file.display()))
+    Diagnostic::error(errors::NO_SCRIPT, format!("`{}` is no script", file.display()))
         .at(span, "its first statement cannot be carried out")
         .help("what is wrong with it is shown where its name ends in `.link`")
 }

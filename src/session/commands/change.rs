@@ -3,9 +3,10 @@
 use super::constrain::{refusal_at, refuse_flaw};
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Point, Refusal};
 use crate::diag::Diagnostic;
+use crate::errors;
 use crate::lang::ast::{Name, Part, Relation, Role};
 use crate::session::execution::Execution;
-use crate::session::resolve::said::{Said, flag_of, pattern_of};
+use crate::session::resolve::said::{Said, flag_of, pattern_of, units_of};
 use crate::session::resolve::scope::Resolver;
 use crate::world::{ConstraintId, Drivers, Edit, Entity, Record};
 
@@ -15,7 +16,7 @@ impl Execution<'_> {
             Entity::Constraint(id) => self.change_constraint(id, name, parts),
             Entity::Parameter(id) => match parts {
                 [Part::Relation(Relation::Equal(value))] => {
-                    let formula = self.resolve().live(value)?.into_formula(value.span);
+                    let formula = self.resolve().live(value)?.into_formula(value);
                     self.redefine(id, formula, value)
                 }
                 _ => Err(self.resolve().no_such_part(name, "a parameter takes `= value`")),
@@ -84,7 +85,8 @@ impl Execution<'_> {
 impl Resolver<'_> {
     fn no_such_part(&self, name: &Name, takes: &str) -> Diagnostic {
         let what = self.text(name.span);
-        Diagnostic::error(format!("`{what}` has no such part")).at(name.span, takes)
+        Diagnostic::error(errors::NO_SUCH_PART, format!("`{what}` has no such part"))
+            .at(name.span, takes)
     }
 
     /// Changes what a part says; whether the constraint was made anew for that, as it stands.
@@ -165,6 +167,7 @@ impl Resolver<'_> {
             changed = Field::ALL.into_iter().filter(|field| field.is_of_gearing()).collect();
         }
         record.replace_drivers(&changed, drivers);
+        record.set_units(&changed, units_of(std::slice::from_ref(part)));
         Ok(is_made_anew)
     }
 }

@@ -4,12 +4,13 @@ use crate::constraint::{
     Bounds, Constraint, ConstraintKind as _, Culprit, Field, Flaw, Kind, Point, PointIdx, Refusal,
 };
 use crate::diag::{Diagnostic, Span, format_number};
+use crate::errors;
 use crate::lang::ast::{
     Constraint as Stated, ConstraintDecl, Expr, Name, Pair, Part, Range, Relation, Role,
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
-use crate::session::resolve::said::{Said, TEETH, field_of, flag_of};
+use crate::session::resolve::said::{Said, TEETH, field_of, flag_of, units_of};
 use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
 use crate::terms::Shape;
@@ -32,14 +33,18 @@ impl Execution<'_> {
         });
         if let (Some(label), Some(name)) = (&declaration.label, defined) {
             let text = self.resolve().text(name.span).to_owned();
-            return Err(Diagnostic::error(format!("this has a name already: `{text}`"))
-                .at(label.span, "no label belongs here"));
+            return Err(Diagnostic::error(
+                errors::LABEL,
+                format!("this has a name already: `{text}`"),
+            )
+            .at(label.span, "no label belongs here"));
         }
         let name = match declaration.label.as_ref().or(defined) {
             Some(label) => self.resolve().declare(label)?,
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
         };
         let mut record = Record::new(name, constraint, drivers);
+        record.set_units(&[], units_of(&stated.parts));
         self.state.world.bind(&mut record);
         if !self.state.is_restoring {
             refuse_idle(&record.constraint, span)?;
@@ -187,7 +192,7 @@ impl Resolver<'_> {
     ) -> Result<Point, Diagnostic> {
         match relation {
             Relation::Equal(value) => self.target(value, drivers),
-            relation => Err(Diagnostic::error("vectors have no order")
+            relation => Err(Diagnostic::error(errors::MIXED_SORTS, "vectors have no order")
                 .at(upper(relation).span, "only `=` can be held between vectors")
                 .help("hold a coordinate of it: `hold A.x <= 4`")),
         }
@@ -281,7 +286,7 @@ fn refused(refusal: &Refusal, parts: &[Part], statement: Span) -> Diagnostic {
 
 /// What is wrong, at its place.
 pub(super) fn refusal_at(refusal: &Refusal, at: Span) -> Diagnostic {
-    let problem = Diagnostic::error(refusal.message).at(at, refusal.label);
+    let problem = Diagnostic::error(errors::DEGENERATE, refusal.message).at(at, refusal.label);
     match refusal.help {
         Some(help) => problem.help(help),
         None => problem,
@@ -291,9 +296,12 @@ pub(super) fn refusal_at(refusal: &Refusal, at: Span) -> Diagnostic {
 /// Refuses what is held although no point has a part in it.
 fn refuse_idle(constraint: &Constraint, statement: Span) -> Result<(), Diagnostic> {
     if constraint.points().is_empty() {
-        return Err(Diagnostic::error("no point has a part in this, so nothing can hold it")
-            .at(statement, "it does not measure the pose")
-            .help("`assert` looks whether something is so"));
+        return Err(Diagnostic::error(
+            errors::HOLDS_NOTHING,
+            "no point has a part in this, so nothing can hold it",
+        )
+        .at(statement, "it does not measure the pose")
+        .help("`assert` looks whether something is so"));
     }
     Ok(())
 }
@@ -359,7 +367,7 @@ pub(super) fn refuse_flaw(
         }
         (Flaw::ZeroRatio, _) => ("a ratio of radii cannot be 0", span, format!("this is {now}")),
     };
-    let problem = Diagnostic::error(message).at(at, label);
+    let problem = Diagnostic::error(errors::NONSENSE_VALUE, message).at(at, label);
     Err(match flaw {
         Flaw::NegativeBeltRatio => {
             problem.help("for wheels that turn opposite ways write `crossed` behind the ratio")

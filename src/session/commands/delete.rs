@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::diag::Diagnostic;
+use crate::errors;
 use crate::lang::ast::Name;
 use crate::session::execution::Execution;
 use crate::session::state::State;
@@ -67,7 +68,7 @@ impl Execution<'_> {
             .collect();
         let more = users.len() - shown.len();
         let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-        Err(Diagnostic::error(format!("`{text}` is in use"))
+        Err(Diagnostic::error(errors::IN_USE, format!("`{text}` is in use"))
             .at(name.span, format!("used by {}{more}", list.join(", ")))
             .help(format!("`delete {text} cascade` removes these too")))
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, Kind};
 use crate::diag::{Diagnostic, format_digits, format_rounded, listed, listed_first, listed_ways};
+use crate::errors;
 use crate::lang::ast::{Changing, Name, Part};
 use crate::mobility::{
     Analysis, Conflict, Directions, PoseClass, analyse, conflict_with, freedom, repair,
@@ -431,8 +432,11 @@ impl Execution<'_> {
             Entity::Point(id) => self.state.why_point(id),
             Entity::Parameter(id) => {
                 let text = Unbind::of(&self.state.world).parameter_text(id);
-                return Err(Diagnostic::error("`why` asks about a constraint or a point")
-                    .at(name.span, format!("this is a parameter: `{text}`")));
+                return Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    "`why` asks about a constraint or a point",
+                )
+                .at(name.span, format!("this is a parameter: `{text}`")));
             }
         };
         lines.iter().for_each(|line| self.host.print(line));

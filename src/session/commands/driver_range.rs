@@ -4,6 +4,7 @@ use super::driver::Source;
 use crate::constraint::Kind;
 use crate::constraint::geometry::wrap;
 use crate::diag::{Diagnostic, format_decimals, format_degrees, listed};
+use crate::errors;
 use crate::lang::ast::Name;
 use crate::mobility::{DriverRange, RangeEnd, Reach, range};
 use crate::session::execution::Execution;
@@ -15,7 +16,7 @@ impl Execution<'_> {
     pub(crate) fn limits(&mut self, name: &Name) -> Result<(), Diagnostic> {
         let entity = self.resolve().entity(name)?;
         let source = self.state.driver(entity).map_err(|why| {
-            let problem = Diagnostic::error(why.message).at(name.span, why.label);
+            let problem = Diagnostic::error(errors::NO_RANGE, why.message).at(name.span, why.label);
             why.help.into_iter().fold(problem, Diagnostic::help)
         })?;
         let text = match &source {

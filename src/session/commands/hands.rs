@@ -4,6 +4,7 @@
 use super::run::{Hands, Limits};
 use crate::constraint::Point;
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{DragTarget, Expr};
 use crate::session::execution::{Execution, Flow};
 use crate::session::quotas::MOST_FRAMES;
@@ -131,24 +132,33 @@ impl Execution<'_> {
             Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
         };
         if let Some(over) = over.filter(|_| (1..n_pieces).contains(&n)) {
-            return Err(Diagnostic::error("a path takes a frame for each of its pieces at least")
-                .at(over.span, format!("it has {n_pieces} pieces"))
-                .help("`over 0` goes through all of them at once"));
+            return Err(Diagnostic::error(
+                errors::OUT_OF_RANGE,
+                "a path takes a frame for each of its pieces at least",
+            )
+            .at(over.span, format!("it has {n_pieces} pieces"))
+            .help("`over 0` goes through all of them at once"));
         }
         let mut hands: Vec<Hand> = Vec::new();
         for DragTarget { point, places } in targets {
             let id = self.resolve().point(point)?;
             if hands.iter().any(|hand| hand.point == id) {
                 let word = grip.participle();
-                return Err(Diagnostic::error(format!("one point cannot be {word} to two places"))
-                    .at(point.span, format!("{word} twice"))
-                    .help("a path is written `through (x, y), (x, y)`"));
+                return Err(Diagnostic::error(
+                    errors::TWO_PLACES,
+                    format!("one point cannot be {word} to two places"),
+                )
+                .at(point.span, format!("{word} twice"))
+                .help("a path is written `through (x, y), (x, y)`"));
             }
             if grip == Grip::Soft && self.state.world.points().is_frozen(id) {
                 let name = self.state.world.points().name(id);
-                return Err(Diagnostic::error(format!("`{name}` is frozen: no pull moves it"))
-                    .at(point.span, "this point is immovable")
-                    .help(format!("`drag {name} ...` moves it, `thaw {name}` lets it move")));
+                return Err(Diagnostic::error(
+                    errors::FROZEN,
+                    format!("`{name}` is frozen: no pull moves it"),
+                )
+                .at(point.span, "this point is immovable")
+                .help(format!("`drag {name} ...` moves it, `thaw {name}` lets it move")));
             }
             let places = places.iter().map(|place| self.resolve().place(place));
             let places: Vec<Point> = places.collect::<Result<_, _>>()?;

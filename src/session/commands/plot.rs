@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::diag::Diagnostic;
+use crate::errors;
 use crate::lang::ast::{Expr, PlotPart, Text};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
@@ -21,7 +22,7 @@ impl Execution<'_> {
     pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
         let file = self.output_file(path, FileKind::Picture)?;
         if self.state.series.is_empty() {
-            return Err(Diagnostic::error("there is nothing to plot")
+            return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
                 .at(path.span, "no series has a value")
                 .help(r#"`sample "error" = distance(A, B)` appends one"#));
         }

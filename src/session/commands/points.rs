@@ -1,6 +1,7 @@
 //! Points and parameters: making, moving, freezing.
 
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{Binding, Expr, Name, PointDecl, Selection};
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::{ALL, RESERVED};
@@ -27,7 +28,7 @@ impl Execution<'_> {
 
     fn let_parameter(&mut self, name: &Name, value: &Expr) -> Result<(), Diagnostic> {
         let text = self.resolve().declared(name)?;
-        let mut formula = self.resolve().live(value)?.into_formula(value.span);
+        let mut formula = self.resolve().live(value)?.into_formula(value);
         if let Some(given) = self.input.overrides.get_mut(&text) {
             given.is_used = true;
             formula = Formula::constant(given.value);
@@ -52,8 +53,11 @@ impl Execution<'_> {
         self.refuse_cycle(Entity::Parameter(id), &formula, value.span)?;
         let (was, is) = (old.formula.shape(), formula.shape());
         if was != is && !self.state.world.users(&[Entity::Parameter(id)]).is_empty() {
-            return Err(Diagnostic::error(format!("`{text}` is a {} and used as one", was.noun()))
-                .at(value.span, format!("this is a {}", is.noun())));
+            return Err(Diagnostic::error(
+                errors::MIXED_SORTS,
+                format!("`{text}` is a {} and used as one", was.noun()),
+            )
+            .at(value.span, format!("this is a {}", is.noun())));
         }
         self.set_parameter(id, text, formula)
     }
@@ -87,7 +91,7 @@ impl Execution<'_> {
         let world = &self.state.world;
         let Some(path) = world.cycle(of, formula) else { return Ok(()) };
         let text = world.name_of(of);
-        let problem = Diagnostic::error(format!("`{text}` would depend on itself"))
+        let problem = Diagnostic::error(errors::CYCLE, format!("`{text}` would depend on itself"))
             .at(span, format!("this leads back to `{text}`"));
         let path: Vec<String> =
             path.into_iter().map(|entity| format!("`{}`", world.name_of(entity))).collect();

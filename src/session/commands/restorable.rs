@@ -2,6 +2,9 @@
 
 use crate::world::{PointId, World};
 
+/// The version of what `save` writes: one more where an older program would read it wrong.
+pub const VERSION: f64 = 1.0;
+
 /// A piece of state that no other statement can bring back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Restorable {
@@ -28,13 +31,15 @@ pub enum Restorable {
     Ghost,
     /// What the solver remembers.
     Memory,
+    /// The version of the file.
+    Version,
     /// Whether what follows was there before: 1 or 0.
     Past,
 }
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 13] = [
         Self::Clock,
         Self::Start,
         Self::State,
@@ -46,6 +51,7 @@ impl Restorable {
         Self::Missed,
         Self::Ghost,
         Self::Memory,
+        Self::Version,
         Self::Past,
     ];
 
@@ -63,6 +69,7 @@ impl Restorable {
             Self::Missed => "missed",
             Self::Ghost => "ghost",
             Self::Memory => "memory",
+            Self::Version => "version",
             Self::Past => "past",
         }
     }

@@ -1,8 +1,9 @@
 //! `restore`: state that no other statement can bring back; `save` writes it.
 
-use super::restorable::{Restorable, ordinals};
+use super::restorable::{Restorable, VERSION, ordinals};
 use crate::constraint::{ConstraintKind as _, Point, Winding};
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, Span, format_number};
+use crate::errors;
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
@@ -12,8 +13,19 @@ use crate::world::{Clock, Edit, Ghost, Record, Sample, TurnCount, Turning, Value
 enum Unfit {
     /// The values are not what `save` would write for it.
     Values,
+    /// A later program wrote it.
+    Newer(f64),
     /// What is named is not there, or not of its kind.
     Name(Diagnostic),
+}
+
+/// Refuses what a later program wrote: what it means by it is not known here.
+fn check_version(values: &[Value]) -> Restored {
+    match numbers(values)?[..] {
+        [version] if version > VERSION => Err(Unfit::Newer(version)),
+        [_] => Ok(()),
+        _ => Err(Unfit::Values),
+    }
 }
 
 impl From<Diagnostic> for Unfit {
@@ -40,8 +52,17 @@ impl Execution<'_> {
         };
         restored.map_err(|unfit| match unfit {
             Unfit::Name(problem) => problem,
-            Unfit::Values => Diagnostic::error("this does not restore anything")
-                .at(span, "written by `save` only"),
+            Unfit::Newer(version) => {
+                let version = format_number(version);
+                Diagnostic::error(errors::NEWER_FILE, "a newer linkwork wrote this file")
+                    .at(span, format!("it is of version {version}"))
+                    .note(format!("this linkwork reads files up to version {VERSION}"))
+                    .help("install a newer one; `linkwork --version` says which this is")
+            }
+            Unfit::Values => {
+                Diagnostic::error(errors::NOT_RESTORED, "this does not restore anything")
+                    .at(span, "written by `save` only")
+            }
         })
     }
 
@@ -68,10 +89,15 @@ impl Execution<'_> {
             (Restorable::Ghost, None) => self.restore_ghost(values),
             (Restorable::Turn, None) => self.restore_turn(values),
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
+            (Restorable::Version, None) => check_version(values),
             (Restorable::Past, None) => self.restore_past(values),
             // These have an owner or none, and this is the other way.
             (
-                Restorable::Clock | Restorable::Ghost | Restorable::Turn | Restorable::Past,
+                Restorable::Clock
+                | Restorable::Ghost
+                | Restorable::Turn
+                | Restorable::Version
+                | Restorable::Past,
                 Some(_),
             )
             | (
@@ -202,7 +228,9 @@ impl Execution<'_> {
         let point = self.resolve().point(name)?;
         let traces = self.state.world.traces();
         let Some(k) = traces.iter().position(|t| t.point == point) else {
-            return Err(Diagnostic::error("this point is not traced").at(name.span, "").into());
+            return Err(Diagnostic::error(errors::NOT_TRACED, "this point is not traced")
+                .at(name.span, "")
+                .into());
         };
         let mut trace = traces[k].clone();
         change(&mut trace.samples);

@@ -4,6 +4,7 @@ use super::dead_point::{Next, WayBack};
 use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
 };
+use crate::errors;
 use crate::lang::ast::{Expr, Promise};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::{Host, NO_CLOCK};
@@ -75,14 +76,15 @@ impl Execution<'_> {
             if value > 0.0 {
                 return Ok(Some(value));
             }
-            Err(Diagnostic::error("expected a number above 0")
+            Err(Diagnostic::error(errors::OUT_OF_RANGE, "expected a number above 0")
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
         if let Some(time) = &promise.in_time
             && self.host.seconds().is_none()
         {
-            return Err(Diagnostic::error(NO_CLOCK).at(time.span, "no time can be promised"));
+            return Err(Diagnostic::error(errors::NO_CLOCK, NO_CLOCK)
+                .at(time.span, "no time can be promised"));
         }
         Ok(Limits { tolerance, seconds, known_error: 0.0 })
     }
@@ -114,9 +116,8 @@ impl Execution<'_> {
         let n = (value / self.state.world.clock().dt).round();
         if !(0.0..=MOST_FRAMES).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
-            return Err(
-                Diagnostic::error(what).at(time.span, format!("{} frames of dt", format_count(n)))
-            );
+            return Err(Diagnostic::error(errors::OUT_OF_RANGE, what)
+                .at(time.span, format!("{} frames of dt", format_count(n))));
         }
         let (n, limits) = (n as u64, self.promised_here(promise)?);
         self.history.begin_leg(self.state, n, self.depth > 0);
@@ -135,7 +136,7 @@ impl Execution<'_> {
     ) -> Result<(Flow, u64), Diagnostic> {
         let clock = self.state.world.clock();
         if !(clock.time() + n as f64 * clock.dt).is_finite() {
-            return Err(Diagnostic::error("the clock does not go that far")
+            return Err(Diagnostic::error(errors::OUT_OF_RANGE, "the clock does not go that far")
                 .at(span, format!("time would be beyond {}", format_number(f64::MAX))));
         }
         self.begin_motion();
@@ -206,7 +207,9 @@ impl Execution<'_> {
         let result = match broken {
             None => Ok((flow, n_done)),
             Some((message, label)) => {
-                let problem = Diagnostic::error(message).kind(Kind::Promise).at(span, label);
+                let problem = Diagnostic::error(errors::BROKEN_PROMISE, message)
+                    .kind(Kind::Promise)
+                    .at(span, label);
                 Err(summary.culprits.iter().fold(problem, |problem, it| it.explain(problem)))
             }
         };
@@ -245,7 +248,7 @@ impl Execution<'_> {
         }
         // A twentieth more, so that two digits never round below it.
         let least = format_digits(1.05 * least, 2);
-        Err(Diagnostic::error("this cannot be promised here")
+        Err(Diagnostic::error(errors::NO_PROMISE, "this cannot be promised here")
             .at(within.span, format!("{} is below what rounding allows", format_number(tolerance)))
             .help(format!("the smallest tolerance that can be promised: `within {least}`")))
     }
@@ -386,6 +389,23 @@ impl Execution<'_> {
         found.notes.iter().chain(&found.helps).for_each(|text| self.note(text.as_str()));
     }
 
+    /// Solves what an edit left unsolved, where the user wants that after each.
+    pub(crate) fn solve_after_edit(&mut self) -> Result<(), Diagnostic> {
+        let tolerance = self.state.preferences.solve.tolerance;
+        if self.verdict_within(tolerance).is_met() {
+            return Ok(());
+        }
+        self.begin_motion();
+        let report = self.settle(&Limits::default())?;
+        let status = self.verdict_within(tolerance).ending(report.status);
+        if status != Status::Converged && self.host.is_listening() {
+            let found = self.state.culprits(status, &[]);
+            self.note(found.status.phrase());
+            found.notes.iter().chain(&found.helps).for_each(|text| self.note(text.as_str()));
+        }
+        Ok(())
+    }
+
     pub(crate) fn solve(&mut self, promise: &Promise, span: Span) -> Result<(), Diagnostic> {
         let limits = self.promised_here(promise)?;
         self.begin_motion();
@@ -406,7 +426,8 @@ impl Execution<'_> {
             report.iterations
         );
         if limits.tolerance.is_some() && !verdict.is_met() {
-            let problem = Diagnostic::error("the tolerance was not reached");
+            let problem =
+                Diagnostic::error(errors::BROKEN_PROMISE, "the tolerance was not reached");
             let problem = problem.kind(Kind::Promise).at(span, text);
             return Err(culprits.iter().fold(problem, |problem, it| it.explain(problem)));
         }

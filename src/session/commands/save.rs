@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::restorable::{Restorable, ordinals};
-use super::setting_table::SETTINGS;
+use super::restorable::{Restorable, VERSION, ordinals};
+use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::{Constraint, ConstraintKind as _, Field};
 use crate::diag::Diagnostic;
 use crate::lang::ast::{
@@ -31,6 +31,7 @@ impl State {
     /// The script that makes this world, its settings and its state.
     pub fn to_script(&self) -> String {
         let mut script = format!("{SCRIPT_MARK} `load` it, or run it as a script.\n");
+        restore(&mut script, Restorable::Version, None, numbers(&[VERSION]));
         self.save_settings(&mut script);
         for definition in self.definitions.values() {
             line(&mut script, Building::Define(definition.clone()));
@@ -56,11 +57,12 @@ impl State {
             };
             restore(&mut script, Restorable::Memory, Some(name), numbers(&values));
         }
+        self.save_tastes(&mut script);
         script
     }
 
     fn save_settings(&self, script: &mut String) {
-        for setting in &SETTINGS {
+        for setting in SETTINGS.iter().filter(|setting| setting.is_of_scene) {
             // Writing to a string cannot fail.
             let _ = writeln!(script, "set {} {}", setting.name, (setting.text)(self));
         }
@@ -68,6 +70,18 @@ impl State {
         if clock.frame > 0 || clock.base_time != 0.0 {
             let values = [clock.frame as f64, clock.dt, clock.base_frame as f64, clock.base_time];
             restore(script, Restorable::Clock, None, numbers(&values));
+        }
+    }
+
+    /// What the user likes otherwise than it is from the start. It comes last, when all is made: a
+    /// solution after each edit would be another pose.
+    fn save_tastes(&self, script: &mut String) {
+        let as_it_was = Self::new();
+        for Setting { name, text, .. } in SETTINGS.iter().filter(|setting| !setting.is_of_scene) {
+            if text(self) != text(&as_it_was) {
+                // Writing to a string cannot fail.
+                let _ = writeln!(script, "set {name} {}", text(self));
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! The settings: what each is, how it is shown, and how it is set.
 
 use crate::diag::{Diagnostic, Span, format_number, suggest};
+use crate::errors;
 use crate::lang::ast::Expr;
 use crate::session::execution::Execution;
 use crate::session::preferences::{AtDeadPoint, Preferences};
@@ -15,6 +16,8 @@ pub struct Setting {
     pub name: &'static str,
     /// What it is.
     pub what: &'static str,
+    /// Whether scenes behave otherwise with another value; if not, it is a taste of the user's.
+    pub is_of_scene: bool,
     /// Its value as it would be typed.
     pub text: fn(&State) -> String,
     /// Sets it.
@@ -35,10 +38,11 @@ pub struct OwnSetting {
 }
 
 /// The settings, in the order in which they are printed.
-pub static SETTINGS: [Setting; 7] = [
+pub static SETTINGS: [Setting; 8] = [
     Setting {
         name: "dt",
         what: "time of one frame",
+        is_of_scene: true,
         text: |state| format_number(state.world.clock().dt),
         set: |command, value| {
             let dt = command.positive(value)?;
@@ -49,6 +53,7 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "method",
         what: "how frames are solved",
+        is_of_scene: true,
         text: |state| state.preferences.solve.method.word().to_owned(),
         set: |command, value| {
             let method = word_of(value, &Method::ALL, Method::word, "a method")?;
@@ -59,6 +64,7 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "rho",
         what: "relaxation coefficient",
+        is_of_scene: true,
         text: |state| format_number(state.preferences.solve.rho),
         set: |command, value| {
             let rho = coefficient(command.positive(value)?, value.span)?;
@@ -69,6 +75,7 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "iterations",
         what: "most iterations between two frames",
+        is_of_scene: true,
         text: |state| state.preferences.solve.iterations.to_string(),
         set: |command, value| {
             let n = command.resolve().count(value, 1.0, 1e9, "iterations")?;
@@ -79,6 +86,7 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "tolerance",
         what: "largest residual allowed, relative to the scene's size",
+        is_of_scene: true,
         text: |state| format_number(state.preferences.solve.tolerance),
         set: |command, value| {
             let tolerance = command.positive(value)?;
@@ -89,6 +97,7 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "dead-points",
         what: "where a motor cannot go on: `stop`, `hold` or `reverse`",
+        is_of_scene: true,
         text: |state| state.preferences.dead_points.word().to_owned(),
         set: |command, value| {
             let what = "what happens at a dead point";
@@ -100,10 +109,23 @@ pub static SETTINGS: [Setting; 7] = [
     Setting {
         name: "cog",
         what: "`holonomic`, or the paper's `velocity` form",
+        is_of_scene: true,
         text: |state| state.preferences.solve.cog.word().to_owned(),
         set: |command, value| {
             let form = word_of(value, &CogForm::ALL, CogForm::word, "a form of cogs")?;
             command.prefer(|preferences| preferences.solve.cog = form);
+            Ok(())
+        },
+    },
+    Setting {
+        name: "live",
+        what: "`on`: each edit is followed by a solution; `off`: `solve` and `step` solve",
+        is_of_scene: false,
+        text: |state| if state.preferences.is_live { "on" } else { "off" }.to_owned(),
+        set: |command, value| {
+            let word = |is_on| if is_on { "on" } else { "off" };
+            let is_live = word_of(value, &[true, false], word, "whether edits are solved")?;
+            command.prefer(|preferences| preferences.is_live = is_live);
             Ok(())
         },
     },
@@ -130,8 +152,11 @@ pub static OWN_SETTINGS: [OwnSetting; 2] = [
         set: |command, entity, number, span| {
             let Entity::Point(id) = entity else { return Ok(false) };
             if !(1e-9..=1e9).contains(&number) {
-                return Err(Diagnostic::error("a weight lies between 1e-9 and 1e9")
-                    .at(span, format!("this is {}", format_number(number))));
+                return Err(Diagnostic::error(
+                    errors::OUT_OF_RANGE,
+                    "a weight lies between 1e-9 and 1e9",
+                )
+                .at(span, format!("this is {}", format_number(number))));
             }
             command.edit(Edit::Weight(id, number));
             Ok(true)
@@ -169,7 +194,7 @@ impl Execution<'_> {
         if value > 0.0 {
             return Ok(value);
         }
-        Err(Diagnostic::error("expected a number above 0")
+        Err(Diagnostic::error(errors::OUT_OF_RANGE, "expected a number above 0")
             .at(expr.span, format!("this is {}", format_number(value))))
     }
 }
@@ -179,7 +204,7 @@ fn coefficient(rho: f64, span: Span) -> Result<f64, Diagnostic> {
     if rho <= 2.0 {
         return Ok(rho);
     }
-    Err(Diagnostic::error("a relaxation coefficient above 2 never converges")
+    Err(Diagnostic::error(errors::OUT_OF_RANGE, "a relaxation coefficient above 2 never converges")
         .at(span, "expected 0 < rho <= 2"))
 }
 
@@ -193,12 +218,14 @@ fn word_of<T: Copy>(
     let list: Vec<String> = all.iter().map(|t| format!("`{}`", word(*t))).collect();
     let expected = format!("expected one of {}", list.join(", "));
     let Some(given) = value.as_word() else {
-        return Err(Diagnostic::error(format!("this is not {what}")).at(value.span, expected));
+        return Err(Diagnostic::error(errors::SETTING_VALUE, format!("this is not {what}"))
+            .at(value.span, expected));
     };
     if let Some(found) = all.iter().find(|t| word(**t) == &*given.text) {
         return Ok(*found);
     }
     let problem =
-        Diagnostic::error(format!("`{}` is not {what}", given.text)).at(given.span, expected);
+        Diagnostic::error(errors::SETTING_VALUE, format!("`{}` is not {what}", given.text))
+            .at(given.span, expected);
     Err(suggest(problem, &given.text, all.iter().map(|t| word(*t))))
 }

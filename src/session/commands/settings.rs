@@ -2,6 +2,7 @@
 
 use super::setting_table::{OWN_SETTINGS, OwnSetting, SETTINGS, Setting};
 use crate::diag::{Diagnostic, listed, suggest};
+use crate::errors;
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
 
@@ -33,18 +34,19 @@ impl Execution<'_> {
             (_, None, [first, ..]) => {
                 let names: Vec<String> =
                     OWN_SETTINGS.iter().map(|own| format!("`{}`", own.name)).collect();
-                Err(Diagnostic::error(format!("`{}` is set for the whole session", setting.text))
-                    .at(
-                        first.span,
-                        format!("only {} are set for one thing", listed(&names, "and")),
-                    ))
+                Err(Diagnostic::error(
+                    errors::SETTING_OWNER,
+                    format!("`{}` is set for the whole session", setting.text),
+                )
+                .at(first.span, format!("only {} are set for one thing", listed(&names, "and"))))
             }
             (Some(whole), _, []) => (whole.set)(self, value),
-            (None, Some(own), []) => {
-                Err(Diagnostic::error(format!("a {} belongs to {}", own.name, own.wanted))
-                    .at(setting.span, "")
-                    .help(own.example))
-            }
+            (None, Some(own), []) => Err(Diagnostic::error(
+                errors::SETTING_OWNER,
+                format!("a {} belongs to {}", own.name, own.wanted),
+            )
+            .at(setting.span, "")
+            .help(own.example)),
             (None, None, []) => Err(unknown_setting(setting)),
         }
     }
@@ -65,7 +67,7 @@ impl Execution<'_> {
                     own.wanted,
                     entity.noun()
                 );
-                return Err(Diagnostic::error(problem)
+                return Err(Diagnostic::error(errors::WRONG_SORT, problem)
                     .at(name.span, format!("expected the name of {}", own.wanted)));
             }
         }
@@ -74,7 +76,8 @@ impl Execution<'_> {
 }
 
 fn unknown_setting(word: &Ident) -> Diagnostic {
-    let problem = Diagnostic::error(format!("unknown setting `{}`", word.text))
-        .at(word.span, "nothing to set");
+    let problem =
+        Diagnostic::error(errors::UNKNOWN_SETTING, format!("unknown setting `{}`", word.text))
+            .at(word.span, "nothing to set");
     suggest(problem, &word.text, Setting::names()).help("`set` alone lists the settings")
 }

@@ -5,8 +5,9 @@ use std::fmt::Write;
 use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
 use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
+use crate::errors;
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
-use crate::lang::catalogue::{self, Entry};
+use crate::lang::catalogue::{self, Entry, Trade};
 use crate::session::execution::Execution;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
@@ -35,9 +36,12 @@ impl Execution<'_> {
                 PrintItem::InUnit(expr, unit) => match self.resolve().value(expr)? {
                     Value::Number(n) => line.push_str(&format_number(n / unit.scale())),
                     Value::Vector(_) => {
-                        return Err(Diagnostic::error("only a number is written in a unit")
-                            .at(expr.span, "this is a vector")
-                            .help("print its parts, `v.x` and `v.y`"));
+                        return Err(Diagnostic::error(
+                            errors::MIXED_SORTS,
+                            "only a number is written in a unit",
+                        )
+                        .at(expr.span, "this is a vector")
+                        .help("print its parts, `v.x` and `v.y`"));
                     }
                 },
             }
@@ -55,7 +59,7 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let slack = within.map_or(Ok(0.0), |e| self.resolve().number(e))?;
         if let Some(e) = within.filter(|_| slack < 0.0) {
-            return Err(Diagnostic::error("a tolerance is not negative")
+            return Err(Diagnostic::error(errors::OUT_OF_RANGE, "a tolerance is not negative")
                 .at(e.span, format!("this is {}", format_number(slack))));
         }
         let a = self.resolve().value(left)?;
@@ -73,9 +77,12 @@ impl Execution<'_> {
                     (Value::Number(a), Value::Number(b)) => (a - b).abs(),
                     (Value::Vector(a), Value::Vector(b)) => (a - b).norm(),
                     _ => {
-                        return Err(Diagnostic::error("a number and a vector cannot be compared")
-                            .at(left.span, format!("a {}", a.shape().noun()))
-                            .also(right.span, format!("a {}", b.shape().noun())));
+                        return Err(Diagnostic::error(
+                            errors::MIXED_SORTS,
+                            "a number and a vector cannot be compared",
+                        )
+                        .at(left.span, format!("a {}", a.shape().noun()))
+                        .also(right.span, format!("a {}", b.shape().noun())));
                     }
                 };
                 (difference <= slack, format_value(b), difference)
@@ -106,15 +113,19 @@ impl Execution<'_> {
         if within.is_some() {
             let _ = write!(text, ", more than {}", format_number(slack));
         }
-        Err(Diagnostic::error("assertion failed").kind(Kind::Promise).at(span, text))
+        Err(Diagnostic::error(errors::ASSERTION, "assertion failed")
+            .kind(Kind::Promise)
+            .at(span, text))
     }
 
     fn one_number(&self, value: Value, expr: &Expr) -> Result<f64, Diagnostic> {
         match value {
             Value::Number(n) => Ok(n),
-            Value::Vector(_) => Err(Diagnostic::error("vectors have no order")
-                .at(expr.span, "this is a vector")
-                .help("compare `norm(v)`, or `v.x`")),
+            Value::Vector(_) => {
+                Err(Diagnostic::error(errors::MIXED_SORTS, "vectors have no order")
+                    .at(expr.span, "this is a vector")
+                    .help("compare `norm(v)`, or `v.x`"))
+            }
         }
     }
 
@@ -278,6 +289,9 @@ impl State {
 
     fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
         let word = &*topic.text;
+        if let Some(kind) = errors::explained(word) {
+            return Ok(error_explained(kind));
+        }
         let mut text = catalogue::entry(word).map(explained).unwrap_or_default();
         // Writing to a string cannot fail.
         for function in Function::named(word) {
@@ -294,9 +308,12 @@ impl State {
         {
             text = explained(entry);
         }
+        if let Some(trade) = catalogue::trade(word) {
+            text.push_str(&trade_explained(word, trade));
+        }
         if text.is_empty() {
-            let problem =
-                Diagnostic::error(format!("no help on `{word}`")).at(topic.span, "unknown topic");
+            let problem = Diagnostic::error(errors::NO_HELP, format!("no help on `{word}`"))
+                .at(topic.span, "unknown topic");
             let known = catalogue::commands()
                 .chain(catalogue::topics())
                 .map(|entry| entry.keyword)
@@ -316,6 +333,34 @@ fn explained(entry: &Entry) -> String {
     for part in [entry.help, entry.example] {
         if !part.is_empty() {
             let _ = writeln!(text, "\n{part}");
+        }
+    }
+    text
+}
+
+/// A word of the trade: what it is here, what to type, and how the command goes on.
+fn trade_explained(word: &str, trade: &Trade) -> String {
+    let Trade { command, says, example, .. } = trade;
+    let mut text = format!("{word} {says}:\n  {example}\n");
+    if let Some(entry) = catalogue::entry(command) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "\n{}", entry.usage);
+    }
+    let _ = writeln!(text, "`help {command}` says more.");
+    text
+}
+
+/// A kind of error in full.
+fn error_explained(kind: &errors::Kind) -> String {
+    // Writing to a string cannot fail.
+    let mut text = String::new();
+    let _ = writeln!(text, "{}: {}.", kind.code, kind.title);
+    if !kind.help.is_empty() {
+        let _ = writeln!(text, "{}", kind.help);
+    }
+    for (heading, example) in [("so it goes wrong:", kind.wrong), ("put right:", kind.right)] {
+        if !example.is_empty() {
+            let _ = writeln!(text, "\n{heading}\n  {}", example.replace('\n', "\n  "));
         }
     }
     text

@@ -2,11 +2,12 @@
 
 use crate::constraint::{Constraint, ConstraintKind as _, Curve, Field, PointIdx};
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::{Name, Part, Role};
 use crate::session::execution::Execution;
 use crate::session::resolve::said::Said;
 use crate::session::resolve::scope::Resolver;
-use crate::terms::{Function, Member, Operator, Shape};
+use crate::terms::{Function, Member, Operator, Shape, Unit};
 use crate::world::{ConstraintId, Depends, Drivers, Entity, Formula, Node, PointId};
 
 /// One of two that touch.
@@ -45,7 +46,7 @@ impl Builder {
     }
 
     fn constant(&self, value: f64) -> Formula {
-        Formula::new(Node::Number(value), Shape::Number, Depends::default(), self.span)
+        Formula::new(Node::Number(value, Unit::None), Shape::Number, Depends::default(), self.span)
     }
 
     fn radius(&self, id: ConstraintId) -> Formula {
@@ -141,7 +142,7 @@ impl Resolver<'_> {
         };
         let (line, curves) = match (first, second) {
             (Side::Line(_), Side::Line(_)) => {
-                return Err(Diagnostic::error("two lines do not touch")
+                return Err(Diagnostic::error(errors::NO_TOUCH, "two lines do not touch")
                     .at(*place, "one of both has to be a circle or an arc")
                     .help("lines of one direction are `parallel A B, C D`"));
             }
@@ -149,7 +150,7 @@ impl Resolver<'_> {
                 (Some(*ends), vec![*c])
             }
             (Side::Curve(c), Side::Curve(d)) if c == d => {
-                return Err(Diagnostic::error("a circle does not touch itself")
+                return Err(Diagnostic::error(errors::NO_TOUCH, "a circle does not touch itself")
                     .at(*place, "the same circle again"));
             }
             (Side::Curve(c), Side::Curve(d)) => (None, vec![*c, *d]),
@@ -172,8 +173,11 @@ impl Resolver<'_> {
         let is_inside = parts.iter().any(|part| matches!(part, Part::Flag(Role::Inside)));
         Ok(match line {
             Some(_) if is_inside => {
-                return Err(Diagnostic::error("a line is not inside of a circle")
-                    .at(build.span, "`inside` is for two circles"));
+                return Err(Diagnostic::error(
+                    errors::NO_TOUCH,
+                    "a line is not inside of a circle",
+                )
+                .at(build.span, "`inside` is for two circles"));
             }
             Some([a, b]) => vec![
                 (Field::Value, build.call(Function::DistanceToLine, &[centres[0], a, b])),
@@ -194,8 +198,11 @@ impl Resolver<'_> {
             [a, b] => {
                 let ends = [self.idx(a)?, self.idx(b)?];
                 if ends[0] == ends[1] {
-                    return Err(Diagnostic::error("a segment needs two different points")
-                        .at(a.span.to(b.span), "the same point twice"));
+                    return Err(Diagnostic::error(
+                        errors::DEGENERATE,
+                        "a segment needs two different points",
+                    )
+                    .at(a.span.to(b.span), "the same point twice"));
                 }
                 Ok(Side::Line(ends))
             }
@@ -212,9 +219,12 @@ impl Resolver<'_> {
             _ => {
                 let text = self.text(name.span);
                 let label = format!("this is a {}", entity.noun());
-                Err(Diagnostic::error(format!("`{text}` is no circle and no arc"))
-                    .at(name.span, label)
-                    .help(format!("`circle c = {text} radius 1` makes a circle round a point")))
+                Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    format!("`{text}` is no circle and no arc"),
+                )
+                .at(name.span, label)
+                .help(format!("`circle c = {text} radius 1` makes a circle round a point")))
             }
         }
     }
@@ -244,9 +254,12 @@ impl Resolver<'_> {
             });
             if !is_of_it && !slides {
                 let curve = world.name_of(Entity::Constraint(c));
-                return Err(Diagnostic::error(format!("`{text}` is not known to be on `{curve}`"))
-                    .at(name.span, "a common direction is one at a common point")
-                    .help(format!("`glider {text} on {curve}` puts it there")));
+                return Err(Diagnostic::error(
+                    errors::NO_COMMON_POINT,
+                    format!("`{text}` is not known to be on `{curve}`"),
+                )
+                .at(name.span, "a common direction is one at a common point")
+                .help(format!("`glider {text} on {curve}` puts it there")));
             }
         }
         let Some([a, b]) = line else { return Ok(()) };
@@ -259,9 +272,12 @@ impl Resolver<'_> {
             return Ok(());
         }
         let [a, b] = [a, b].map(|end| world.points().name(PointId(end)).to_owned());
-        Err(Diagnostic::error(format!("`{text}` is not known to be on the line {a} {b}"))
-            .at(name.span, "a common direction is one at a common point")
-            .help(format!("`glider {text} on {a} {b} unbounded` puts it there")))
+        Err(Diagnostic::error(
+            errors::NO_COMMON_POINT,
+            format!("`{text}` is not known to be on the line {a} {b}"),
+        )
+        .at(name.span, "a common direction is one at a common point")
+        .help(format!("`glider {text} on {a} {b} unbounded` puts it there")))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::diag::{Diagnostic, Kind, Span};
+use crate::errors;
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
 use crate::render::{Animation, Scene, View, svg, svg_with_view};
 use crate::session::execution::Execution;
@@ -55,8 +56,11 @@ impl Execution<'_> {
             let point = point.map_err(|problem| self.resolve().or_word(problem, name, ALL))?;
             let Some(k) = self.state.world.traces().iter().position(|t| t.point == point) else {
                 let text = self.state.world.points().name(point);
-                return Err(Diagnostic::error(format!("`{text}` is not traced"))
-                    .at(name.span, "no trace to end"));
+                return Err(Diagnostic::error(
+                    errors::NOT_TRACED,
+                    format!("`{text}` is not traced"),
+                )
+                .at(name.span, "no trace to end"));
             };
             self.edit(Edit::Trace(k, None));
         }
@@ -121,9 +125,12 @@ impl Execution<'_> {
             Format::Table
         } else {
             self.output_path(path)?;
-            return Err(Diagnostic::error("what is this recording to become?")
-                .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
-                .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
+            return Err(Diagnostic::error(
+                errors::NOT_A_FILE_NAME,
+                "what is this recording to become?",
+            )
+            .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
+            .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
         };
         let file = match format {
             Format::Frames => {
@@ -134,9 +141,12 @@ impl Execution<'_> {
             Format::Movie | Format::Table => self.output_file(path, format.kind())?,
         };
         if self.state.recorders.iter().any(|r| r.path == file) {
-            return Err(Diagnostic::error(format!("`{}` is being recorded already", path.value))
-                .at(path.span, "")
-                .help("`record stop` ends and writes all recordings"));
+            return Err(Diagnostic::error(
+                errors::RECORDING,
+                format!("`{}` is being recorded already", path.value),
+            )
+            .at(path.span, "")
+            .help("`record stop` ends and writes all recordings"));
         }
         let recorder = Box::new(Recorder::new(file, path.span, every, format));
         self.change(Change::Recorder(self.state.recorders.len(), Some(recorder)));
@@ -145,12 +155,14 @@ impl Execution<'_> {
 
     pub(crate) fn record_stop(&mut self, span: Span) -> Result<(), Diagnostic> {
         if self.state.recorders.is_empty() {
-            return Err(Diagnostic::error("nothing is being recorded").at(span, ""));
+            return Err(
+                Diagnostic::error(errors::RECORDING, "nothing is being recorded").at(span, "")
+            );
         }
         if self.stop_recording() {
             return Ok(());
         }
-        Err(Diagnostic::error("stopped before the recording was written")
+        Err(Diagnostic::error(errors::INTERRUPTED, "stopped before the recording was written")
             .kind(Kind::Interrupted)
             .at(span, "it goes on")
             .help("`undo` takes back a run that was too long, and what was recorded of it"))

@@ -3,8 +3,9 @@
 use super::scope::{Bound, Meaning, Resolver};
 use crate::constraint::{Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
+use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Member, Operator, Shape};
+use crate::terms::{Function, Member, Operator, Shape, Unit};
 use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, call, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
@@ -44,16 +45,15 @@ impl Term {
     }
 
     /// The formula, of a constant too.
-    pub fn into_formula(self, span: Span) -> Formula {
+    pub fn into_formula(self, expr: &Expr) -> Formula {
+        let constant = |node, shape| Formula::new(node, shape, Depends::default(), expr.span);
+        let number = |n, unit| constant(Node::Number(n, unit), Shape::Number);
         match self {
             Self::Live(formula) => formula,
-            Self::Constant(Value::Number(n)) => {
-                Formula::new(Node::Number(n), Shape::Number, Depends::default(), span)
-            }
+            Self::Constant(Value::Number(n)) => number(n, expr.unit()),
             Self::Constant(Value::Vector(v)) => {
-                let part = |n| Self::Constant(Value::Number(n)).into_formula(span);
-                let node = Node::Vector(part(v.x), part(v.y));
-                Formula::new(node, Shape::Vector, Depends::default(), span)
+                let [x, y] = [v.x, v.y].map(|n| number(n, Unit::None));
+                constant(Node::Vector(x, y), Shape::Vector)
             }
         }
     }
@@ -103,15 +103,17 @@ impl Resolver<'_> {
         let value = self.number(expr)?;
         let n = value.round();
         if (n - value).abs() > 1e-9 * value.abs().max(1.0) {
-            return Err(Diagnostic::error(format!("expected a whole number of {of}"))
-                .at(expr.span, format!("this is {}", format_number(value))));
+            return Err(Diagnostic::error(
+                errors::OUT_OF_RANGE,
+                format!("expected a whole number of {of}"),
+            )
+            .at(expr.span, format!("this is {}", format_number(value))));
         }
         if n < least || n > most {
-            return Err(Diagnostic::error(format!(
-                "expected {} to {} {of}",
-                format_number(least),
-                format_count(most)
-            ))
+            return Err(Diagnostic::error(
+                errors::OUT_OF_RANGE,
+                format!("expected {} to {} {of}", format_number(least), format_count(most)),
+            )
             .at(expr.span, format!("this is {}", format_count(value))));
         }
         Ok(n as u64)
@@ -208,8 +210,7 @@ impl Resolver<'_> {
                     return Ok(Term::Constant(Value::Vector(v)));
                 }
                 let depends = x.depends().or(y.depends());
-                let node =
-                    Node::Vector(x.into_formula(parts[0].span), y.into_formula(parts[1].span));
+                let node = Node::Vector(x.into_formula(&parts[0]), y.into_formula(&parts[1]));
                 Ok(Term::Live(Formula::new(node, Shape::Vector, depends, expr.span)))
             }
             Syntax::Component(inner, axis) => {
@@ -256,8 +257,11 @@ impl Resolver<'_> {
             }
             Entity::Constraint(_) => {
                 let name = self.state.world.name_of(entity);
-                return Err(Diagnostic::error(format!("`{name}` is a constraint"))
-                    .at(span, "expected a point, a parameter or a number"));
+                return Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    format!("`{name}` is a constraint"),
+                )
+                .at(span, "expected a point, a parameter or a number"));
             }
         };
         let formula = Formula::new(node, shape, depends, span);
@@ -349,7 +353,7 @@ impl Resolver<'_> {
             return Ok(Term::Constant(value));
         }
         let depends = terms.iter().fold(Depends::default(), |all, term| all.or(term.depends()));
-        let formulas = terms.iter().zip(arguments).map(|(t, a)| t.clone().into_formula(a.span));
+        let formulas = terms.iter().zip(arguments).map(|(t, a)| t.clone().into_formula(a));
         let node = Node::Call(function, formulas.collect());
         Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
     }
@@ -388,8 +392,11 @@ fn points_of(
         _ => {
             let wants =
                 if terms.len() == 1 { "the name of a point" } else { "the names of points" };
-            Err(Diagnostic::error(format!("`{}` takes {wants}", function.name()))
-                .at(argument.span, "this is not a point"))
+            Err(Diagnostic::error(
+                errors::WRONG_SORT,
+                format!("`{}` takes {wants}", function.name()),
+            )
+            .at(argument.span, "this is not a point"))
         }
     });
     points.collect()
@@ -406,7 +413,7 @@ fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {
             let node = if axis == Axis::X { Node::X(f) } else { Node::Y(f) };
             Ok(Term::Live(Formula::new(node, Shape::Number, depends, span)))
         }
-        _ => Err(Diagnostic::error(format!("a number has no `.{letter}`"))
+        _ => Err(Diagnostic::error(errors::NO_MEMBER, format!("a number has no `.{letter}`"))
             .at(span, "only a vector has components")),
     }
 }
@@ -431,10 +438,13 @@ fn binary(
                 format!("a {} and a {}", a.noun(), b.noun())
             };
             let sign = operator.sign();
-            let problem = Diagnostic::error(format!("`{sign}` does not go between {sorts}"))
-                .at(expr.span, "")
-                .also(sides[0].span, format!("a {}", a.noun()))
-                .also(sides[1].span, format!("a {}", b.noun()));
+            let problem = Diagnostic::error(
+                errors::MIXED_SORTS,
+                format!("`{sign}` does not go between {sorts}"),
+            )
+            .at(expr.span, "")
+            .also(sides[0].span, format!("a {}", a.noun()))
+            .also(sides[1].span, format!("a {}", b.noun()));
             return Err(match (operator, a, b) {
                 (Operator::Multiply, Vector, Vector) => {
                     problem.help("`dot(v, w)` and `cross(v, w)` multiply vectors")
@@ -450,14 +460,13 @@ fn binary(
         return operate(operator, *a, *b, expr.span, sides[1].span).map(Term::Constant);
     }
     let depends = left.depends().or(right.depends());
-    let node =
-        Node::Binary(operator, left.into_formula(sides[0].span), right.into_formula(sides[1].span));
+    let node = Node::Binary(operator, left.into_formula(&sides[0]), right.into_formula(&sides[1]));
     Ok(Term::Live(Formula::new(node, shape, depends, expr.span)))
 }
 
 /// The error for an expression of the other shape.
 fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
-    Diagnostic::error(format!("expected a {}", shape.noun()))
+    Diagnostic::error(errors::MIXED_SORTS, format!("expected a {}", shape.noun()))
         .at(expr.span, format!("this is a {}", is.noun()))
 }

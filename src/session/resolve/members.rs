@@ -2,6 +2,7 @@
 
 use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::terms::Member;
 use crate::world::{ConstraintId, Entity, Formula};
 
@@ -22,8 +23,11 @@ impl Resolver<'_> {
         let world = &self.state.world;
         let (name, word) = (world.name_of(of), member.word());
         let Entity::Constraint(id) = of else {
-            return Err(Diagnostic::error(format!("`{name}` is a {}", of.noun()))
-                .at(span, format!("only a constraint has a member `.{word}`")));
+            return Err(Diagnostic::error(
+                errors::NO_MEMBER,
+                format!("`{name}` is a {}", of.noun()),
+            )
+            .at(span, format!("only a constraint has a member `.{word}`")));
         };
         if world.has_member(id, member) {
             return Ok(Meaning::Member(id, member));
@@ -35,7 +39,7 @@ impl Resolver<'_> {
             Member::Radius => "only a circle or an arc has a radius",
             _ => "it measures no single number",
         };
-        Err(Diagnostic::error(format!("`{name}` has no `.{word}`"))
+        Err(Diagnostic::error(errors::NO_MEMBER, format!("`{name}` has no `.{word}`"))
             .at(span, label)
             .help(format!("there is {}", others.join(" and "))))
     }
@@ -48,13 +52,16 @@ impl Resolver<'_> {
     ) -> Result<(), Diagnostic> {
         let depends = self.state.world.depends(formula);
         if depends.on_rates {
-            return Err(Diagnostic::error("a velocity cannot drive a constraint")
-                .at(span, "velocities follow from the constraints"));
+            return Err(Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                "a velocity cannot drive a constraint",
+            )
+            .at(span, "velocities follow from the constraints"));
         }
         let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
         let name =
             format!("{}.{}", self.state.world.name_of(Entity::Constraint(id)), member.word());
-        Err(Diagnostic::error(format!("`{name}` cannot drive a constraint"))
+        Err(Diagnostic::error(errors::NOT_A_DRIVER, format!("`{name}` cannot drive a constraint"))
             .at(span, "it follows from the constraints"))
     }
 }

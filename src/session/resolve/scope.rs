@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
+use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::state::State;
 use crate::terms::Member;
@@ -154,8 +155,11 @@ impl<'a> Resolver<'a> {
                 PartKind::Index(index) => {
                     let value = self.number(index)?.round();
                     if value.abs() > 1e15 {
-                        return Err(Diagnostic::error("an index this large names nothing")
-                            .at(index.span, "no more than 1e15"));
+                        return Err(Diagnostic::error(
+                            errors::OUT_OF_RANGE,
+                            "an index this large names nothing",
+                        )
+                        .at(index.span, "no more than 1e15"));
                     }
                     text.push('[');
                     crate::diag::push_integer(&mut text, value as i64);
@@ -194,10 +198,10 @@ impl<'a> Resolver<'a> {
                 (1, Some(axis)) if !matches!(bound, Bound::Number(_)) => {
                     Ok((Meaning::Bound(bound), Some(axis)))
                 }
-                _ => Err(Diagnostic::error(format!(
-                    "`{}` stands for one value here and has no parts",
-                    name.head.text
-                ))
+                _ => Err(Diagnostic::error(
+                    errors::NO_MEMBER,
+                    format!("`{}` stands for one value here and has no parts", name.head.text),
+                )
                 .at(name.span, "only `.x` and `.y` of a vector")),
             };
         }
@@ -240,8 +244,11 @@ impl<'a> Resolver<'a> {
                     Bound::Number(n) => format!("the number {}", format_number(n)),
                     _ => "a value".to_owned(),
                 };
-                Err(Diagnostic::error(format!("`{}` stands for {value} here", name.head.text))
-                    .at(name.span, format!("expected the name of {wanted}")))
+                Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    format!("`{}` stands for {value} here", name.head.text),
+                )
+                .at(name.span, format!("expected the name of {wanted}")))
             }
             (_, Some(_)) | (Meaning::Member(..), None) => {
                 let whole = self.spell(name, name.parts.len())?;
@@ -268,7 +275,7 @@ impl<'a> Resolver<'a> {
 
     fn wrong_kind(&self, name: &Name, is: Entity, wanted: &str) -> Diagnostic {
         let text = self.state.world.name_of(is);
-        Diagnostic::error(format!("`{text}` is a {}", is.noun()))
+        Diagnostic::error(errors::WRONG_SORT, format!("`{text}` is a {}", is.noun()))
             .at(name.span, format!("expected the name of {wanted}"))
     }
 
@@ -292,10 +299,10 @@ impl<'a> Resolver<'a> {
     /// The full text of a name to be given to something new.
     pub(crate) fn declare(&mut self, name: &Name) -> Result<NameText, Diagnostic> {
         if self.binding(name).is_some() {
-            return Err(Diagnostic::error(format!(
-                "`{}` stands for a value in this block",
-                name.head.text
-            ))
+            return Err(Diagnostic::error(
+                errors::NAME_TAKEN,
+                format!("`{}` stands for a value in this block", name.head.text),
+            )
             .at(name.span, "choose another name"));
         }
         let mut text = self.spell(name, name.parts.len())?;
@@ -323,7 +330,7 @@ impl<'a> Resolver<'a> {
         }
         let noun = names.get(text).map_or("instance", Entity::noun);
         let article = if noun == "instance" { "an" } else { "a" };
-        Err(Diagnostic::error(format!("`{text}` is {article} {noun} already"))
+        Err(Diagnostic::error(errors::NAME_TAKEN, format!("`{text}` is {article} {noun} already"))
             .at(span, "this name is taken")
             .help(match noun {
                 "parameter" => format!("`let {text} = ...` changes it"),
@@ -348,12 +355,18 @@ impl<'a> Resolver<'a> {
                     (entity, Member::named(&text[dot + 1..]))
                     && self.state.world.has_member(id, member)
                 {
-                    return Err(Diagnostic::error(format!("`{text}` is a member of `{owner}`"))
-                        .at(span, "this name has its meaning already"));
+                    return Err(Diagnostic::error(
+                        errors::NAME_TAKEN,
+                        format!("`{text}` is a member of `{owner}`"),
+                    )
+                    .at(span, "this name has its meaning already"));
                 }
-                return Err(Diagnostic::error(format!("`{owner}` is a {}", entity.noun()))
-                    .at(span, "only an instance of a definition has members")
-                    .help("choose a name without the dot"));
+                return Err(Diagnostic::error(
+                    errors::NO_MEMBER,
+                    format!("`{owner}` is a {}", entity.noun()),
+                )
+                .at(span, "only an instance of a definition has members")
+                .help("choose a name without the dot"));
             }
         }
         Ok(())
@@ -373,13 +386,13 @@ impl<'a> Resolver<'a> {
     /// The error for a name that nothing has.
     pub(crate) fn unknown(&self, text: &str, span: Span) -> Diagnostic {
         let names = self.state.world.names();
-        let problem = Diagnostic::error(format!("unknown name `{text}`"));
+        let problem = Diagnostic::error(errors::UNKNOWN_NAME, format!("unknown name `{text}`"));
         if names.is_instance(text) {
             let member = names
                 .iter()
                 .filter_map(|(name, _)| name.strip_prefix(text)?.strip_prefix('.').map(|_| name))
                 .min();
-            return Diagnostic::error(format!("`{text}` is an instance"))
+            return Diagnostic::error(errors::WRONG_SORT, format!("`{text}` is an instance"))
                 .at(span, "expected one of its members")
                 .help(format!("for example `{}`", member.unwrap_or_default()));
         }

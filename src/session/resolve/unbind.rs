@@ -77,7 +77,10 @@ impl<'a> Unbind<'a> {
 
     /// The expression behind a value of a constraint: what drives it, or the number itself.
     fn field(&self, record: &Record, field: Field, value: f64) -> Expr {
-        record.driver(field).map_or_else(|| literal(value), |formula| self.unbind(formula))
+        match record.driver(field) {
+            Some(formula) => self.unbind(formula),
+            None => Expr::literal_in(value, record.unit(field), NOWHERE),
+        }
     }
 
     /// What its statement asks of the measured value of a constraint.
@@ -248,7 +251,7 @@ impl<'a> Unbind<'a> {
     pub(crate) fn unbind(&self, formula: &Formula) -> Expr {
         let two = |a: &Formula, b: &Formula| Box::new([self.unbind(a), self.unbind(b)]);
         expr(match formula.node() {
-            Node::Number(n) => return literal(*n),
+            Node::Number(n, unit) => return Expr::literal_in(*n, *unit, NOWHERE),
             Node::Time => Syntax::Time,
             Node::Point(id) => Syntax::Name(named(self.world.points().name(*id))),
             Node::Parameter(id) => Syntax::Name(named(self.world.name_of(Entity::Parameter(*id)))),

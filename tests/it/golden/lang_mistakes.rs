@@ -27,6 +27,11 @@ fn expressions() {
 }
 
 #[test]
+fn trade() {
+    check("trade.txt");
+}
+
+#[test]
 fn layout() {
     check("layout.txt");
 }

@@ -27,6 +27,7 @@ fn check(script: &Path) {
     let mut told = String::new();
     for statement in parse(source, &text) {
         let before = talking.script();
+        let statement = statement.map_err(|problem| talking.session.advise(problem));
         let result = statement.and_then(|statement| talking.execute_one(&statement));
         assert!(told.is_empty(), "{name} goes on after its mistake");
         if let Err(problem) = result {

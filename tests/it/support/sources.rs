@@ -35,12 +35,25 @@ pub fn sources() -> Vec<Source> {
     files.into_iter().map(source).collect()
 }
 
+/// The scripts below `scripts/`, in order of their paths.
+pub fn scripts() -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    collect_ending(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts"), "link", &mut files);
+    files.sort();
+    assert!(files.len() > 100, "the scripts are found");
+    files
+}
+
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    collect_ending(folder, "rs", files);
+}
+
+fn collect_ending(folder: &Path, wanted: &str, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder can be listed") {
         let path = entry.expect("it can be listed").path();
         if path.is_dir() {
-            collect(&path, files);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            collect_ending(&path, wanted, files);
+        } else if path.extension().is_some_and(|ending| ending == wanted) {
             files.push(path);
         }
     }

@@ -65,6 +65,7 @@ impl Talking {
         self.talk.said.clear();
         let source = self.add("typed", text, PathBuf::new());
         for statement in parse(source, text) {
+            let statement = statement.map_err(|problem| self.session.advise(problem));
             if let Err(problem) = statement.and_then(|statement| self.execute_one(&statement)) {
                 let drawn = self.drawn(&problem);
                 self.talk.say(&drawn);

@@ -6,8 +6,9 @@ use std::ops::Range;
 use pest::error::{Error, ErrorVariant, InputLocation};
 
 use crate::diag::{Diagnostic, Span};
+use crate::errors;
 use crate::lang::ast::Unit;
-use crate::lang::catalogue;
+use crate::lang::catalogue::{self, ConstraintWord};
 
 use super::expected::{Expected, PATH};
 use super::refusal;
@@ -33,6 +34,9 @@ impl Reader<'_> {
         let word = first_word(&self.text[range.clone()]);
         let before = self.text[range.start..at].trim_end();
         let expected = Expected::new(positives, word, before == word);
+        if let Some(problem) = self.point_left_out(word, before, range, &expected) {
+            return problem;
+        }
         let found = self.found_at(at, range.end);
         let message = match found.what {
             Found::End if rule == Rule::prefix => "the statement is not complete".to_owned(),
@@ -41,7 +45,8 @@ impl Reader<'_> {
         };
         let label =
             if at < stopped_at { "not expected here".to_owned() } else { expected.to_string() };
-        let problem = Diagnostic::error(message).at(found.span, label);
+        let code = if found.what == Found::End { errors::INCOMPLETE } else { errors::UNEXPECTED };
+        let problem = Diagnostic::error(code, message).at(found.span, label);
         let misspelt = expected.near(found.word(self)).or_else(|| {
             // Taken for a name, it was meant to be the keyword that is now missing.
             expected.near(last_word(before).filter(|word| word.len() > 2)?)
@@ -69,6 +74,31 @@ impl Reader<'_> {
             Some(entry) => problem.help(format!("usage: `{}`", entry.usage)),
             None => problem,
         }
+    }
+
+    /// The word of a part that was taken for a point, since a point is missing before it:
+    /// `motor B radius 1`.
+    fn point_left_out(
+        &self,
+        verb: &str,
+        before: &str,
+        range: &Range<usize>,
+        expected: &Expected,
+    ) -> Option<Diagnostic> {
+        let pattern = ConstraintWord::named(verb)?.pattern();
+        let word = last_word(before)?;
+        let is_part = pattern.entry.usage.split([' ', '[', ']', '|']).any(|part| part == word)
+            && word.starts_with(char::is_lowercase);
+        if !is_part || word == verb || expected.has("a value") || expected.has("a point") {
+            return None;
+        }
+        let end = range.start + before.len();
+        let span = self.span(end - word.len()..end);
+        Some(
+            Diagnostic::error(errors::UNEXPECTED, format!("unexpected `{word}`"))
+                .at(span, "expected a point")
+                .help(format!("usage: `{}`", pattern.entry.usage)),
+        )
     }
 
     /// Where the sign begins that `at` is in: of `==` the first `=` is read as one of its own.
@@ -111,7 +141,8 @@ impl Reader<'_> {
                 )
             }
             _ if expected.has("a relation") && is_number => {
-                format!("did you mean `= {}`?", brief(word))
+                let value = &self.text[found.span.range().start..end];
+                format!("did you mean `{} = {}`?", brief(before), brief(value))
             }
             _ if verb == "change" && last_word(before) == Some("to") => {
                 "a value stands behind `=`: `change coupler = 4`".to_owned()
@@ -144,8 +175,7 @@ impl Reader<'_> {
         let (what, len) = if first == '"' {
             (Found::String, rest.find('\n').unwrap_or(rest.len()))
         } else if is_word_char(first) {
-            let len = rest.find(|char| !is_word_char(char)).unwrap_or(rest.len());
-            (Found::Word, len)
+            (Found::Word, word_len(rest))
         } else {
             let sign = SIGNS.iter().find(|sign| rest.starts_with(**sign));
             (Found::Sign, sign.map_or(first.len_utf8(), |sign| sign.len()))
@@ -245,6 +275,23 @@ fn other_points<'a>(
     let second = first_word(behind.trim_start().trim_start_matches(',').trim_start());
     let are_points = is_name(found) && is_name(second) && !expected.has(&format!("`{second}`"));
     (verb == "change" && is_name(name) && !name.contains(' ') && are_points).then_some(name)
+}
+
+/// How long the word or number is that `text` begins with.
+fn word_len(text: &str) -> usize {
+    let word = |from: usize| {
+        let len = text[from..].find(|char| !is_word_char(char));
+        len.map_or(text.len(), |len| from + len)
+    };
+    let len = word(0);
+    let decimals = text[len..]
+        .strip_prefix('.')
+        .is_some_and(|rest| rest.starts_with(|char: char| char.is_ascii_digit()));
+    if decimals && text.starts_with(|char: char| char.is_ascii_digit()) {
+        word(len + 1)
+    } else {
+        len
+    }
 }
 
 /// The beginning of a word, if it is too long for a message.

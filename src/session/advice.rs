@@ -1,0 +1,53 @@
+//! What to type instead, where only the world knows what a name is.
+
+use super::Session;
+use super::state::State;
+use crate::constraint::{ConstraintKind as _, Field};
+use crate::diag::{Diagnostic, Sources};
+use crate::errors;
+use crate::world::Entity;
+
+impl Session {
+    /// What is wrong with a text, said to who has this world in front of them: `coupler = 4` asks
+    /// for a `change` where `coupler` is a constraint.
+    #[must_use]
+    pub fn advise(&self, problem: Diagnostic) -> Diagnostic {
+        self.state.advise(problem, self.sources())
+    }
+}
+
+impl State {
+    /// As [`Session::advise`].
+    pub(super) fn advise(&self, mut problem: Diagnostic, sources: &Sources) -> Diagnostic {
+        if problem.code != Some(errors::ASSIGNMENT) {
+            return problem;
+        }
+        let Some(place) = problem.place() else { return problem };
+        let name = sources.slice(place);
+        let Some(entity) = self.world.names().get(name) else { return problem };
+        let text = sources.get(place.source).map_or("", |source| &source.text);
+        let value = assigned(&text[place.range().end..]);
+        let (what, statement) = match entity {
+            Entity::Point(_) => ("to put the point elsewhere", format!("move {name} to {value}")),
+            Entity::Parameter(_) => {
+                ("to give the parameter another value", format!("let {name} = {value}"))
+            }
+            Entity::Constraint(id) => {
+                let constraint = &self.world.constraint(id).expect("it is named").constraint;
+                let part = match constraint.get(Field::Radius) {
+                    Some(_) if constraint.traits().bounds.is_none() => "radius",
+                    _ => "=",
+                };
+                ("to give it another value", format!("change {name} {part} {value}"))
+            }
+        };
+        problem.helps = vec![format!("{what}, write `{statement}`")];
+        problem
+    }
+}
+
+/// The value behind the `=` that a text begins with, up to the end of the statement.
+fn assigned(text: &str) -> &str {
+    let value = text.trim_start().trim_start_matches('=');
+    value[..value.find(['\n', ';', '#']).unwrap_or(value.len())].trim()
+}
