@@ -11,7 +11,7 @@ use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
 use crate::errors;
 use crate::lang::Growing;
-use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
+use crate::session::{Flow, Host, Outcome, Quota, Session, Transcript, reason};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -105,6 +105,12 @@ pub(super) fn begin(host: &HostArguments) -> Session {
         crate::solve::limit_cores(n.into());
     }
     let mut session = Session::new();
+    for &(quota, most) in &host.limits {
+        session.limit(quota, most);
+        if quota == Quota::SourceBytes {
+            files::limit_bytes(most);
+        }
+    }
     for (name, value) in &host.set {
         session.override_parameter(name, *value);
     }

@@ -65,6 +65,27 @@ impl Scene {
         Self { pose, ghosts, curves: curves.collect() }
     }
 
+    /// The same without where its points are, and that apart: of the frames of a recording it is all
+    /// that is not shared.
+    #[must_use]
+    pub fn without_places(mut self) -> (Self, Arc<[Point]>) {
+        let at = std::mem::take(&mut self.pose.at);
+        (self, at)
+    }
+
+    /// The same with its points at these places.
+    #[must_use]
+    pub fn with_places(&self, at: Vec<Point>) -> Self {
+        let mut scene = self.clone();
+        scene.pose.at = at.into();
+        scene
+    }
+
+    /// How many symbols it has.
+    pub fn n_symbols(&self) -> usize {
+        self.pose.symbols.len()
+    }
+
     /// How many of the ghosts are still those of a later world.
     fn n_same_ghosts(&self, world: &World) -> usize {
         let n = self.ghosts.len().min(world.ghosts().len());

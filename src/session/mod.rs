@@ -20,6 +20,7 @@ mod host;
 mod input;
 mod json;
 mod output_file;
+mod parcel;
 mod preferences;
 mod quotas;
 mod report;
@@ -29,6 +30,7 @@ mod scene_hash;
 mod series;
 mod settled;
 mod silent;
+mod spool;
 mod state;
 mod summary;
 mod transcript;
@@ -45,7 +47,9 @@ pub use completion::Completion;
 pub use execution::Flow;
 pub use host::{Host, Nowhere, contained, reason};
 pub use preferences::{AtDeadPoint, Preferences};
+pub use quotas::{Quota, parse_limit};
 pub use silent::Silent;
+pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
@@ -199,6 +203,11 @@ impl Session {
     /// Names given to [`override_parameter`](Self::override_parameter) that no `let` has.
     pub fn unused_overrides(&self) -> impl Iterator<Item = &str> {
         self.input.overrides.iter().filter(|(_, o)| !o.is_used).map(|(name, _)| name.as_str())
+    }
+
+    /// Sets how much there may be of something.
+    pub const fn limit(&mut self, quota: Quota, most: u64) {
+        self.input.quotas.set(quota, most);
     }
 
     /// Carries out one statement, whole or not at all.

@@ -106,10 +106,7 @@ impl Execution<'_> {
 
     /// Ends recordings, forgets definitions and settings, and what the solver remembers.
     fn stop_everything(&mut self) {
-        if !self.stop_recording() {
-            self.note("stopped: what was recorded is not written");
-            self.drop_recordings();
-        }
+        self.stop_recording();
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
         self.change(Change::Restoring(false));

@@ -222,6 +222,9 @@ impl History {
         self.last_motion.give_up();
         self.gather(state);
         for change in self.journal.take_current().into_iter().rev() {
+            if let Change::Reels(reels) = &change {
+                state.recorders.iter().zip(reels).for_each(|(recorder, reel)| recorder.cut(reel));
+            }
             state.apply(change);
         }
     }
