@@ -7,6 +7,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use super::output::MessageFormat;
 
 use crate::diag::visible;
+use crate::session::Quota;
 
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
@@ -146,6 +147,9 @@ pub struct HostArguments {
     /// Let scripts read files in this folder and below it too; may be given several times.
     #[arg(short = 'I', value_name = "DIR")]
     pub libraries: Vec<PathBuf>,
+    /// Change a limit: `points=1e6`, or `points=none`; the names stand in docs/language.md.
+    #[arg(long = "limit", value_name = "NAME=NUMBER", value_parser = parse_limit)]
+    pub limits: Vec<(Quota, u64)>,
     /// Replace files even if linkwork did not write them.
     #[arg(long)]
     pub force: bool,
@@ -168,4 +172,9 @@ pub fn command() -> clap::Command {
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
 fn parse_setting(text: &str) -> Result<(String, f64), String> {
     crate::session::evaluate_binding(text).map_err(|problem| problem.message.to_string())
+}
+
+/// `name=number`, a limit of a session.
+fn parse_limit(text: &str) -> Result<(Quota, u64), String> {
+    crate::session::parse_limit(text).map_err(|problem| problem.message.to_string())
 }

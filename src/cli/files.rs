@@ -2,10 +2,13 @@
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use tempfile::NamedTempFile;
+
+use crate::session::Quota;
 
 /// What some editors put before a text in UTF-8.
 pub const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
@@ -17,7 +20,12 @@ const DRAFT: &str = ".linkwork-";
 const OPENING: u64 = 8 << 10;
 
 /// Bytes of a text that are read at most.
-const MOST_BYTES: u64 = 64 << 20;
+static MOST_BYTES: AtomicU64 = AtomicU64::new(Quota::SourceBytes.usual());
+
+/// From here on no text of more bytes is read.
+pub fn limit_bytes(most: u64) {
+    MOST_BYTES.store(most, Ordering::Relaxed);
+}
 
 /// Reads a text in UTF-8 from a file, or from a pipe by the name of one.
 pub fn read(path: &Path) -> io::Result<String> {
@@ -27,8 +35,9 @@ pub fn read(path: &Path) -> io::Result<String> {
 /// Reads a text in UTF-8, of which so much is there that it may be a script.
 pub fn read_text(source: impl Read) -> io::Result<String> {
     let mut bytes = Vec::new();
-    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST_BYTES {
+    let most = MOST_BYTES.load(Ordering::Relaxed);
+    source.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
         return Err(io::ErrorKind::FileTooLarge.into());
     }
     text(bytes)
@@ -96,15 +105,26 @@ fn is_nothing(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }
 
+/// Writes a file as [`write_in_pieces`] does.
+pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_in_pieces(path, &mut |out| out.write_all(bytes))
+}
+
 /// Writes a file beside its place, then renames it into place; makes the folders it needs. It is
 /// on the disk before it has its name.
-pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub fn write_in_pieces(
+    path: &Path,
+    content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     // A link stays one, and what it leads to is written.
     let place = if path.is_symlink() { path.canonicalize()? } else { path.to_path_buf() };
     let folder = folder_of(&place);
     fs::create_dir_all(folder)?;
-    let mut draft = draft_in(folder)?;
-    draft.write_all(bytes)?;
+    let draft = draft_in(folder)?;
+    let mut out = BufWriter::with_capacity(1 << 16, draft.as_file());
+    content(&mut out)?;
+    out.flush()?;
+    drop(out);
     if let Ok(old) = fs::metadata(&place) {
         draft.as_file().set_permissions(old.permissions())?;
     }
@@ -114,6 +134,13 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     // A file system without this keeps names in its own way.
     drop(File::open(folder).and_then(|folder| folder.sync_all()));
     Ok(())
+}
+
+/// A file without a name, which is gone when nobody has it open, however that comes: in a folder, or
+/// where temporary files lie while there is no such folder.
+pub fn nameless(folder: &Path) -> io::Result<File> {
+    let folder = or_here(folder);
+    if folder.is_dir() { tempfile::tempfile_in(folder) } else { tempfile::tempfile() }
 }
 
 /// A new file in a folder, as the user wants new files to be readable. It is locked for as long as

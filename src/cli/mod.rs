@@ -11,6 +11,7 @@ pub(crate) mod output;
 mod process_host;
 mod progress;
 mod run;
+mod spool;
 mod watch;
 
 use std::process::ExitCode;

@@ -13,6 +13,8 @@ struct Answers {
     out: BufWriter<Stdout>,
     is_terminal: bool,
     state: State,
+    /// Bytes so far, those that reached nobody included.
+    n_bytes: u64,
 }
 
 /// Whether answers still reach anybody.
@@ -32,6 +34,7 @@ fn answers() -> MutexGuard<'static, Answers> {
             out: BufWriter::with_capacity(1 << 16, io::stdout()),
             is_terminal: io::stdout().is_terminal(),
             state: State::Open,
+            n_bytes: 0,
         })
     });
     answers.lock().unwrap_or_else(PoisonError::into_inner)
@@ -58,6 +61,7 @@ impl Answers {
 pub fn answer(line: &str) {
     let mut answers = answers();
     let line = if answers.is_terminal { visible(line) } else { line.into() };
+    answers.n_bytes += line.len() as u64 + 1;
     answers.write(|out| out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")));
 }
 
@@ -65,6 +69,11 @@ pub fn answer(line: &str) {
 /// and at the end.
 pub fn flush() {
     answers().write(Write::flush);
+}
+
+/// Bytes of the answer so far.
+pub fn n_bytes() -> u64 {
+    answers().n_bytes
 }
 
 /// Whether an answer could not be written though somebody wanted it.

@@ -1,16 +1,17 @@
 //! The host of a session that runs in a process: files, a clock, Ctrl-C.
 
 use std::collections::BTreeSet;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
 use super::args::HostArguments;
 use super::progress::ProgressBar;
+use super::spool::FileSpool;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::{Host, Wish, contained};
+use crate::session::{Host, Spool, Wish, contained};
 
 /// The process as a session sees it.
 pub struct ProcessHost {
@@ -51,6 +52,10 @@ impl ProcessHost {
 impl Host for ProcessHost {
     fn print(&mut self, line: &str) {
         output::answer(line);
+    }
+
+    fn n_printed(&self) -> u64 {
+        output::n_bytes()
     }
 
     fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
@@ -116,11 +121,23 @@ impl Host for ProcessHost {
     }
 
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.write_in_pieces(path, &mut |out| out.write_all(bytes))
+    }
+
+    fn write_in_pieces(
+        &mut self,
+        path: &Path,
+        content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
         let folder = files::folder_of(path);
         if self.tidy.insert(folder.to_path_buf()) {
             files::remove_leftovers(folder);
         }
-        files::write(path, bytes)
+        files::write_in_pieces(path, content)
+    }
+
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        Ok(Box::new(FileSpool::new(files::nameless(&self.out)?)))
     }
 
     fn progress(&self, share: f64) {

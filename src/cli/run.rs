@@ -11,8 +11,8 @@ use super::process_host::ProcessHost;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Kind, Sources};
 use crate::errors;
-use crate::lang::is_incomplete;
-use crate::session::{Flow, Host, Outcome, Session, Transcript, reason};
+use crate::lang::Growing;
+use crate::session::{Flow, Host, Outcome, Quota, Session, Transcript, reason};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -128,6 +128,12 @@ pub(super) fn begin(host: &HostArguments) -> Session {
         crate::solve::limit_cores(n.into());
     }
     let mut session = Session::new();
+    for &(quota, most) in &host.limits {
+        session.limit(quota, most);
+        if quota == Quota::SourceBytes {
+            files::limit_bytes(most);
+        }
+    }
     for (name, value) in &host.set {
         session.override_parameter(name, *value);
     }
@@ -153,17 +159,12 @@ pub fn session(host: &HostArguments) -> ExitStatus {
     }
 }
 
-/// A block longer than this is looked at from time to time only, to see whether it is whole:
-/// each look reads all of it.
-const LINES_WATCHED: usize = 64;
-
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
 fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
     let mut status = ExitStatus::Fine;
-    let mut piece = String::new();
-    let mut n_lines = 0;
+    let mut piece = Growing::default();
     let mut is_first = true;
     let lines = lines_of_stdin();
     loop {
@@ -181,17 +182,13 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
         let is_end = line.is_empty();
         let mark = files::BYTE_ORDER_MARK;
         let typed_line = if is_first { line.strip_prefix(mark) } else { None };
-        piece.push_str(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
+        let is_whole = piece.add(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
         is_first = false;
-        n_lines += 1;
-        let is_due = n_lines < LINES_WATCHED || n_lines % LINES_WATCHED == 0 || line == b"}\n";
-        if !is_end && (!is_due || is_incomplete(&piece)) {
+        if !is_end && !is_whole {
             continue;
         }
-        let Outcome { flow, failure } = transcript.enter(&piece, session, host);
+        let Outcome { flow, failure } = transcript.enter(&piece.take(), session, host);
         output::flush();
-        piece.clear();
-        n_lines = 0;
         if status == ExitStatus::Fine {
             status = failure.as_ref().map_or(ExitStatus::Fine, ExitStatus::of);
         }

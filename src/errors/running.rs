@@ -58,9 +58,10 @@ super::kinds! {
         right: "",
     }
     510 TOO_MUCH {
-        title: "more rounds, levels or statements than could be meant",
-        help: "Blocks lie at most 64 deep in each other, and one\n\
-             command carries out at most 20 million statements.",
+        title: "more than a limit allows",
+        help: "Blocks lie at most 64 deep in each other, one command carries\n\
+             out at most 20 million statements, and so on; `--limit NAME=N` on\n\
+             the command line sets another limit.",
         wrong: "for i in 1..1e12 { }",
         right: "for i in 1..10 { }",
     }

@@ -11,10 +11,12 @@ mod constraint;
 mod expr;
 mod format;
 mod grammar;
+mod growing;
 mod layout;
 mod lower;
 mod parts;
 mod print;
 
 pub use format::format;
+pub use growing::Growing;
 pub use lower::{Statements, is_incomplete, parse};

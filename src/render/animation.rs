@@ -14,6 +14,12 @@ use std::sync::Arc;
 /// A picture holds at most so many frames times symbols: some ten megabytes. Beyond it frames
 /// are left out evenly, and straight lines lead over the gaps.
 const MOST_POSES: usize = 300_000;
+/// Whether a picture shows frame `k` of `n` with so many symbols at most, or leaves it out.
+pub fn is_shown(k: usize, n: usize, n_symbols: usize) -> bool {
+    let stride = (n * n_symbols).div_ceil(MOST_POSES).max(1);
+    k.is_multiple_of(stride) || k + 1 == n
+}
+
 /// The shortest motion shown, seconds: a shorter one is a flicker.
 const SHORTEST: f64 = 1.0;
 /// The longest motion shown, seconds: more than a minute nobody watches.
@@ -61,13 +67,11 @@ impl Animation {
 
     /// Leaves out as many frames as it takes.
     fn leave_out(&mut self) {
-        let n_symbols = self.frames.iter().map(|(scene, _)| scene.pose.symbols.len()).max();
-        let n_poses = self.frames.len() * n_symbols.unwrap_or(0);
-        let stride = n_poses.div_ceil(MOST_POSES).max(1);
-        let last = self.frames.len().saturating_sub(1);
+        let n_symbols = self.frames.iter().map(|(scene, _)| scene.n_symbols()).max();
+        let n = self.frames.len();
         let mut k = 0;
         self.frames.retain(|_| {
-            let is_kept = k % stride == 0 || k == last;
+            let is_kept = is_shown(k, n, n_symbols.unwrap_or(0));
             k += 1;
             is_kept
         });

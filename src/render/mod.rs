@@ -47,7 +47,7 @@ mod animation_tracks;
 mod keyframes;
 mod trace_animation;
 
-pub use animation::Animation;
+pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
 pub use still::{svg, svg_with_view};

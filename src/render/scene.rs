@@ -39,6 +39,14 @@ impl Scene {
         Self { pose, ghosts, curves }
     }
 
+    /// Roughly how many bytes it takes beside others that share its symbols and ghosts.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>()
+            + size_of_val(&*self.pose.at)
+            + size_of_val(&*self.ghosts)
+            + size_of_val(&*self.curves)
+    }
+
     /// The scene of the same world somewhat later. It shares with this one what did not
     /// change: frames of a recording made this way take the room of their positions.
     #[must_use]
@@ -55,6 +63,27 @@ impl Scene {
             grown.unwrap_or_else(|| Curve::of(k, trace, world))
         });
         Self { pose, ghosts, curves: curves.collect() }
+    }
+
+    /// The same without where its points are, and that apart: of the frames of a recording it is all
+    /// that is not shared.
+    #[must_use]
+    pub fn without_places(mut self) -> (Self, Arc<[Point]>) {
+        let at = std::mem::take(&mut self.pose.at);
+        (self, at)
+    }
+
+    /// The same with its points at these places.
+    #[must_use]
+    pub fn with_places(&self, at: Vec<Point>) -> Self {
+        let mut scene = self.clone();
+        scene.pose.at = at.into();
+        scene
+    }
+
+    /// How many symbols it has.
+    pub fn n_symbols(&self) -> usize {
+        self.pose.symbols.len()
     }
 
     /// How many of the ghosts are still those of a later world.

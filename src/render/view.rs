@@ -1,6 +1,9 @@
 //! A view: what all pictures of one mechanism in motion share, so that they can be laid one
 //! on the other.
 
+use std::borrow::Borrow;
+use std::convert::Infallible;
+
 use super::canvas::{Canvas, Lettering};
 use super::document::Group;
 use super::figure::Figure;
@@ -22,18 +25,42 @@ impl View {
     /// The view that shows all of these scenes.
     pub fn of<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> Self {
         let scenes: Vec<&Scene> = scenes.into_iter().collect();
-        let mut bounds = BoundingBox::default();
-        for (k, scene) in scenes.iter().enumerate() {
-            scene.pose.extend(&mut bounds);
-            scene.extend_by_past(scenes.get(k + 1).copied(), &mut bounds);
+        match Self::through(scenes.len(), |k| Ok::<_, Infallible>(scenes[k])) {
+            Ok(view) => view,
+            Err(never) => match never {},
         }
-        let bars = scenes.first().map_or(0.0, |scene| typical_bar(&scene.pose));
+    }
+
+    /// The view that shows so many scenes, which are fetched one after the other.
+    ///
+    /// # Errors
+    /// That of a scene that cannot be fetched.
+    pub fn through<S: Borrow<Scene>, E>(
+        n_scenes: usize,
+        mut fetch: impl FnMut(usize) -> Result<S, E>,
+    ) -> Result<Self, E> {
+        let mut bounds = BoundingBox::default();
+        let mut bars = 0.0;
+        let mut last: Option<S> = None;
+        for k in 0..n_scenes {
+            let scene = fetch(k)?;
+            scene.borrow().pose.extend(&mut bounds);
+            match &last {
+                None => bars = typical_bar(&scene.borrow().pose),
+                Some(last) => last.borrow().extend_by_past(Some(scene.borrow()), &mut bounds),
+            }
+            last = Some(scene);
+        }
+        if let Some(last) = &last {
+            last.borrow().extend_by_past(None, &mut bounds);
+        }
         let page = Page::fit(&bounds);
         let page = if bars > 0.0 { page.with_bars(bars) } else { page };
-        let n_probes = scenes.len().min(N_PROBES);
-        let probe = |k: usize| scenes[k * (scenes.len() - 1) / (n_probes - 1).max(1)];
-        let probes: Vec<&Scene> = (0..n_probes).map(probe).collect();
-        Self { page, lettering: lettering::place(&probes, &page) }
+        let n_probes = n_scenes.min(N_PROBES);
+        let probe = |k: usize| fetch(k * (n_scenes - 1) / (n_probes - 1).max(1));
+        let probes = (0..n_probes).map(probe).collect::<Result<Vec<S>, E>>()?;
+        let probes: Vec<&Scene> = probes.iter().map(S::borrow).collect();
+        Ok(Self { page, lettering: lettering::place(&probes, &page) })
     }
 
     pub(super) const fn page(&self) -> &Page {

@@ -1,7 +1,7 @@
 //! Which command does what.
 
 use super::execution::{Execution, Flow};
-use super::quotas::MOST_STATEMENTS;
+use super::quotas::Quota;
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
@@ -15,11 +15,7 @@ impl Execution<'_> {
     /// Carries out a statement as part of the command under way.
     pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements += 1;
-        if self.n_statements > MOST_STATEMENTS {
-            return Err(Diagnostic::error(errors::TOO_MUCH, "this command never seems to end")
-                .at(statement.span, "20 million statements were carried out")
-                .help("split it into several commands"));
-        }
+        self.input.quotas.check(Quota::Statements, self.n_statements, statement.span)?;
         interrupt::rest();
         let flow = self.perform(statement).map_err(|problem| {
             // What fails elsewhere, in a live expression, was reached from here.
@@ -31,11 +27,22 @@ impl Execution<'_> {
             }
         })?;
         self.begin_counts();
+        self.hold_quotas(statement.span)?;
         if flow == Flow::On && self.host.is_interrupted() {
             self.note("stopped");
             return Ok(Flow::Stopped);
         }
         Ok(flow)
+    }
+
+    /// Refuses what has grown beyond what is allowed; asked after each statement and each frame.
+    pub(super) fn hold_quotas(&self, span: Span) -> Result<(), Diagnostic> {
+        let (world, quotas) = (&self.state.world, &self.input.quotas);
+        let n_points = world.points().column().len() as u64;
+        quotas.check(Quota::Points, n_points, span)?;
+        quotas.check(Quota::Constraints, world.n_constraints() as u64, span)?;
+        quotas.check(Quota::GhostPoints, world.ghosts().len() as u64 * n_points, span)?;
+        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)
     }
 
     fn perform(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {

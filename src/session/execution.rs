@@ -1,17 +1,17 @@
 //! The command under way: what it works on, and what is needed for as long as it runs.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::file_kind::Parcel;
 use super::host::Host;
 use super::input::Input;
+use super::parcel::Parcel;
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
 use super::summary::Summary;
 use super::undo::history::History;
 use super::undo::journal::Change;
-use crate::diag::{Diagnostic, Kind, Span};
-use crate::errors;
+use crate::diag::{Diagnostic, Span};
 use crate::interrupt;
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
@@ -54,7 +54,7 @@ pub struct Execution<'a> {
     /// What has run so far.
     pub run: Option<Summary>,
     /// Where likely slips were found.
-    pub slips: Vec<Span>,
+    pub slips: BTreeSet<Span>,
 }
 
 impl<'a> Execution<'a> {
@@ -77,7 +77,7 @@ impl<'a> Execution<'a> {
             included: Vec::new(),
             outbox: Vec::new(),
             run: None,
-            slips: Vec::new(),
+            slips: BTreeSet::new(),
         }
     }
 
@@ -93,6 +93,7 @@ impl<'a> Execution<'a> {
         };
         let Ok(result) = interrupt::listening(wish, work) else {
             self.history.roll_back(self.state);
+            self.state.solver.begin_anew();
             self.note("stopped; it changed nothing");
             return Ok(Flow::Stopped);
         };
@@ -117,14 +118,7 @@ impl<'a> Execution<'a> {
 
     /// Ends recordings that still run and writes them.
     pub fn finish(mut self) -> Result<(), Diagnostic> {
-        if !self.stop_recording() {
-            self.drop_recordings();
-            return Err(Diagnostic::error(
-                errors::INTERRUPTED,
-                "stopped before the recording was written",
-            )
-            .kind(Kind::Interrupted));
-        }
+        self.stop_recording();
         self.flush_outbox()?;
         self.history.commit(self.state, "");
         Ok(())

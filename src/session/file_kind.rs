@@ -1,8 +1,5 @@
 //! Kinds of files that statements write: their endings, and what shows that a file is one of them.
 
-use std::path::PathBuf;
-
-use crate::diag::Span;
 use crate::render::FIRST_WORDS as PICTURE_MARK;
 
 /// How a file that `save` wrote begins.
@@ -64,19 +61,6 @@ fn is_heading_of_paths(heading: &[u8], is_whole: bool) -> bool {
             [x, y] => x.strip_suffix(b".x").is_some_and(|x| y.strip_suffix(b".y") == Some(x)),
             _ => !is_whole,
         })
-}
-
-/// A file to be written when the command has succeeded.
-#[derive(Debug)]
-pub struct Parcel {
-    /// Where, as the statement says.
-    pub file: PathBuf,
-    /// What it is to hold.
-    pub bytes: Vec<u8>,
-    /// What it is.
-    pub kind: FileKind,
-    /// The statement's path, for errors.
-    pub span: Span,
 }
 
 /// Whether a name has an ending, in large letters or small.

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources};
 use crate::interrupt::Wish;
 
@@ -10,6 +11,11 @@ use crate::interrupt::Wish;
 pub trait Host {
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
+
+    /// Bytes of the answer so far, where somebody wants that to have an end.
+    fn n_printed(&self) -> u64 {
+        0
+    }
 
     /// Takes talk: notes and warnings. An error is returned to who asked for the statement; who
     /// gave a whole text to carry out is told of it here.
@@ -72,6 +78,28 @@ pub trait Host {
     /// Where it cannot be written.
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
+    /// Writes a file as [`write`](Self::write) does, piece by piece: it may be larger than memory.
+    ///
+    /// # Errors
+    /// Where it cannot be written, and what `content` says.
+    fn write_in_pieces(
+        &mut self,
+        path: &Path,
+        content: &mut dyn FnMut(&mut dyn io::Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut bytes = Vec::new();
+        content(&mut bytes)?;
+        self.write(path, &bytes)
+    }
+
+    /// Somewhere to put what a recording takes until it is written; by default in memory.
+    ///
+    /// # Errors
+    /// Where there is no room for it.
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        Ok(Box::new(Vec::new()))
+    }
+
     /// Told how much of a long piece of work is done, from 0 to 1.
     fn progress(&self, _share: f64) {}
 
@@ -118,7 +146,7 @@ pub fn reason(error: &io::Error) -> String {
         io::ErrorKind::AlreadyExists => "a file is where a folder has to be".to_owned(),
         io::ErrorKind::NotADirectory => "part of the path is not a folder".to_owned(),
         io::ErrorKind::InvalidInput => "this is no regular file".to_owned(),
-        io::ErrorKind::FileTooLarge => "it is too large to be a script".to_owned(),
+        io::ErrorKind::FileTooLarge => "it is larger than the limit `source-bytes`".to_owned(),
         io::ErrorKind::StorageFull => "the disk is full".to_owned(),
         _ => error.to_string(),
     }

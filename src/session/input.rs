@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
+use super::quotas::Quotas;
 use crate::diag::{SourceId, Sources, Span};
 
 /// What a session was given to read. Nothing of it is ever taken back: places in diagnostics and
@@ -15,6 +16,12 @@ pub struct Input {
     folders: HashMap<SourceId, PathBuf>,
     /// Values that the user gave from outside; they win over a `let`.
     pub overrides: BTreeMap<String, Override>,
+    /// How much is allowed.
+    pub quotas: Quotas,
+    /// Files that were written so far.
+    pub n_files: u64,
+    /// What was written to them, bytes.
+    pub n_file_bytes: u64,
 }
 
 /// A value from outside and whether some `let` took it.

@@ -20,6 +20,7 @@ mod host;
 mod input;
 mod json;
 mod output_file;
+mod parcel;
 mod preferences;
 mod quotas;
 mod report;
@@ -29,6 +30,7 @@ mod scene_hash;
 mod series;
 mod settled;
 mod silent;
+mod spool;
 mod state;
 mod summary;
 mod transcript;
@@ -46,7 +48,9 @@ pub use execution::Flow;
 
 pub use host::{Host, Nowhere, contained, reason};
 pub use preferences::{AtDeadPoint, Preferences};
+pub use quotas::{Quota, parse_limit};
 pub use silent::Silent;
+pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use transcript::{Outcome, Transcript};
 
@@ -173,6 +177,11 @@ impl Session {
         self.history.last_run.as_ref()
     }
 
+    /// Roughly how many bytes are kept so that commands can be taken back or done again.
+    pub const fn undo_bytes(&self) -> usize {
+        self.history.journal.n_bytes()
+    }
+
     /// Keeps a text. `folder` is where what it includes is looked for.
     pub fn add_source(&mut self, name: &str, text: &str, folder: Option<PathBuf>) -> SourceId {
         self.add_piece(name, text, 1, folder)
@@ -197,6 +206,11 @@ impl Session {
     /// Names given to [`override_parameter`](Self::override_parameter) that no `let` has.
     pub fn unused_overrides(&self) -> impl Iterator<Item = &str> {
         self.input.overrides.iter().filter(|(_, o)| !o.is_used).map(|(name, _)| name.as_str())
+    }
+
+    /// Sets how much there may be of something.
+    pub const fn limit(&mut self, quota: Quota, most: u64) {
+        self.input.quotas.set(quota, most);
     }
 
     /// Carries out one statement, whole or not at all.

@@ -1,14 +1,19 @@
 //! Files that statements write: what each may replace, and when it is written.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::execution::Execution;
-use super::file_kind::{FileKind, Parcel, ends_in};
-use super::host::{contained, reason};
+use super::file_kind::{FileKind, ends_in};
+use super::host::contained;
+use super::input::Input;
+use super::parcel::{Content, Parcel, unwritable};
+use super::quotas::Quota;
+use super::undo::recorder::{Format, Recorder};
 use crate::diag::{Diagnostic, Kind, Span};
 use crate::errors;
 use crate::lang::ast::Text;
+use crate::render::{Options, svg_with_view};
 
 impl Execution<'_> {
     /// Where an output path leads that is to be one file of a kind. Refused where its ending says
@@ -89,28 +94,127 @@ impl Execution<'_> {
     /// Keeps a file to be written when the command has succeeded; the last one of a name wins.
     pub fn queue_file(&mut self, file: PathBuf, kind: FileKind, bytes: Vec<u8>, span: Span) {
         self.outbox.retain(|other| other.file != file);
-        self.outbox.push(Parcel { file, bytes, kind, span });
+        self.outbox.push(Parcel { file, content: Content::Bytes(bytes), kind, span });
     }
 
     /// Writes the files of a command that succeeded. One that cannot be written keeps no
     /// other back.
     pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
         let parcels = std::mem::take(&mut self.outbox);
-        let results: Vec<_> = parcels.iter().map(|parcel| self.write_out(parcel)).collect();
+        // Who stopped a run still wants what it recorded.
+        let was_stopped = self.host.is_interrupted();
+        let write = |parcel: &Parcel| {
+            let Parcel { file, content, span, kind } = parcel;
+            match content {
+                Content::Bytes(bytes) => self.write_file(file, *kind, *span, bytes),
+                Content::Recording(recording) => {
+                    self.write_recording(&recording.0, &recording.1, was_stopped)
+                }
+            }
+        };
+        let results: Vec<_> = parcels.iter().map(write).collect();
         results.into_iter().collect()
     }
 
-    fn write_out(&mut self, parcel: &Parcel) -> Result<(), Diagnostic> {
-        let Parcel { file, bytes, kind, span } = parcel;
+    fn write_file(
+        &mut self,
+        file: &Path,
+        kind: FileKind,
+        span: Span,
+        bytes: &[u8],
+    ) -> Result<(), Diagnostic> {
+        self.write_in_pieces(file, kind, span, &mut |out| out.write_all(bytes))
+    }
+
+    /// Writes a file, unless it is one too many or too long.
+    fn write_in_pieces(
+        &mut self,
+        file: &Path,
+        kind: FileKind,
+        span: Span,
+        content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Diagnostic> {
         // Since the statement that named it another may have put something there.
-        self.must_be_replaceable(file, *kind, *span)?;
-        let written = self.host.resolve(file).and_then(|at| self.host.write(&at, bytes));
-        written.map_err(|e| unwritable(file, *span, &e))
+        self.must_be_replaceable(file, kind, span)?;
+        let Input { quotas, n_files, n_file_bytes, .. } = &mut *self.input;
+        quotas.check(Quota::Files, *n_files + 1, span)?;
+        *n_files += 1;
+        let most = quotas.of(Quota::FileBytes);
+        let host = &mut *self.host;
+        let written = host.resolve(file).and_then(|at| {
+            host.write_in_pieces(&at, &mut |out| {
+                content(&mut Measured { out, n_bytes: &mut *n_file_bytes, most })
+            })
+        });
+        quotas.check(Quota::FileBytes, *n_file_bytes, span)?;
+        written.map_err(|e| unwritable(file, span, &e))
+    }
+
+    fn write_recording(
+        &mut self,
+        recorder: &Recorder,
+        options: &Options,
+        was_stopped: bool,
+    ) -> Result<(), Diagnostic> {
+        let Recorder { path, span, format, .. } = recorder;
+        let (span, kind) = (*span, format.kind());
+        let failed = |e: io::Error| unwritable(path, span, &e);
+        let stopped = || {
+            Diagnostic::error(errors::INTERRUPTED, "stopped before the recording was written")
+                .kind(Kind::Interrupted)
+                .at(span, "this one")
+                .help("`undo` takes back a run that was too long, and what was recorded of it")
+        };
+        match format {
+            Format::Table => {
+                self.write_in_pieces(path, kind, span, &mut |out| recorder.write_table(out))
+            }
+            Format::Frames => {
+                let view = recorder.view().map_err(failed)?;
+                for frame in 0..recorder.n_frames() {
+                    if self.host.is_interrupted() && !was_stopped {
+                        return Err(stopped());
+                    }
+                    let scene = recorder.scene(frame).map_err(failed)?;
+                    let picture = svg_with_view(&scene, &view, options);
+                    let file = path.join(frame_name(frame));
+                    self.write_file(&file, kind, span, picture.as_bytes())?;
+                }
+                Ok(())
+            }
+            Format::Movie => {
+                let is_stopped = || self.host.is_interrupted() && !was_stopped;
+                let movie = recorder.movie(options, is_stopped).map_err(failed)?;
+                let movie = movie.ok_or_else(stopped)?;
+                self.write_file(path, kind, span, movie.as_bytes())
+            }
+        }
     }
 }
 
-fn unwritable(file: &Path, span: Span, error: &io::Error) -> Diagnostic {
-    Diagnostic::error(errors::CANNOT_WRITE, format!("cannot write `{}`", file.display()))
-        .kind(Kind::Unreadable)
-        .at(span, reason(error))
+/// What a frame of a recording is called in its folder.
+pub fn frame_name(frame: usize) -> String {
+    format!("frame-{frame:04}.svg")
+}
+
+/// Counts what is written, and takes no more than there may be.
+struct Measured<'a> {
+    out: &'a mut dyn Write,
+    n_bytes: &'a mut u64,
+    most: u64,
+}
+
+impl Write for Measured<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        *self.n_bytes += bytes.len() as u64;
+        if *self.n_bytes > self.most {
+            return Err(io::ErrorKind::QuotaExceeded.into());
+        }
+        self.out.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }

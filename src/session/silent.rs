@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::host::Host;
+use super::spool::Spool;
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::interrupt::Wish;
 
@@ -61,6 +62,10 @@ impl Host for Silent<'_> {
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         self.written.insert(path.to_path_buf(), bytes.to_vec());
         Ok(())
+    }
+
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        self.host.spool()
     }
 
     fn seconds(&self) -> Option<f64> {

@@ -85,6 +85,7 @@ impl World {
             }
         }
         self.dependencies.set_lists(lists);
+        self.log.note_motor_lists();
     }
 
     /// A motor with a speed that mentions time, and what of its parameters time changes.

@@ -142,6 +142,11 @@ pub trait Environment<T: Real> {
 }
 
 impl Formula {
+    /// Roughly how many bytes it takes, but for the formulas that it is made of: those are shared.
+    pub const fn n_bytes(&self) -> usize {
+        size_of::<Inner>()
+    }
+
     /// A constant number without a place in a text.
     pub fn constant(value: f64) -> Self {
         Self::new(Node::Number(value, Unit::None), Shape::Number, Depends::default(), NOWHERE)

@@ -37,7 +37,11 @@ mod value;
 mod apply;
 mod batch;
 mod edit;
+mod log;
+pub(crate) mod marks;
+mod moment;
 mod motion;
+mod noting;
 mod quadrature;
 mod same;
 mod turn_count;
@@ -55,7 +59,9 @@ pub use environments::Rates;
 pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
-pub use motion::Motion;
+pub use log::Motion;
+#[doc(hidden)]
+pub use moment::Moment;
 pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};

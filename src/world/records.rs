@@ -34,6 +34,13 @@ struct Extra {
 }
 
 impl Record {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        let live = self.extra.as_ref().and_then(|extra| extra.live.as_ref());
+        let formulas = self.drivers().iter().chain(live.into_iter().flatten());
+        size_of::<Self>() + formulas.map(|(_, formula)| formula.n_bytes()).sum::<usize>()
+    }
+
     /// A constraint that is switched on, driven by these expressions.
     pub fn new(name: NameText, constraint: Constraint, mut drivers: Drivers) -> Self {
         in_order(&mut drivers);
@@ -170,6 +177,13 @@ pub struct Parameter {
     pub value: Option<Value>,
     /// What can change it, its own parameters included.
     pub depends: Depends,
+}
+
+impl Parameter {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.formula.n_bytes()
+    }
 }
 
 /// Rows by handle, in order of creation, in pieces that stay where they are: room for a

@@ -149,7 +149,7 @@ fn only_files_are_read_and_not_without_end() {
     if Path::new("/dev/zero").exists() {
         let out = run(folder.path(), &["run", "/dev/zero"], "");
         assert_eq!(out.status.code(), Some(3));
-        assert!(text(&out.stderr).contains("too large"), "{}", text(&out.stderr));
+        assert!(text(&out.stderr).contains("source-bytes"), "{}", text(&out.stderr));
         let endless = ["run", "-", "--allow-any-path"];
         let out = run(folder.path(), &endless, "include \"/dev/zero\"");
         assert!(text(&out.stderr).contains("this is no regular file"), "{}", text(&out.stderr));
@@ -244,5 +244,30 @@ mod unix {
         let picture = fs::read_to_string(folder.path().join("a.svg")).expect("a picture");
         assert!(picture.starts_with("<svg") && picture.ends_with("</svg>\n"));
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
+    }
+
+    #[test]
+    fn a_recording_lies_on_disk_and_is_gone_with_a_program_that_is_killed() {
+        let script = script_and(
+            "record \"t.csv\"; record \"m.svg\"; step 10000; svg \"begun.svg\"\nstep 1e9",
+        );
+        let folder = folder(&[("a.link", &script)]);
+        let mut command = Command::new(PROGRAM);
+        command.current_dir(folder.path()).args(["run", "a.link"]).stderr(Stdio::null());
+        let mut child = command.spawn().expect("the program starts");
+        while !folder.path().join("begun.svg").exists() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        if let Ok(open) = fs::read_dir(format!("/proc/{}/fd", child.id())) {
+            let sizes = open.flatten().filter(|file| {
+                let leads_here =
+                    fs::read_link(file.path()).is_ok_and(|to| to.starts_with(folder.path()));
+                leads_here && fs::metadata(file.path()).is_ok_and(|it| it.len() > 100_000)
+            });
+            assert_eq!(sizes.count(), 2, "10000 rows and 10000 poses");
+        }
+        child.kill().expect("it runs");
+        child.wait().expect("it ends");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "nothing is left");
     }
 }

@@ -1,6 +1,7 @@
 //! The form that scripts are kept in: what `fmt` writes.
 
 use std::fs;
+use std::process::{Command, Output};
 
 use linkwork::diag::{Paint, SourceId, Sources, render};
 use linkwork::lang::ast::Statement;
@@ -103,4 +104,52 @@ fn blocks_are_indented() {
 fn what_cannot_be_read_is_told() {
     let problems = format(SourceId(0), "step\nlenght A B\nprint (").expect_err("two mistakes");
     assert_eq!(problems.len(), 2);
+}
+
+/// What the program does with a script of this text, and what is in its file then.
+fn fmt(arguments: &[&str], text: &str) -> (Output, String) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("a.link");
+    fs::write(&file, text).expect("it can be written");
+    let out = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .arg("fmt")
+        .args(arguments)
+        .arg("a.link")
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    (out, fs::read_to_string(&file).expect("it is still there"))
+}
+
+#[test]
+fn the_program_writes_the_form_in_place() {
+    let (out, text) = fmt(&[], "point A=(0,0)  # here\n");
+    assert!(out.status.success() && out.stdout.is_empty() && out.stderr.is_empty(), "{out:?}");
+    assert_eq!(text, "point A = (0, 0)  # here\n");
+}
+
+#[test]
+fn a_check_names_the_file_and_writes_nothing() {
+    let (out, text) = fmt(&["--check"], "point A=(0,0)\n");
+    assert_eq!((out.status.code(), &*out.stdout), (Some(1), &b"a.link\n"[..]));
+    assert_eq!(text, "point A=(0,0)\n");
+    let (out, _) = fmt(&["--check"], "point A = (0, 0)\n");
+    assert_eq!((out.status.code(), &*out.stdout), (Some(0), &b""[..]));
+}
+
+#[test]
+fn a_script_with_a_mistake_is_left_as_it_is() {
+    let (out, text) = fmt(&[], "point   A = (0, 0)\nlenght A B\n");
+    assert_eq!(out.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert!(said.contains("error[E0101]") && said.contains("a.link:2:1"), "{said}");
+    assert_eq!(text, "point   A = (0, 0)\nlenght A B\n");
+}
+
+#[test]
+fn a_file_that_is_missing_is_told_and_the_others_are_written() {
+    let (out, text) = fmt(&["missing.link"], "step  2\n");
+    assert_eq!(out.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&out.stderr).contains("cannot read `missing.link`"));
+    assert_eq!(text, "step 2\n");
 }

@@ -190,3 +190,26 @@ fn a_short_message_is_one_line_with_its_place() {
     );
     assert_eq!(out.status.code(), Some(2));
 }
+
+/// What the program prints.
+fn printed(arguments: &[&str]) -> String {
+    let out = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    assert!(out.status.success(), "{out:?}");
+    String::from_utf8(out.stdout).expect("a text")
+}
+
+#[test]
+fn shells_and_man_are_told_every_command() {
+    let page = printed(&["man"]);
+    assert!(page.contains(".TH linkwork 1") && page.contains("EXIT STATUS"), "{page}");
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let words = printed(&["completions", shell]);
+        for command in ["accuracy", "check", "fmt", "watch", "lsp"] {
+            assert!(words.contains(command), "{shell} is not told of {command}");
+            assert!(page.contains(command), "the page does not name {command}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::errors;
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::reason;
-use crate::session::quotas::{DEEPEST_NESTING, LONGEST_ARGUMENT, MOST_STATEMENTS};
+use crate::session::quotas::{LONGEST_ARGUMENT, Quota};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
@@ -27,9 +27,10 @@ impl Execution<'_> {
         span: Span,
         inside: impl FnOnce(&mut Self) -> Result<T, Diagnostic>,
     ) -> Result<T, Diagnostic> {
-        if self.depth >= DEEPEST_NESTING {
+        let most = self.input.quotas.of(Quota::Nesting);
+        if self.depth as u64 >= most {
             return Err(Diagnostic::error(errors::TOO_MUCH, "nested too deeply")
-                .at(span, format!("{DEEPEST_NESTING} levels of `for`, `use` and `include`"))
+                .at(span, format!("{most} levels of `for`, `use` and `include`"))
                 .help("does a definition use itself, or a file include itself?"));
         }
         self.depth += 1;
@@ -88,15 +89,16 @@ impl Execution<'_> {
         // Loops within loops multiply; one that is long in every round is found in the first.
         let n_rounds = (to - from + 1.0).max(1.0);
         let n_outer = self.n_rounds;
-        if n_rounds * n_outer > 2.0 * MOST_STATEMENTS as f64 || n_rounds > MOST_STATEMENTS as f64 {
+        let most = self.input.quotas.of(Quota::Statements) as f64;
+        if n_rounds * n_outer > 2.0 * most || n_rounds > most {
             let mut text = format!("{} rounds", format_count(n_rounds));
             if n_outer > 1.0 {
                 let _ = write!(text, " in each of {}", format_count(n_outer));
             }
-            return Err(Diagnostic::error(errors::TOO_MUCH, "this loop has too many rounds").at(
-                range.from.span.to(range.to.span),
-                format!("{text}, no more than 20 million statements a command"),
-            ));
+            let text = format!("{text}, no more than {} statements a command", format_count(most));
+            return Err(Diagnostic::error(errors::TOO_MUCH, "this loop has too many rounds")
+                .at(range.from.span.to(range.to.span), text)
+                .help("`--limit statements=N` on the command line allows more"));
         }
         self.n_rounds = n_rounds * n_outer;
         let result = self.nested(span, |execution| {

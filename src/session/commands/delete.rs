@@ -106,10 +106,7 @@ impl Execution<'_> {
 
     /// Ends recordings, forgets definitions and settings, and what the solver remembers.
     fn stop_everything(&mut self) {
-        if !self.stop_recording() {
-            self.note("stopped: what was recorded is not written");
-            self.drop_recordings();
-        }
+        self.stop_recording();
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
         self.change(Change::Restoring(false));
@@ -124,7 +121,7 @@ impl Execution<'_> {
     pub(crate) fn reset(&mut self) -> Result<(), Diagnostic> {
         self.begin_motion();
         let start = self.state.world.start();
-        self.edit(Edit::Motion(Box::new(start)));
+        self.history.go_to(self.state, start);
         self.set_memory(Memory::default());
         self.state.world.refresh().map_err(|why| why.note("at time 0"))
     }

@@ -128,7 +128,7 @@ pub static EFFECTS: [Effect; 9] = [
         n_bytes: |state| state.recorders.iter().map(Recorder::n_bytes).sum(),
         work: Work::Leaving(|copy| {
             for recorder in &mut copy.recorders {
-                recorder.take(&copy.world);
+                recorder.take(&copy.world).expect("its tape is in memory");
             }
         }),
     },

@@ -7,7 +7,7 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{DragTarget, Expr};
 use crate::session::execution::{Execution, Flow};
-use crate::session::quotas::MOST_FRAMES;
+use crate::session::quotas::Quota;
 use crate::session::state::State;
 use crate::solve::{Budget, Status};
 use crate::study::Hand;
@@ -48,7 +48,7 @@ impl Execution<'_> {
         if n == 0 {
             self.history.last_motion.give_up();
         } else {
-            self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+            self.history.begin_leg(self.state, n, self.depth > 0);
         }
         self.begin_motion();
         for &id in &free {
@@ -129,7 +129,10 @@ impl Execution<'_> {
         let n_pieces = targets.iter().map(|target| target.places.len() as u64).max().unwrap_or(1);
         let n = match over {
             None => n_pieces,
-            Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
+            Some(n) => {
+                let most = self.input.quotas.of(Quota::Frames) as f64;
+                self.resolve().count(n, 0.0, most, "frames")?
+            }
         };
         if let Some(over) = over.filter(|_| (1..n_pieces).contains(&n)) {
             return Err(Diagnostic::error(

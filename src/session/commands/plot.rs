@@ -8,6 +8,7 @@ use crate::lang::ast::{Expr, PlotPart, Text};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
+use crate::session::quotas::Quota;
 use crate::session::undo::journal::Change;
 
 impl Execution<'_> {
@@ -16,7 +17,8 @@ impl Execution<'_> {
             let value = self.resolve().number(value)?;
             self.change(Change::Sample(Box::new((series.value.clone(), Some(value)))));
         }
-        Ok(())
+        let n_samples = self.state.series.iter().map(|(_, values)| values.len()).sum::<usize>();
+        self.input.quotas.check(Quota::PlotSamples, n_samples as u64, series.span)
     }
 
     pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {

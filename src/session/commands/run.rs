@@ -9,7 +9,8 @@ use crate::interrupt::{self, Stopped};
 use crate::lang::ast::{Expr, Promise};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::{Host, NO_CLOCK};
-use crate::session::quotas::MOST_FRAMES;
+use crate::session::quotas::Quota;
+use crate::session::resolve::unbind::NOWHERE;
 use crate::session::state::State;
 use crate::session::summary::Summary;
 use crate::solve::{Budget, Report, Settings, Status, Verdict, least_tolerance, verdict};
@@ -100,10 +101,13 @@ impl Execution<'_> {
     ) -> Result<Flow, Diagnostic> {
         let n = match frames {
             None => 1,
-            Some(n) => self.resolve().count(n, 0.0, MOST_FRAMES, "frames")?,
+            Some(n) => {
+                let most = self.input.quotas.of(Quota::Frames) as f64;
+                self.resolve().count(n, 0.0, most, "frames")?
+            }
         };
         let limits = self.promised_here(promise)?;
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
@@ -117,13 +121,14 @@ impl Execution<'_> {
     ) -> Result<Flow, Diagnostic> {
         let value = self.resolve().number(time)?;
         let n = (value / self.state.world.clock().dt).round();
-        if !(0.0..=MOST_FRAMES).contains(&n) {
+        let most = self.input.quotas.of(Quota::Frames) as f64;
+        if !(0.0..=most).contains(&n) {
             let what = if value < 0.0 { "time does not run backwards" } else { "too many frames" };
             return Err(Diagnostic::error(errors::OUT_OF_RANGE, what)
                 .at(time.span, format!("{} frames of dt", format_count(n))));
         }
         let (n, limits) = (n as u64, self.promised_here(promise)?);
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
@@ -193,7 +198,7 @@ impl Execution<'_> {
             last = report.status;
             summary.add(&report, self.state.world.clock().frame, span);
             if !leaves_nothing {
-                self.keep_frame(is_missed(&report));
+                self.keep_frame(is_missed(&report), span)?;
             }
         }
         summary.add_time(begun, self.host.seconds());
@@ -339,7 +344,7 @@ impl Execution<'_> {
         self.go_back(way);
         for k in again {
             let report = self.one_frame(k, frames, &limits, Stop::Ignored)?;
-            self.keep_frame(is_missed(&report));
+            self.keep_frame(is_missed(&report), NOWHERE)?;
         }
         Ok(())
     }

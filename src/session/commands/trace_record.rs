@@ -1,15 +1,17 @@
 //! Traces, ghosts, pictures and recordings.
 
-use std::path::PathBuf;
-
-use crate::diag::{Diagnostic, Kind, Span};
+use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
-use crate::render::{Animation, Scene, View, svg, svg_with_view};
+use crate::render::{Scene, svg};
 use crate::session::execution::Execution;
-use crate::session::file_kind::{FileKind, Parcel, ends_in};
+use crate::session::file_kind::{FileKind, ends_in};
+use crate::session::output_file::frame_name;
+use crate::session::parcel::{Content, Parcel, unwritable};
 use crate::session::preferences::Preferences;
+use crate::session::quotas::Quota;
 use crate::session::resolve::scope::ALL;
+use crate::session::spool::Tape;
 use crate::session::undo::journal::Change;
 use crate::session::undo::recorder::{Format, Recorder};
 use crate::world::{Edit, Trace};
@@ -83,7 +85,7 @@ impl Execution<'_> {
     }
 
     /// Keeps what this frame leaves behind: traces, ghosts, recordings.
-    pub(crate) fn keep_frame(&mut self, missed: bool) {
+    pub(crate) fn keep_frame(&mut self, missed: bool, span: Span) -> Result<(), Diagnostic> {
         if !self.state.world.traces().is_empty() {
             self.state.world.sample_traces(missed);
         }
@@ -94,9 +96,19 @@ impl Execution<'_> {
             // Running is taken back as a whole, ghosts included.
             self.state.world.apply(ghost);
         }
+        let mut n_taped = 0;
         for recorder in &mut self.state.recorders {
-            recorder.take(&self.state.world);
+            recorder.take(&self.state.world).map_err(|e| unwritable(&recorder.path, span, &e))?;
+            n_taped += recorder.n_taped();
         }
+        let quotas = &self.input.quotas;
+        let n_samples =
+            self.state.world.traces().iter().map(|trace| trace.samples.len()).sum::<usize>();
+        quotas.check(Quota::TraceSamples, n_samples as u64, span)?;
+        let n_frames = self.state.recorders.iter().map(Recorder::n_frames).sum::<usize>();
+        quotas.check(Quota::RecordedFrames, n_frames as u64, span)?;
+        quotas.check(Quota::RecordedBytes, n_taped, span)?;
+        self.hold_quotas(span)
     }
 
     pub(crate) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
@@ -148,7 +160,9 @@ impl Execution<'_> {
             .at(path.span, "")
             .help("`record stop` ends and writes all recordings"));
         }
-        let recorder = Box::new(Recorder::new(file, path.span, every, format));
+        let spool = self.host.spool().map_err(|e| unwritable(&file, path.span, &e))?;
+        let tape = Tape::new(spool);
+        let recorder = Box::new(Recorder::new(file, path.span, every, format, tape));
         self.change(Change::Recorder(self.state.recorders.len(), Some(recorder)));
         Ok(())
     }
@@ -159,74 +173,30 @@ impl Execution<'_> {
                 Diagnostic::error(errors::RECORDING, "nothing is being recorded").at(span, "")
             );
         }
-        if self.stop_recording() {
-            return Ok(());
-        }
-        Err(Diagnostic::error(errors::INTERRUPTED, "stopped before the recording was written")
-            .kind(Kind::Interrupted)
-            .at(span, "it goes on")
-            .help("`undo` takes back a run that was too long, and what was recorded of it"))
+        self.stop_recording();
+        Ok(())
     }
 
-    /// Ends all recordings and hands over their files, unless the user stops that: false then,
-    /// and they are as they were.
-    pub(crate) fn stop_recording(&mut self) -> bool {
+    /// Ends all recordings; they are written when the command has succeeded.
+    pub(crate) fn stop_recording(&mut self) {
         if self.state.recorders.is_empty() {
-            return true;
+            return;
         }
         let options =
             self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref()));
-        // Who stopped a run still wants what it recorded.
-        let was_stopped = self.host.is_interrupted();
-        let host = &self.host;
-        let is_stopped = || host.is_interrupted() && !was_stopped;
-        let n_before = self.outbox.len();
-        let mut bare = Vec::new();
-        for recorder in &self.state.recorders {
-            match recorder.format {
-                Format::Table => {
-                    if recorder.has_times_only() {
-                        bare.push(recorder.span);
-                    }
-                    self.outbox.push(parcel(recorder, recorder.path.clone(), recorder.table()));
-                }
-                Format::Frames => {
-                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
-                    for (k, (scene, _)) in recorder.scenes().enumerate() {
-                        if is_stopped() {
-                            break;
-                        }
-                        let picture = svg_with_view(scene, &view, &options);
-                        let path = recorder.path.join(frame_name(k));
-                        self.outbox.push(parcel(recorder, path, picture));
-                    }
-                }
-                Format::Movie => {
-                    let view = View::of(recorder.scenes().map(|(scene, _)| scene));
-                    let mut movie = Animation::new(view, &options);
-                    for (scene, time) in recorder.scenes() {
-                        if is_stopped() {
-                            break;
-                        }
-                        movie.push(scene, time);
-                    }
-                    self.outbox.push(parcel(recorder, recorder.path.clone(), movie.finish()));
-                }
+        for recorder in self.state.recorders.clone() {
+            if recorder.format == Format::Table && recorder.has_times_only() {
+                self.warn(
+                    &Diagnostic::warning("no point was traced, so the table holds times only")
+                        .at(recorder.span, "")
+                        .help("`trace C` adds the columns of a point"),
+                );
             }
-        }
-        if is_stopped() {
-            self.outbox.truncate(n_before);
-            return false;
-        }
-        for table in bare {
-            self.warn(
-                &Diagnostic::warning("no point was traced, so the table holds times only")
-                    .at(table, "")
-                    .help("`trace C` adds the columns of a point"),
-            );
+            let (file, kind, span) = (recorder.path.clone(), recorder.format.kind(), recorder.span);
+            let content = Content::Recording(Box::new((recorder, options.clone())));
+            self.outbox.push(Parcel { file, content, kind, span });
         }
         self.drop_recordings();
-        true
     }
 
     /// Ends all recordings as they are.
@@ -235,14 +205,4 @@ impl Execution<'_> {
             self.change(Change::Recorder(idx, None));
         }
     }
-}
-
-/// What a frame of a recording is called in its folder.
-fn frame_name(frame: usize) -> String {
-    format!("frame-{frame:04}.svg")
-}
-
-fn parcel(recorder: &Recorder, file: PathBuf, text: String) -> Parcel {
-    let (kind, span) = (recorder.format.kind(), recorder.span);
-    Parcel { file, bytes: text.into_bytes(), kind, span }
 }

@@ -1,12 +1,17 @@
 //! Recordings under way: frames for a folder or an animation, rows for a table.
+//!
+//! Where points are in a frame goes to a tape, on disk where the host has one; what frames share, and
+//! where on the tape each is, stays in memory. An undo makes a recording shorter and leaves the tape as
+//! it is, so that a redo finds all of it there; what a command took that failed is cut off.
 
-use std::fmt::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
-use crate::render::Scene;
+use crate::render::{Animation, Options, Scene, View, is_shown};
 use crate::session::file_kind::FileKind;
+use crate::session::spool::Tape;
 use crate::world::World;
 
 /// One recording.
@@ -20,7 +25,10 @@ pub struct Recorder {
     pub every: u64,
     /// What it will become.
     pub format: Format,
+    tape: Tape,
     shots: Vec<Shot>,
+    /// The points of a table, in the order in which they came.
+    names: Vec<Box<str>>,
 }
 
 /// What a recording becomes.
@@ -44,11 +52,16 @@ impl Format {
     }
 }
 
-/// What is kept of one frame.
+/// One frame, the numbers of which are on the tape.
 #[derive(Debug, Clone)]
-enum Shot {
-    Scene(Box<Scene>, f64),
-    Row(f64, Vec<(Box<str>, Point)>),
+struct Shot {
+    time: f64,
+    /// Where on the tape its numbers begin: x and y of each point of a scene; of each point of a row
+    /// the number of its name, x and y.
+    at: u64,
+    n_points: u32,
+    /// What is drawn, without its places; none of a row.
+    scene: Option<Box<Scene>>,
 }
 
 /// How much of a recording to keep, and what follows it: the end that an undo takes away.
@@ -56,22 +69,35 @@ enum Shot {
 pub struct Reel {
     keep: usize,
     then: Vec<Shot>,
+    /// Bytes that were on the tape when it was marked.
+    n_taped: u64,
+}
+
+/// What a shot takes in memory, roughly.
+const SHOT_BYTES: usize = size_of::<Shot>() + size_of::<Scene>();
+
+impl Reel {
+    /// Roughly how many bytes it takes in memory.
+    pub const fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.then.len() * SHOT_BYTES
+    }
 }
 
 impl Recorder {
     /// A recording that has taken nothing yet.
-    pub const fn new(path: PathBuf, span: Span, every: u64, format: Format) -> Self {
-        Self { path, span, every, format, shots: Vec::new() }
+    pub const fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
+        Self { path, span, every, format, tape, shots: Vec::new(), names: Vec::new() }
     }
 
-    /// Another that takes the same and has taken nothing yet.
+    /// Another in memory that takes the same and has taken nothing yet.
     pub fn emptied(&self) -> Self {
-        Self::new(self.path.clone(), self.span, self.every, self.format)
+        let tape = Tape::new(Box::new(Vec::new()));
+        Self::new(self.path.clone(), self.span, self.every, self.format, tape)
     }
 
     /// Its reel as it is.
-    pub const fn mark(&self) -> Reel {
-        Reel { keep: self.shots.len(), then: Vec::new() }
+    pub fn mark(&self) -> Reel {
+        Reel { keep: self.shots.len(), then: Vec::new(), n_taped: self.tape.n_bytes() }
     }
 
     /// Whether this is its reel as it is.
@@ -84,88 +110,166 @@ impl Recorder {
         let keep = reel.keep.min(self.shots.len());
         let then = self.shots.split_off(keep);
         self.shots.extend(reel.then);
-        Reel { keep, then }
+        Reel { keep, then, n_taped: reel.n_taped }
+    }
+
+    /// Cuts off what was taken since its reel was this one: nobody is to have it again.
+    pub fn cut(&self, reel: &Reel) {
+        self.tape.cut(reel.n_taped);
     }
 
     /// Takes the frame that was just solved, if it is due.
-    pub fn take(&mut self, world: &World) {
+    ///
+    /// # Errors
+    /// Where the tape takes no more.
+    pub fn take(&mut self, world: &World) -> io::Result<()> {
         let clock = world.clock();
         if !clock.frame.is_multiple_of(self.every) {
-            return;
+            return Ok(());
         }
-        self.shots.push(match self.format {
+        let (numbers, n_points, scene) = match self.format {
             Format::Frames | Format::Movie => {
                 // A scene shares with the one before it what did not change.
-                let scene = match self.shots.last() {
-                    Some(Shot::Scene(last, _)) => last.next(world),
-                    _ => Scene::new(world),
-                };
-                Shot::Scene(Box::new(scene), clock.time())
+                let last = self.shots.last().and_then(|shot| shot.scene.as_ref());
+                let scene = last.map_or_else(|| Scene::new(world), |last| last.next(world));
+                let (scene, at) = scene.without_places();
+                let numbers: Vec<f64> = at.iter().flat_map(|place| [place.x, place.y]).collect();
+                (numbers, at.len(), Some(Box::new(scene)))
             }
             Format::Table => {
-                let points = world.points();
-                let row = world.traces().iter();
-                let row = row.map(|t| (points.name(t.point).into(), points.at(t.point)));
-                Shot::Row(clock.time(), row.collect())
+                let traces = world.traces();
+                let mut numbers = Vec::with_capacity(3 * traces.len());
+                for trace in traces {
+                    let at = world.points().at(trace.point);
+                    let name = self.column(world.points().name(trace.point));
+                    numbers.extend([name as f64, at.x, at.y]);
+                }
+                (numbers, traces.len(), None)
             }
-        });
-    }
-
-    /// Roughly how many bytes its frames take.
-    pub fn n_bytes(&self) -> usize {
-        let of = |shot: &Shot| match shot {
-            Shot::Scene(..) => size_of::<Scene>(),
-            Shot::Row(_, row) => size_of_val(&**row),
         };
-        self.shots.iter().map(|shot| size_of::<Shot>() + of(shot)).sum()
+        let at = self.tape.put(&numbers)?;
+        self.shots.push(Shot { time: clock.time(), at, n_points: n_points as u32, scene });
+        Ok(())
     }
 
-    /// The scenes taken, each with its time.
-    pub fn scenes(&self) -> impl Iterator<Item = (&Scene, f64)> {
-        self.shots.iter().filter_map(|shot| match shot {
-            Shot::Scene(scene, time) => Some((&**scene, *time)),
-            Shot::Row(..) => None,
+    /// The number of a point's name.
+    fn column(&mut self, name: &str) -> usize {
+        self.names.iter().position(|known| **known == *name).unwrap_or_else(|| {
+            self.names.push(name.into());
+            self.names.len() - 1
         })
+    }
+
+    /// How many frames it has taken.
+    pub const fn n_frames(&self) -> usize {
+        self.shots.len()
+    }
+
+    /// Bytes on its tape, those of frames that were taken back included.
+    pub fn n_taped(&self) -> u64 {
+        self.tape.n_bytes()
+    }
+
+    /// Roughly how many bytes its frames take in memory.
+    pub const fn n_bytes(&self) -> usize {
+        self.shots.len() * SHOT_BYTES
+    }
+
+    /// The scene of a frame.
+    ///
+    /// # Errors
+    /// Where the tape cannot be read.
+    pub fn scene(&self, frame: usize) -> io::Result<Scene> {
+        let Shot { at, n_points, scene, .. } = &self.shots[frame];
+        let scene = scene.as_ref().expect("a picture is recorded as scenes");
+        let numbers = self.tape.get(*at, 2 * *n_points as usize)?;
+        let (places, _) = numbers.as_chunks();
+        Ok(scene.with_places(places.iter().map(|&[x, y]| Point::new(x, y)).collect()))
+    }
+
+    /// The view that shows all of its scenes.
+    ///
+    /// # Errors
+    /// Where the tape cannot be read.
+    pub fn view(&self) -> io::Result<View> {
+        View::through(self.shots.len(), |frame| self.scene(frame))
+    }
+
+    /// All of its scenes as one picture that moves; none if `is_stopped` says so on the way.
+    ///
+    /// # Errors
+    /// Where the tape cannot be read.
+    pub fn movie(
+        &self,
+        options: &Options,
+        is_stopped: impl Fn() -> bool,
+    ) -> io::Result<Option<String>> {
+        let scenes = self.shots.iter().filter_map(|shot| shot.scene.as_ref());
+        let n_symbols = scenes.map(|scene| scene.n_symbols()).max().unwrap_or(0);
+        let mut movie = Animation::new(self.view()?, options);
+        for (frame, shot) in self.shots.iter().enumerate() {
+            if is_stopped() {
+                return Ok(None);
+            }
+            if is_shown(frame, self.shots.len(), n_symbols) {
+                movie.push(&self.scene(frame)?, shot.time);
+            }
+        }
+        Ok(Some(movie.finish()))
     }
 
     /// Whether no row of a table says where a point is.
     pub fn has_times_only(&self) -> bool {
-        !self.shots.is_empty()
-            && self.shots.iter().all(|shot| matches!(shot, Shot::Row(_, row) if row.is_empty()))
+        !self.shots.is_empty() && self.shots.iter().all(|shot| shot.n_points == 0)
     }
 
-    /// The table: a line of names, then a line a frame. A point that was not traced at a
+    /// The numbers of a row: of each point the number of its name, x and y.
+    fn row(&self, shot: &Shot) -> io::Result<Vec<f64>> {
+        self.tape.get(shot.at, 3 * shot.n_points as usize)
+    }
+
+    /// Writes the table: a line of names, then a line a frame. A point that was not traced at a
     /// frame leaves its cells empty.
-    pub fn table(&self) -> String {
-        let mut names: Vec<&str> = Vec::new();
-        for shot in &self.shots {
-            if let Shot::Row(_, row) = shot {
-                for (name, _) in row {
-                    if !names.contains(&&**name) {
-                        names.push(name);
-                    }
+    ///
+    /// # Errors
+    /// Where it cannot be written, or the tape cannot be read.
+    pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
+        // What was taken back may have left names.
+        let mut columns: Vec<usize> = Vec::new();
+        for shot in self.shots.iter().filter(|shot| shot.n_points > 0) {
+            if columns.len() == self.names.len() {
+                break;
+            }
+            for cell in self.row(shot)?.as_chunks::<3>().0 {
+                let column = cell[0] as usize;
+                if !columns.contains(&column) {
+                    columns.push(column);
                 }
             }
         }
-        let mut text = String::from("time");
-        for name in &names {
-            // Writing to a string cannot fail.
-            let _ = write!(text, ",{name}.x,{name}.y");
+        let mut line = String::from("time");
+        for &column in &columns {
+            let name = &self.names[column];
+            line.extend([",", name, ".x,", name, ".y"]);
         }
-        text.push('\n');
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
         for shot in &self.shots {
-            let Shot::Row(time, row) = shot else { continue };
-            text.push_str(&format_number(*time));
-            for name in &names {
-                match row.iter().find(|(n, _)| &**n == *name) {
-                    Some((_, p)) => {
-                        let _ = write!(text, ",{},{}", format_number(p.x), format_number(p.y));
+            line.clear();
+            line.push_str(&format_number(shot.time));
+            let row = self.row(shot)?;
+            let (cells, _) = row.as_chunks::<3>();
+            for &column in &columns {
+                match cells.iter().find(|cell| cell[0] as usize == column) {
+                    Some([_, x, y]) => {
+                        line.extend([",", &format_number(*x), ",", &format_number(*y)]);
                     }
-                    None => text.push_str(",,"),
+                    None => line.push_str(",,"),
                 }
             }
-            text.push('\n');
+            line.push('\n');
+            out.write_all(line.as_bytes())?;
         }
-        text
+        Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! On which side of its singular pose everything in an island is, and what turned over.
 
 use super::Island;
+use super::known_sides::{KnownSides, WatchedSides};
 use crate::constraint::PointIdx;
 use crate::solve::frame::branch::{FLAT, PartSide};
 use crate::solve::frame::decomposition::Side;
@@ -24,6 +25,32 @@ pub(crate) struct Sides {
 }
 
 impl Island {
+    /// On which side everything was when last looked at.
+    pub fn known_sides(&self) -> KnownSides {
+        let watch = &self.watch;
+        let is_watched = !watch.triangles.is_empty() || !watch.part_sides.is_empty();
+        let watched = is_watched.then(|| {
+            Box::new(WatchedSides {
+                triangles: watch.sides.clone(),
+                parts: watch.part_sides.clone(),
+                knows_parts: watch.knows_part_sides,
+            })
+        });
+        KnownSides { blocks: self.plan.blocks.iter().map(|block| block.side).collect(), watched }
+    }
+
+    /// Brings back what [`known_sides`](Self::known_sides) gave.
+    pub fn know_sides(&mut self, sides: &KnownSides) {
+        for (block, side) in self.plan.blocks.iter_mut().zip(&sides.blocks) {
+            block.side = *side;
+        }
+        if let Some(watched) = &sides.watched {
+            self.watch.sides.clone_from(&watched.triangles);
+            self.watch.part_sides.clone_from(&watched.parts);
+            self.watch.knows_part_sides = watched.knows_parts;
+        }
+    }
+
     /// Works out on which side the parts are at the present pose, where they are not known.
     pub fn measure_part_sides(&mut self, work: &mut Counters) {
         if self.watch.knows_part_sides || self.plan.is_complete() {

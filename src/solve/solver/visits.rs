@@ -62,6 +62,7 @@ impl Solver {
         std::mem::swap(&mut due, &mut self.awake);
         for &k in &due {
             self.is_awake[k as usize] = false;
+            self.note(k);
         }
         let can_share = budget.stop.is_none() && due.len() > 1;
         if can_share && parallel::pays(&self.partition.effort_of(&due)) {
@@ -120,6 +121,7 @@ impl Solver {
         for (k, pulled) in by_island {
             let Some(island) = self.partition.get_mut(k) else { continue };
             if island.status == Status::Converged {
+                self.notes.note(island);
                 let limits = island.limits(settings, budget);
                 pull(island, &pulled, &limits, &mut report.counters);
                 report.include(island.status, 0, island.residual);
