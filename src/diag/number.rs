@@ -22,6 +22,25 @@ pub fn format_number(value: f64) -> String {
     }
 }
 
+/// Writes `value` as [`format_number`] does, or as one over a whole number where that reads back to
+/// the same bits and is shorter: a sixtieth is `1/60`.
+///
+/// ```
+/// use linkwork::diag::format_fraction;
+///
+/// assert_eq!(format_fraction(1.0 / 60.0), "1/60");
+/// assert_eq!(format_fraction(0.25), "0.25");
+/// ```
+pub fn format_fraction(value: f64) -> String {
+    let decimal = format_number(value);
+    let whole = (1.0 / value).round();
+    if !(1.0..1e9).contains(&whole) || 1.0 / whole != value {
+        return decimal;
+    }
+    let fraction = format!("1/{}", format_number(whole));
+    if fraction.len() < decimal.len() { fraction } else { decimal }
+}
+
 /// A number rounded to so many digits, of which there is at least one.
 ///
 /// ```

@@ -1,6 +1,6 @@
 //! The settings: what each is, how it is shown, and how it is set.
 
-use crate::diag::{Diagnostic, Span, format_number, suggest};
+use crate::diag::{Diagnostic, Span, format_fraction, format_number, suggest};
 use crate::errors;
 use crate::lang::ast::Expr;
 use crate::session::execution::Execution;
@@ -43,7 +43,7 @@ pub static SETTINGS: [Setting; 8] = [
         name: "dt",
         what: "time of one frame",
         is_of_scene: true,
-        text: |state| format_number(state.world.clock().dt),
+        text: |state| format_fraction(state.world.clock().dt),
         set: |command, value| {
             let dt = command.positive(value)?;
             command.edit(Edit::Clock(Box::new(command.state.world.clock().with_dt(dt))));

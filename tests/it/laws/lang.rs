@@ -1,8 +1,8 @@
 //! Laws of the language: what is printed reads back, and no text is too odd to be read.
 
-use linkwork::diag::{Diagnostic, Paint, Sources, Span, render};
+use linkwork::diag::{Diagnostic, Paint, SourceId, Sources, Span, render};
 use linkwork::lang::ast::Statement;
-use linkwork::lang::{catalogue, is_incomplete, parse};
+use linkwork::lang::{catalogue, format, is_incomplete, parse};
 use proptest::prelude::*;
 
 use crate::support::trees::statement;
@@ -25,6 +25,18 @@ proptest! {
         }
         let text = format!("\u{feff}\r\n; {} # end", text.replace(' ', " \\\r\n\t"));
         prop_assert_eq!(read(&text), Ok(vec![statement]), "of {}", text);
+    }
+
+    #[test]
+    fn the_form_of_scripts_says_the_same_and_stays(statement in statement()) {
+        let text = statement.to_string();
+        let broken = format!("# a\n{} # end", text.replace(' ', " \\\r\n\t"));
+        let written = if text.contains(['"', '{']) { vec![text] } else { vec![text, broken] };
+        for text in written {
+            let form = format(SourceId(0), &text).expect("it has no mistake");
+            prop_assert_eq!(read(&form), Ok(vec![statement.clone()]), "of {}", text);
+            prop_assert_eq!(format(SourceId(0), &form), Ok(form.clone()), "of {}", text);
+        }
     }
 
     #[test]
