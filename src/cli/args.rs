@@ -11,17 +11,20 @@ use crate::session::Quota;
 
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
-/// Without a command a session begins: a prompt on a terminal, or statements read from
-/// standard input.
+/// With files, runs them as `run` does. Without any a session begins: a prompt on a terminal, or
+/// statements read from standard input.
 #[derive(Debug, Parser)]
-#[command(version, about, args_conflicts_with_subcommands = true)]
+#[command(version, about, disable_help_subcommand = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Option<Invocation>,
-    /// How a session talks and where it writes.
+    /// What to run where no command is said.
     #[command(flatten)]
-    pub session: HostArguments,
+    pub scripts: Scripts,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub host: HostArguments,
     /// How errors, warnings and notes are written.
     #[arg(long, global = true, value_name = "FORMAT", default_value = "full")]
     pub message_format: MessageFormat,
@@ -41,6 +44,10 @@ pub enum Invocation {
     /// Run a script and tell which effects its scene has switched on at the end, why, and what
     /// each costs.
     Effects(ExamineArguments),
+    /// List the mechanisms that come with the program; print one, or run it.
+    Examples(ExampleArguments),
+    /// Say how a command is written and what it does: one of the language, or of the shell.
+    Help(HelpArguments),
     /// Set scripts in canonical form; comments and line breaks are kept.
     Fmt(FormatArguments),
     /// Run a script again whenever it is saved, or a file that it includes.
@@ -87,10 +94,28 @@ pub struct AccuracyArguments {
 
 /// Scripts to run.
 #[derive(Debug, Args)]
+#[command(arg_required_else_help = true)]
 pub struct RunArguments {
-    /// Scripts; `-` is standard input.
-    #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
+    /// What to run.
+    #[command(flatten)]
+    pub scripts: Scripts,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
+/// An example to look at.
+#[derive(Debug, Args)]
+pub struct ExampleArguments {
+    /// Which; without one all are listed.
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Run it.
+    #[arg(long, requires = "name")]
+    pub run: bool,
+    /// Run it, then go on at the prompt.
+    #[arg(long, short, requires = "name")]
+    pub interactive: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -118,6 +143,17 @@ pub struct WatchArguments {
     pub host: HostArguments,
 }
 
+/// What to say more about.
+#[derive(Debug, Args)]
+pub struct HelpArguments {
+    /// A command, a function, a setting or a subject of the language, or a command of the shell.
+    #[arg(value_name = "TOPIC")]
+    pub topic: Option<String>,
+    /// How it talks.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
 /// A shell to be told how the program is called.
 #[derive(Debug, Args)]
 pub struct CompletionArguments {
@@ -126,12 +162,35 @@ pub struct CompletionArguments {
     pub shell: clap_complete::Shell,
 }
 
+/// Texts to run.
+#[derive(Debug, Clone, Args)]
+pub struct Scripts {
+    /// Scripts; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Carry out the statements of this text, after the files; may be said again.
+    #[arg(long = "eval", short, value_name = "TEXT", allow_hyphen_values = true)]
+    pub eval: Vec<String>,
+    /// Go on at the prompt after the files and texts, all in one world.
+    #[arg(long, short)]
+    pub interactive: bool,
+}
+
+impl Scripts {
+    /// Whether there is nothing to run.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty() && self.eval.is_empty()
+    }
+}
+
 /// How a session talks and where it writes.
 #[derive(Debug, Clone, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct HostArguments {
-    /// The folder that pictures, recordings and saved sessions are written to.
-    #[arg(long, value_name = "DIR", default_value = ".")]
-    pub out: PathBuf,
+    /// The folder that pictures, recordings and saved sessions are written to; by default the
+    /// working folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Give a parameter a value; wins over the script's own `let`.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     pub set: Vec<(String, f64)>,
@@ -153,20 +212,113 @@ pub struct HostArguments {
     /// Replace files even if linkwork did not write them.
     #[arg(long)]
     pub force: bool,
+    /// Keep no journal of the session.
+    #[arg(long)]
+    pub no_journal: bool,
+    /// Do not read `init.link` of the configuration folder before the prompt.
+    #[arg(long)]
+    pub no_init: bool,
+    /// Print long answers at once, not page by page.
+    #[arg(long)]
+    pub no_pager: bool,
+}
+
+impl HostArguments {
+    /// The folder that files are written to.
+    pub fn out(&self) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| PathBuf::from("."))
+    }
+
+    /// What was said before the command and behind it: what is behind wins, lists are joined.
+    pub fn followed_by(self, behind: Self) -> Self {
+        // Taken apart, so that none is forgotten.
+        let Self {
+            out,
+            set,
+            quiet,
+            threads,
+            allow_any_path,
+            libraries,
+            force,
+            no_journal,
+            no_init,
+            no_pager,
+            limits,
+        } = behind;
+        Self {
+            out: out.or(self.out),
+            set: self.set.into_iter().chain(set).collect(),
+            quiet: quiet || self.quiet,
+            threads: threads.or(self.threads),
+            allow_any_path: allow_any_path || self.allow_any_path,
+            libraries: self.libraries.into_iter().chain(libraries).collect(),
+            force: force || self.force,
+            no_journal: no_journal || self.no_journal,
+            no_init: no_init || self.no_init,
+            no_pager: no_pager || self.no_pager,
+            limits: self.limits.into_iter().chain(limits).collect(),
+        }
+    }
+}
+
+impl Invocation {
+    /// The options behind the command, if it takes any.
+    fn host_mut(&mut self) -> Option<&mut HostArguments> {
+        match self {
+            Self::Run(RunArguments { host, .. })
+            | Self::Accuracy(AccuracyArguments { host, .. })
+            | Self::Check(ExamineArguments { host, .. })
+            | Self::Effects(ExamineArguments { host, .. })
+            | Self::Examples(ExampleArguments { host, .. })
+            | Self::Watch(WatchArguments { host, .. })
+            | Self::Help(HelpArguments { host, .. }) => Some(host),
+            Self::Fmt(_) | Self::Completions(_) | Self::Man | Self::Lsp => None,
+        }
+    }
 }
 
 /// The arguments of this process; on a mistake, or for `--help`, the process ends here.
 pub fn parse() -> Arguments {
-    Arguments::try_parse().unwrap_or_else(|problem| {
+    let mut arguments = Arguments::try_parse().unwrap_or_else(|problem| {
         // What is wrong is told with what was typed, as a terminal may show it.
         let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
         Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
-    })
+    });
+    if let Some(invocation) = &mut arguments.command {
+        if !arguments.scripts.is_empty() || arguments.scripts.interactive {
+            let problem = "files, `-e` and `-i` stand behind the command, or alone";
+            clap::Error::raw(clap::error::ErrorKind::ArgumentConflict, format!("{problem}\n"))
+                .with_cmd(&command())
+                .exit();
+        }
+        if let Some(behind) = invocation.host_mut() {
+            *behind = arguments.host.clone().followed_by(behind.clone());
+        }
+    }
+    arguments
+}
+
+/// What the shell's own commands are called.
+pub fn command_names() -> Vec<String> {
+    command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
+}
+
+/// What `--help` says of one of the shell's commands, or of the whole program.
+pub fn help_on(name: Option<&str>) -> Option<String> {
+    let mut all = command();
+    let command = match name {
+        Some(name) => all.find_subcommand_mut(name)?,
+        None => &mut all,
+    };
+    Some(command.render_help().to_string())
 }
 
 /// The command line as data.
 pub fn command() -> clap::Command {
-    Arguments::command()
+    let mut command = Arguments::command();
+    // Usage lines begin with the name of the program.
+    command.build();
+    command
 }
 
 /// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.

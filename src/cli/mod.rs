@@ -3,8 +3,12 @@
 mod args;
 mod examine;
 mod files;
+pub(crate) mod folders;
 mod format;
+mod inform;
+mod init;
 pub(crate) mod interrupt;
+mod journal;
 mod language_server;
 mod manual;
 pub(crate) mod output;
@@ -16,24 +20,29 @@ mod watch;
 
 use std::process::ExitCode;
 
+use args::Invocation;
+
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
     output::set_format(args.message_format);
     let status = match args.command {
-        Some(args::Invocation::Run(batch)) => run::batch(&batch),
-        Some(args::Invocation::Accuracy(wish)) => examine::accuracy(&wish),
-        Some(args::Invocation::Check(arguments)) => examine::check(&arguments),
-        Some(args::Invocation::Effects(arguments)) => examine::effects(&arguments),
-        Some(args::Invocation::Fmt(arguments)) => format::format_all(&arguments),
-        Some(args::Invocation::Watch(arguments)) => watch::watch(&arguments),
-        Some(args::Invocation::Completions(arguments)) => {
+        Some(Invocation::Run(batch)) => run::batch(&batch.scripts, &batch.host),
+        Some(Invocation::Accuracy(wish)) => examine::accuracy(&wish),
+        Some(Invocation::Check(arguments)) => examine::check(&arguments),
+        Some(Invocation::Effects(arguments)) => examine::effects(&arguments),
+        Some(Invocation::Examples(wish)) => inform::examples(&wish),
+        Some(Invocation::Help(wish)) => inform::help(&wish),
+        Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
+        Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
+        Some(Invocation::Completions(arguments)) => {
             manual::completions(&arguments, args::command())
         }
-        Some(args::Invocation::Man) => manual::manual(&args::command()),
-        Some(args::Invocation::Lsp) => language_server::serve(),
-        None => run::session(&args.session),
+        Some(Invocation::Man) => manual::manual(&args::command()),
+        Some(Invocation::Lsp) => language_server::serve(),
+        None if args.scripts.is_empty() => run::session(&args.host),
+        None => run::batch(&args.scripts, &args.host),
     };
     output::flush();
     if let Some(status) = interrupt::ending() {

@@ -1,11 +1,14 @@
 //! What the program says: answers on standard output, everything else on standard error.
 
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clap::ValueEnum;
 
+use super::progress;
 use crate::diag::{Diagnostic, Paint, Sources, render_within, short, visible};
+use crate::render::{Cell, Ink, Sketch};
 
 /// Answers not yet written: to a file or a pipe they go in large pieces. Nothing once they cannot be
 /// written any more.
@@ -59,6 +62,7 @@ impl Answers {
 /// Writes one line of the answer. A reader that has gone away is no reason to stop: what else is
 /// done still counts.
 pub fn answer(line: &str) {
+    progress::clear();
     let mut answers = answers();
     let line = if answers.is_terminal { visible(line) } else { line.into() };
     answers.n_bytes += line.len() as u64 + 1;
@@ -137,7 +141,101 @@ pub fn show(problem: &Diagnostic, sources: &Sources) {
     complain(&text);
 }
 
+/// Writes the lines of a long answer: page by page where they are more than a terminal shows.
+pub fn page(lines: &[String]) {
+    let fits = match terminal_size::terminal_size_of(io::stdout()) {
+        Some((_, height)) => lines.len() < usize::from(height.0),
+        None => true,
+    };
+    if fits || !is_capable() || show_pages(lines).is_err() {
+        lines.iter().for_each(|line| answer(line));
+    }
+}
+
+/// Columns and rows of what is drawn in characters: most of the terminal, and less than two pages.
+pub fn page_size() -> (usize, usize) {
+    match terminal_size::terminal_size_of(io::stdout()) {
+        Some((width, height)) => {
+            let rows = usize::from(height.0).saturating_sub(3);
+            (usize::from(width.0).clamp(20, 120), rows.clamp(8, 40))
+        }
+        None => (72, 24),
+    }
+}
+
+/// Draws a picture, on a terminal in colours.
+pub fn draw(sketch: &Sketch) {
+    if io::stdout().is_terminal() && wants_colours() {
+        // The colours are ours, what is written in the picture is not.
+        let lines: String = sketch.rows().map(|row| coloured(row) + "\n").collect();
+        answers().write(|out| out.write_all(lines.as_bytes()));
+    } else {
+        sketch.lines().iter().for_each(|line| answer(line));
+    }
+}
+
+/// A row of a picture with its colours.
+fn coloured(row: &[Cell]) -> String {
+    let n = row.iter().rposition(|cell| *cell != Cell::default()).map_or(0, |last| last + 1);
+    row[..n].iter().map(painted).collect()
+}
+
+/// A character of a picture with its colours.
+fn painted(cell: &Cell) -> String {
+    match (cell.letter, cell.upper, cell.lower) {
+        (None, Some(upper), Some(lower)) if upper != lower => {
+            let (over, under) = (colour(upper), colour(lower) + 10);
+            format!("\x1b[{over};{under}m\u{2580}\x1b[0m")
+        }
+        (None, Some(ink), _) | (None, None, Some(ink)) => {
+            format!("\x1b[{}m{}\x1b[0m", colour(ink), cell.char())
+        }
+        _ => visible(cell.char().encode_utf8(&mut [0; 4])).into_owned(),
+    }
+}
+
+/// The colour of an ink, as terminals number those of letters.
+const fn colour(ink: Ink) -> u8 {
+    match ink {
+        Ink::Guide => 90,
+        // Blue, red, green, magenta, cyan.
+        Ink::Path(number) => [94, 91, 92, 95, 96][number % 5],
+        Ink::Body => 37,
+        Ink::Drive => 33,
+        Ink::Joint => 97,
+    }
+}
+
+/// Gives lines to the user's pager: `$PAGER`, or `less`.
+///
+/// # Errors
+/// Where there is none.
+fn show_pages(lines: &[String]) -> io::Result<()> {
+    flush();
+    let pager = std::env::var("PAGER").unwrap_or_else(|_| "less".to_owned());
+    let mut words = pager.split_whitespace();
+    let program = words.next().ok_or(io::ErrorKind::NotFound)?;
+    let mut command = Command::new(program);
+    command.args(words).stdin(Stdio::piped());
+    if std::env::var_os("LESS").is_none() {
+        // Ends at once where all fits, and leaves on the screen what was read.
+        command.env("LESS", "FRX");
+    }
+    let mut child = command.spawn()?;
+    if let Some(mut pages) = child.stdin.take() {
+        // Who has read enough closes the pager, which is no failure.
+        drop(lines.iter().try_for_each(|line| writeln!(pages, "{}", visible(line))));
+    }
+    child.wait().map(drop)
+}
+
+/// Whether the terminal understands more than a printer would.
+pub fn is_capable() -> bool {
+    std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+}
+
 fn complain(text: &str) {
+    progress::clear();
     // Nobody is left to tell if standard error is gone.
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
@@ -150,6 +248,5 @@ fn paint() -> Paint {
 /// Whether the user has nothing against colours where there is a terminal.
 pub fn wants_colours() -> bool {
     let is_unwanted = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    !is_unwanted && !is_dumb
+    !is_unwanted && is_capable()
 }

@@ -7,13 +7,16 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use super::args::HostArguments;
+use super::journal::{self, Journal};
 use super::progress::ProgressBar;
 use super::spool::FileSpool;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::session::{Host, Spool, Wish, contained};
+use crate::render::Sketch;
+use crate::session::{Example, Host, Kept, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
+#[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
 pub struct ProcessHost {
     /// Where files are written.
     out: PathBuf,
@@ -26,25 +29,48 @@ pub struct ProcessHost {
     may_replace_any: bool,
     is_quiet: bool,
     allows_any_path: bool,
+    has_pager: bool,
+    journal: Option<Journal>,
     begun: Instant,
     bar: ProgressBar,
 }
 
+/// Where what an example includes is looked for: no folder, it comes with the program.
+pub const EXAMPLES_FOLDER: &str = "<examples>";
+
 impl ProcessHost {
     /// The process with the user's wishes, for a script in a folder.
     pub fn new(host: &HostArguments, folder: &Path) -> Self {
-        let mut readable = vec![folder.to_path_buf(), host.out.clone()];
+        let mut readable = vec![folder.to_path_buf(), host.out()];
         readable.extend(host.libraries.iter().cloned());
         Self {
-            out: host.out.clone(),
+            out: host.out(),
             readable,
             libraries: host.libraries.clone(),
             tidy: BTreeSet::new(),
             may_replace_any: host.force,
             is_quiet: host.quiet,
             allows_any_path: host.allow_any_path,
+            has_pager: !host.no_pager,
+            journal: None,
             begun: Instant::now(),
             bar: ProgressBar::default(),
+        }
+    }
+}
+
+impl ProcessHost {
+    /// From here on what is typed is kept in a journal; where that cannot be, it is not.
+    pub fn begin_journal(&mut self) {
+        self.journal = Journal::begin().ok();
+        // Those that others left may be loaded.
+        self.readable.extend(journal::folder());
+    }
+
+    /// The session ended in order.
+    pub fn end_journal(&mut self) {
+        if let Some(journal) = self.journal.take() {
+            journal.end();
         }
     }
 }
@@ -52,6 +78,22 @@ impl ProcessHost {
 impl Host for ProcessHost {
     fn print(&mut self, line: &str) {
         output::answer(line);
+    }
+
+    fn print_all(&mut self, lines: &[String]) {
+        if self.has_pager {
+            output::page(lines);
+        } else {
+            lines.iter().for_each(|line| output::answer(line));
+        }
+    }
+
+    fn page(&self) -> (usize, usize) {
+        output::page_size()
+    }
+
+    fn draw(&mut self, sketch: &Sketch) {
+        output::draw(sketch);
     }
 
     fn n_printed(&self) -> u64 {
@@ -66,6 +108,20 @@ impl Host for ProcessHost {
 
     fn is_listening(&self) -> bool {
         !self.is_quiet
+    }
+
+    fn is_keeping(&self) -> bool {
+        self.journal.is_some()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        if let Some(journal) = &mut self.journal
+            && let Err(e) = journal.keep(kept)
+        {
+            let why = format!("this session is not kept in a journal any more: {}", reason(&e));
+            self.tell(&Diagnostic::warning(why), &Sources::new());
+            self.journal = None;
+        }
     }
 
     fn is_interrupted(&self) -> bool {
@@ -93,6 +149,9 @@ impl Host for ProcessHost {
         let folders = std::iter::once(folder).chain(self.libraries.iter().map(PathBuf::as_path));
         let mut places = folders.map(|folder| folder.join(path));
         let beside = folder.join(path);
+        if folder == Path::new(EXAMPLES_FOLDER) {
+            return Ok(beside);
+        }
         let place = places.find(|place| place.exists()).unwrap_or(beside);
         if self.allows_any_path {
             return Ok(place);
@@ -106,6 +165,12 @@ impl Host for ProcessHost {
     }
 
     fn read(&mut self, path: &Path) -> io::Result<String> {
+        if let Ok(name) = path.strip_prefix(EXAMPLES_FOLDER) {
+            let example = Example::named(&name.to_string_lossy());
+            return example
+                .map(|example| example.text.to_owned())
+                .map_err(|_| io::ErrorKind::NotFound.into());
+        }
         if files::is_regular(path)? {
             files::read(path)
         } else {

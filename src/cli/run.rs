@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, BufRead, IsTerminal};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, sync_channel};
 
-use super::args::{HostArguments, RunArguments};
+use super::args::{HostArguments, Scripts, command_names};
 use super::process_host::ProcessHost;
-use super::{files, interrupt, output};
-use crate::diag::{Diagnostic, Kind, Sources};
+use super::{files, init, interrupt, journal, output};
+use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
 use crate::session::{Flow, Host, Outcome, Quota, Session, Transcript, reason};
@@ -47,52 +47,179 @@ impl From<ExitStatus> for ExitCode {
 }
 
 /// Runs scripts up to the first error.
-pub fn batch(batch: &RunArguments) -> ExitStatus {
+///
+/// Texts and the prompt follow in the world of the last file.
+pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
     let mut unused: Option<BTreeSet<String>> = None;
-    for (k, file) in batch.files.iter().enumerate() {
-        let mut session = begin(&batch.host);
-        let mut process = ProcessHost::new(&batch.host, files::folder_of(file));
+    let mut take_unused = |session: &Session| {
+        let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
+        unused = Some(unused.take().map_or(here.clone(), |all| &all & &here));
+    };
+    let goes_on = !scripts.eval.is_empty() || scripts.interactive;
+    let (last, others) = match scripts.files.split_last() {
+        Some((last, others)) if goes_on => (Some(last), others),
+        _ => (None, &scripts.files[..]),
+    };
+    for (k, file) in others.iter().enumerate() {
+        let mut session = begin(host);
+        let mut process = ProcessHost::new(host, files::folder_of(file));
         let status = script(file, &mut session, &mut process);
         if status != ExitStatus::Fine {
             return status;
         }
-        let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
-        unused = Some(unused.map_or(here.clone(), |all| &all & &here));
-        if k + 1 == batch.files.len() {
+        take_unused(&session);
+        if k + 1 == scripts.files.len() {
             // The process ends and its memory with it: taking a large scene apart piece by
             // piece first would take as long as solving it.
             std::mem::forget(session);
         }
     }
+    if goes_on {
+        let mut session = begin(host);
+        let status = texts(last.map(PathBuf::as_path), scripts, &mut session, host);
+        if status != ExitStatus::Fine {
+            return status;
+        }
+        if !scripts.interactive {
+            take_unused(&session);
+        }
+    }
     for name in unused.unwrap_or_default() {
         let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        ProcessHost::new(&batch.host, Path::new(".")).tell(&warning, &Sources::new());
+        ProcessHost::new(host, Path::new(".")).tell(&warning, &Sources::new());
     }
     ExitStatus::Fine
 }
 
+/// Carries out a file, then texts of the command line, all in one world.
+fn texts(
+    file: Option<&Path>,
+    scripts: &Scripts,
+    session: &mut Session,
+    host: &HostArguments,
+) -> ExitStatus {
+    let mut sources = Vec::new();
+    if let Some(file) = file {
+        match add(file, session) {
+            Ok(source) => sources.push(source),
+            Err(status) => return status,
+        }
+    }
+    for text in &scripts.eval {
+        sources.push(session.add_source("<argument>", text, Some(PathBuf::new())));
+    }
+    let folder = file.map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    play(&sources, session, &mut process, host, scripts.interactive)
+}
+
+/// Carries out texts in one world, up to the first mistake; then goes on at the prompt, or ends.
+pub fn play(
+    sources: &[SourceId],
+    session: &mut Session,
+    process: &mut ProcessHost,
+    host: &HostArguments,
+    is_interactive: bool,
+) -> ExitStatus {
+    let mut status = ExitStatus::Fine;
+    let mut has_left = false;
+    for &source in sources {
+        let outcome = session.run_text(source, process);
+        status = status_of(&outcome);
+        has_left = outcome.flow == Flow::Quit;
+        if status != ExitStatus::Fine || has_left {
+            break;
+        }
+    }
+    if is_interactive && !has_left {
+        return converse(session, process, host);
+    }
+    match (status, end(session, process)) {
+        (ExitStatus::Fine, status) | (status, _) => status,
+    }
+}
+
+/// What the status of a text is.
+fn status_of(Outcome { flow, failure }: &Outcome) -> ExitStatus {
+    match (failure, flow) {
+        (Some(problem), _) => ExitStatus::of(problem),
+        (None, Flow::Stopped) => ExitStatus::Interrupted,
+        (None, _) => ExitStatus::Fine,
+    }
+}
+
+/// Ends a session: recordings are written.
+fn end(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
+    match session.finish(host) {
+        Ok(()) => ExitStatus::Fine,
+        Err(problem) => {
+            output::show(&problem, session.sources());
+            ExitStatus::of(&problem)
+        }
+    }
+}
+
 /// Runs one script, `-` from standard input, and says what went wrong.
 pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitStatus {
+    match add(file, session) {
+        Ok(source) => status_of(&session.run_script(source, host)),
+        Err(status) => status,
+    }
+}
+
+/// Reads a script, `-` from standard input.
+///
+/// # Errors
+/// The status where it cannot be read, which was said.
+fn add(file: &Path, session: &mut Session) -> Result<SourceId, ExitStatus> {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
     let text = if is_stdin { read_stdin() } else { interrupt::while_waiting(|| files::read(file)) };
-    let text = match text {
-        Ok(text) => text,
+    match text {
+        Ok(text) => {
+            let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
+            Ok(session.add_source(&name, &text, Some(folder)))
+        }
         Err(e) => {
             let why = reason(&e);
-            let problem =
-                Diagnostic::error(errors::CANNOT_READ, format!("cannot read `{name}`: {why}"));
+            let message = format!("cannot read `{name}`: {why}");
+            let mut problem = Diagnostic::error(errors::CANNOT_READ, message);
+            if e.kind() == io::ErrorKind::NotFound {
+                problem = lone_word(file, problem);
+            }
             output::show(&problem, session.sources());
-            return ExitStatus::Unreadable;
+            Err(ExitStatus::Unreadable)
         }
+    }
+}
+
+/// Adds what a word that names no file was probably meant to be: a file that is there, or a
+/// command.
+fn lone_word(file: &Path, problem: Diagnostic) -> Diagnostic {
+    let word = file.to_string_lossy();
+    let commands = command_names();
+    let near_command = nearest(&word, commands.iter().map(String::as_str));
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten();
+    let is_script = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "link");
+    let mut there: Vec<String> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()).filter(is_script))
+        .map(|path| path.strip_prefix(".").unwrap_or(&path).to_string_lossy().into_owned())
+        .collect();
+    there.sort_unstable();
+    let with_ending = format!("{word}.link");
+    let near_file = there
+        .iter()
+        .find(|name| **name == with_ending)
+        .map(String::as_str)
+        .or_else(|| nearest(&word, there.iter().map(String::as_str)));
+    let problem = match near_command {
+        Some(command) => problem.help(format!("did you mean the command `{command}`?")),
+        None => problem,
     };
-    let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
-    let source = session.add_source(&name, &text, Some(folder));
-    let Outcome { flow, failure } = session.run_script(source, host);
-    match (failure, flow) {
-        (Some(problem), _) => ExitStatus::of(&problem),
-        (None, Flow::Stopped) => ExitStatus::Interrupted,
-        (None, _) => ExitStatus::Fine,
+    match near_file {
+        Some(name) => problem.help(format!("did you mean the file `{name}`?")),
+        None => problem,
     }
 }
 
@@ -142,21 +269,45 @@ pub(super) fn begin(host: &HostArguments) -> Session {
 
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
 pub fn session(host: &HostArguments) -> ExitStatus {
-    let mut session = begin(host);
-    let mut process = ProcessHost::new(host, Path::new("."));
+    converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
+}
+
+fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {
     let status = if io::stdin().is_terminal() {
-        crate::repl::converse(&mut session, &mut process);
+        prompt(session, process, host);
         ExitStatus::Fine
     } else {
-        typed_ahead(&mut session, &mut process)
+        typed_ahead(session, process)
     };
-    match session.finish(&mut process) {
-        Ok(()) => status,
-        Err(problem) => {
-            output::show(&problem, session.sources());
-            ExitStatus::of(&problem)
-        }
+    match end(session, process) {
+        ExitStatus::Fine => status,
+        broken => broken,
     }
+}
+
+/// A session at a terminal.
+fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) {
+    crate::repl::greet();
+    if !host.no_init {
+        init::run(session, process);
+    }
+    if host.no_journal {
+        return crate::repl::converse(session, process);
+    }
+    if let Some(remains) = journal::remains() {
+        let news = Diagnostic::note_only(format!(
+            "the last session did not end in order; its {} lines bring it back: load \"{}\"",
+            remains.n_lines,
+            remains.path.display()
+        ));
+        process.tell(&news, &Sources::new());
+    }
+    process.begin_journal();
+    if session.to_script() != Session::new().to_script() {
+        session.keep_whole(process);
+    }
+    crate::repl::converse(session, process);
+    process.end_journal();
 }
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,

@@ -201,3 +201,51 @@ fn string_end(bytes: &[u8], quote: usize) -> Result<usize, Flaw> {
         }
     }
 }
+
+/// Where the statement begins that a text ends in; at its end, where the last one is over.
+pub fn statement_start(text: &str) -> usize {
+    let mut from = 0;
+    loop {
+        let mut layout = Layout::new(text, from..text.len());
+        let flaw = loop {
+            match layout.next_piece() {
+                None => return text.len(),
+                Some(Ok(piece)) => {
+                    let is_over = text[piece.whole.end..].contains(['\n', ';']);
+                    if !is_over || layout.expects_more() {
+                        return piece.whole.start;
+                    }
+                }
+                Some(Err(flaw)) => break flaw,
+            }
+        };
+        match flaw {
+            Flaw::Unclosed { outermost, .. } if text.as_bytes()[outermost] == b'{' => {
+                from = outermost + 1;
+            }
+            Flaw::Unclosed { start, .. } => return start,
+            Flaw::OpenString { quote, .. } => {
+                let before = text[..quote].rfind(['\n', ';', '{', '}']);
+                return before.map_or(0, |at| at + 1);
+            }
+            _ => return text.rfind(['\n', ';', '{', '}']).map_or(0, |at| at + 1),
+        }
+    }
+}
+
+/// How many brackets are open at the end of a text.
+pub fn depth(text: &str) -> usize {
+    let mut depth = 0;
+    let mut from = 0;
+    loop {
+        let mut layout = Layout::new(text, from..text.len());
+        let flaw = std::iter::from_fn(|| layout.next_piece()).find_map(Result::err);
+        match flaw {
+            Some(Flaw::Unclosed { outermost, .. }) => {
+                depth += 1;
+                from = outermost + 1;
+            }
+            _ => return depth,
+        }
+    }
+}

@@ -16,7 +16,12 @@ mod layout;
 mod lower;
 mod parts;
 mod print;
+mod usage;
 
 pub use format::format;
 pub use growing::Growing;
-pub use lower::{Statements, is_incomplete, parse};
+pub use layout::{depth, statement_start};
+pub use lower::{
+    Class, NameOf, Next, Statements, Token, is_incomplete, nearest_command, next, parse, tokens,
+};
+pub use usage::rest_of_usage;

@@ -41,6 +41,9 @@ mod document;
 mod still;
 mod text;
 
+// Figures in characters.
+mod sketch;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
@@ -50,5 +53,6 @@ mod trace_animation;
 pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
+pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
 pub use view::View;

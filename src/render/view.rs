@@ -78,6 +78,16 @@ impl View {
         canvas.finish()
     }
 
+    /// A scene as figures, without its ghosts and its legend.
+    pub(super) fn figures_of(&self, scene: &Scene) -> Vec<Figure> {
+        let mut canvas = Canvas::new(&self.page, &scene.pose.at, &self.lettering);
+        scene.pose.symbols.iter().for_each(|symbol| symbol.draw(&mut canvas));
+        for curve in &scene.curves {
+            curve.draw(&mut canvas);
+        }
+        canvas.finish()
+    }
+
     /// Poses of the past, the fainter the older.
     pub(super) fn ghosts<'a>(
         &self,

@@ -3,12 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::editor::LineEditor;
+use crate::cli::folders;
 
 /// Where the history is kept across sessions.
 pub fn file() -> Option<PathBuf> {
-    let state = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);
-    let home = || std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".local/state"));
-    let folder = state.filter(|path| path.is_absolute()).or_else(home)?.join("linkwork");
+    let folder = folders::state()?;
     std::fs::create_dir_all(&folder).ok()?;
     Some(folder.join("history"))
 }

@@ -2,12 +2,21 @@
 
 mod editor;
 mod history;
+mod look;
 
 use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
 use crate::cli::output;
-use crate::session::{Flow, Host, Session, Transcript};
+use crate::session::{Flow, Host, PROMPT, Session, Transcript, without_prompts};
+
+/// Says who is there, and what to type first.
+pub fn greet() {
+    println!(
+        "linkwork {}; `help` and `examples` show what there is, Ctrl-D leaves",
+        env!("CARGO_PKG_VERSION")
+    );
+}
 
 /// Talks with the user until they leave.
 pub fn converse(session: &mut Session, host: &mut dyn Host) {
@@ -20,13 +29,14 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     };
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
-    println!("linkwork {}; `help` for help, Ctrl-D to leave", env!("CARGO_PKG_VERSION"));
     let mut transcript = Transcript::conversation("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
-        match interrupt::at_prompt(|| editor.readline("> ")) {
+        match interrupt::at_prompt(|| editor.readline(PROMPT)) {
             _ if interrupt::is_ending() => return,
             Ok(line) => {
+                let line = look::without_marks(&line);
+                let line = without_prompts(&line);
                 history::keep(&mut editor, &line, history.as_deref());
                 interrupt::forget();
                 let outcome = transcript.enter(&line, session, host);
@@ -35,8 +45,12 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
                     return;
                 }
             }
-            // Ctrl-C clears the line.
-            Err(ReadlineError::Interrupted) => {}
+            // Ctrl-C clears the line; where there is nothing to clear, its user wants more.
+            Err(ReadlineError::Interrupted) => {
+                if editor::was_blank(&editor) {
+                    println!("`quit` or Ctrl-D leaves");
+                }
+            }
             Err(ReadlineError::Eof) => return,
             Err(e) => {
                 eprintln!("error: the terminal is gone: {e}");

@@ -101,8 +101,10 @@ impl Execution<'_> {
     fn looking(&mut self, it: &Looking, span: Span) -> Result<Flow, Diagnostic> {
         match it {
             Looking::List(what) => self.list(*what),
-            Looking::Show(name) => self.show(name)?,
+            Looking::Show(None) => self.sketch(),
+            Looking::Show(Some(name)) => self.show(name)?,
             Looking::Print(items) => self.print(items)?,
+            Looking::Bare(items) => self.bare(items)?,
             Looking::Check => self.check(),
             Looking::Why(name) => self.why(name)?,
             Looking::Limits(name) => self.limits(name)?,
@@ -112,6 +114,8 @@ impl Execution<'_> {
                 self.assert(left, relation, within.as_ref(), span)?;
             }
             Looking::Help(topic) => self.help(topic.as_ref())?,
+            Looking::History => self.tell_history(),
+            Looking::Examples(name) => self.examples(name.as_ref())?,
             Looking::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)
@@ -125,7 +129,7 @@ impl Execution<'_> {
             Drawing::Svg(path) => self.svg(path)?,
             Drawing::Record { path, every } => self.record(path, every.as_ref())?,
             Drawing::Sample { series, values } => self.sample(series, values)?,
-            Drawing::Plot { path, parts } => self.plot(path, parts)?,
+            Drawing::Plot { path, parts } => self.plot(path.as_ref(), parts, span)?,
             Drawing::RecordStop => self.record_stop(span)?,
         }
         Ok(Flow::On)
@@ -142,6 +146,7 @@ impl Execution<'_> {
             }
             Building::Include(path) => return self.include(path, span),
             Building::Save(path) => self.save(path)?,
+            Building::SaveHistory(path) => self.save_history(path)?,
             Building::Load(path) => return self.load(path, span),
             Building::Restore { what, name, values } => {
                 self.restore(what, name.as_ref(), values, span)?;
@@ -153,6 +158,7 @@ impl Execution<'_> {
     /// Goes back or forth in the history.
     fn walk(&mut self, n: Option<&Expr>, span: Span, way: &Walk) -> Result<(), Diagnostic> {
         self.must_stand_alone(way.word, span)?;
+        self.input.is_unrepeatable = true;
         let n = n.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e6, "commands"))?;
         let mut n_done = 0;
         while n_done < n

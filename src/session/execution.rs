@@ -55,6 +55,8 @@ pub struct Execution<'a> {
     pub run: Option<Summary>,
     /// Where likely slips were found.
     pub slips: BTreeSet<Span>,
+    /// Whether work is under way whose progress is told: what is part of it tells none.
+    is_telling_progress: bool,
 }
 
 impl<'a> Execution<'a> {
@@ -78,6 +80,7 @@ impl<'a> Execution<'a> {
             outbox: Vec::new(),
             run: None,
             slips: BTreeSet::new(),
+            is_telling_progress: false,
         }
     }
 
@@ -174,5 +177,21 @@ impl<'a> Execution<'a> {
     /// Warns the user.
     pub fn warn(&mut self, warning: &Diagnostic) {
         self.host.tell(warning, &self.input.sources);
+    }
+
+    /// Long work begins; gives whether its progress is told, which is not so where it is part of
+    /// longer work.
+    pub fn begin_work(&mut self) -> bool {
+        let is_told = !std::mem::replace(&mut self.is_telling_progress, true);
+        if is_told {
+            self.host.progress(0.0);
+        }
+        is_told
+    }
+
+    /// Work ends whose progress was told.
+    pub fn end_work(&mut self) {
+        self.is_telling_progress = false;
+        self.host.progress(1.0);
     }
 }

@@ -6,11 +6,36 @@ use std::path::{Component, Path, PathBuf};
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources};
 use crate::interrupt::Wish;
+use crate::render::Sketch;
+
+/// What a journal is told of a session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept<'a> {
+    /// The statement that was carried out: repeated, it does the same.
+    Statement(&'a str),
+    /// The script that makes all there is; what was told before is not needed any more.
+    Whole(&'a str),
+}
 
 /// The outside of a session. The program gives it a terminal and files; a test gives it lists.
 pub trait Host {
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
+
+    /// Takes an answer of several lines that belong together: a terminal may show it page by page.
+    fn print_all(&mut self, lines: &[String]) {
+        lines.iter().for_each(|line| self.print(line));
+    }
+
+    /// Columns and rows of what is drawn in characters.
+    fn page(&self) -> (usize, usize) {
+        (72, 24)
+    }
+
+    /// Takes a picture in characters.
+    fn draw(&mut self, sketch: &Sketch) {
+        self.print_all(&sketch.lines());
+    }
 
     /// Bytes of the answer so far, where somebody wants that to have an end.
     fn n_printed(&self) -> u64 {
@@ -26,6 +51,14 @@ pub trait Host {
     fn is_listening(&self) -> bool {
         true
     }
+
+    /// Whether a journal is kept of what is typed.
+    fn is_keeping(&self) -> bool {
+        false
+    }
+
+    /// Takes what its journal needs to bring the session back, as it was after a statement.
+    fn keep(&mut self, _kept: Kept<'_>) {}
 
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {

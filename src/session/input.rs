@@ -16,6 +16,11 @@ pub struct Input {
     folders: HashMap<SourceId, PathBuf>,
     /// Values that the user gave from outside; they win over a `let`.
     pub overrides: BTreeMap<String, Override>,
+    /// The statements that were typed and carried out.
+    typed: Vec<Span>,
+    /// Whether the statement under way depends on more than what was typed: on files, on the
+    /// clock, on what `undo` keeps.
+    pub is_unrepeatable: bool,
     /// How much is allowed.
     pub quotas: Quotas,
     /// Files that were written so far.
@@ -56,6 +61,16 @@ impl Input {
             Some((id, last)) if *last.name == *name && *last.text == *text => id,
             _ => self.add_piece(name, text, 1, None),
         }
+    }
+
+    /// Remembers a statement that was typed and carried out.
+    pub fn note_typed(&mut self, statement: Span) {
+        self.typed.push(statement);
+    }
+
+    /// What was typed and carried out, statement by statement.
+    pub fn typed(&self) -> impl Iterator<Item = &str> {
+        self.typed.iter().map(|&span| self.sources.slice(span))
     }
 
     /// Where what a text includes is looked for.

@@ -14,6 +14,7 @@ mod commands;
 mod completion;
 mod culprits;
 mod dispatch;
+mod examples;
 mod execution;
 mod file_kind;
 mod host;
@@ -43,16 +44,16 @@ pub use ask::evaluate_binding;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, FromHere, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
-pub use completion::Completion;
+pub use completion::{Candidate, Completion, Offer, Piece};
+pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
-
-pub use host::{Host, Nowhere, contained, reason};
-pub use preferences::{AtDeadPoint, Preferences};
+pub use host::{Host, Kept, Nowhere, contained, reason};
+pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
 pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
-pub use transcript::{Outcome, Transcript};
+pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 
 pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
@@ -172,6 +173,14 @@ impl Session {
         &self.state.world
     }
 
+    /// The definitions, each with its parameters as they are written.
+    pub fn definitions(&self) -> impl Iterator<Item = (String, String)> {
+        self.state.definitions.values().map(|definition| {
+            let parameters: Vec<&str> = definition.parameters.iter().map(|it| &*it.text).collect();
+            (definition.name.text.to_string(), parameters.join(", "))
+        })
+    }
+
     /// Receipt of the last command that let time pass.
     pub const fn last_run(&self) -> Option<&Summary> {
         self.history.last_run.as_ref()
@@ -245,6 +254,32 @@ impl Session {
             }
         }
         Ok(Flow::On)
+    }
+
+    /// What was typed and carried out, statement by statement.
+    pub fn typed(&self) -> impl Iterator<Item = &str> {
+        self.input.typed()
+    }
+
+    /// Tells the host's journal all there is: what follows is told statement by statement.
+    pub fn keep_whole(&mut self, host: &mut dyn Host) {
+        if host.is_keeping() {
+            host.keep(Kept::Whole(&self.to_script()));
+        }
+    }
+
+    /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
+    fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
+        self.input.note_typed(statement.span);
+        let is_unrepeatable = std::mem::take(&mut self.input.is_unrepeatable);
+        if !host.is_keeping() || !transcript::leaves_a_mark(&statement.command) {
+            return;
+        }
+        if is_unrepeatable || flow == Flow::Stopped {
+            self.keep_whole(host);
+        } else {
+            host.keep(Kept::Statement(self.input.sources.slice(statement.span)));
+        }
     }
 
     /// Ends the session: recordings still running are written.

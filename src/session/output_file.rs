@@ -1,7 +1,7 @@
 //! Files that statements write: what each may replace, and when it is written.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Display, Path, PathBuf};
 
 use super::execution::Execution;
 use super::file_kind::{FileKind, ends_in};
@@ -14,6 +14,9 @@ use crate::diag::{Diagnostic, Kind, Span};
 use crate::errors;
 use crate::lang::ast::Text;
 use crate::render::{Options, svg_with_view};
+
+/// Files written by one command that are told one by one.
+const MOST_FILES_NAMED: usize = 5;
 
 impl Execution<'_> {
     /// Where an output path leads that is to be one file of a kind. Refused where its ending says
@@ -113,7 +116,26 @@ impl Execution<'_> {
             }
         };
         let results: Vec<_> = parcels.iter().map(write).collect();
+        let done = parcels.iter().zip(&results).filter(|(_, result)| result.is_ok());
+        let written: Vec<PathBuf> =
+            done.filter_map(|(parcel, _)| self.host.resolve(&parcel.file).ok()).collect();
+        self.tell_written(&written);
         results.into_iter().collect()
+    }
+
+    /// Tells what was written: each, or of many the last.
+    fn tell_written(&mut self, written: &[PathBuf]) {
+        match written {
+            [others @ .., last] if others.len() >= MOST_FILES_NAMED => {
+                let n = written.len();
+                self.note(format!("wrote {n} files, the last is {}", plain(last)));
+            }
+            _ => {
+                for file in written {
+                    self.note(format!("wrote {}", plain(file)));
+                }
+            }
+        }
     }
 
     fn write_file(
@@ -190,6 +212,11 @@ impl Execution<'_> {
             }
         }
     }
+}
+
+/// A path without the folder that it begins in anyway.
+fn plain(file: &Path) -> Display<'_> {
+    file.strip_prefix(".").unwrap_or(file).display()
 }
 
 /// What a frame of a recording is called in its folder.

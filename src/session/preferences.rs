@@ -11,8 +11,33 @@ pub struct Preferences {
     pub dead_points: AtDeadPoint,
     /// A ghost of the mechanism is kept every so many frames.
     pub expose_every: Option<u64>,
+    /// How much is said of a run at its end.
+    pub receipt: Receipt,
     /// Whether each edit is followed by a solution.
     pub is_live: bool,
+}
+
+/// How much is said of a run at its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Receipt {
+    /// The time now, the frames, how exact they are.
+    #[default]
+    Short,
+    /// How it was solved, and at what price.
+    Long,
+}
+
+impl Receipt {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Short, Self::Long];
+
+    /// The word of the command language.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Short => "short",
+            Self::Long => "long",
+        }
+    }
 }
 
 /// What happens where a motor cannot go on.

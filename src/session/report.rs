@@ -22,7 +22,8 @@ impl Execution<'_> {
         self.judge_the_end(&mut summary);
         summary.position_error = self.estimate_position_error(&summary);
         self.tell_turned_over(&summary);
-        let line = summary.line();
+        let time = self.state.world.clock().time();
+        let line = summary.line(self.state.preferences.receipt, time);
         match (summary.broken(0), summary.missed_at) {
             (Some((message, label)), Some(span)) => {
                 let mut warning = Diagnostic::warning(message).at(span, label);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::culprits::Culprits;
+use super::preferences::Receipt;
 use crate::diag::{Span, format_number, format_rounded, format_seconds};
 use crate::solve::{Method, Report, Settings, Status, Verdict};
 use crate::world::PointId;
@@ -153,8 +154,41 @@ impl Summary {
         self.seconds.is_some_and(|all| all >= seconds)
     }
 
-    /// The receipt, in one line.
-    pub(super) fn line(&self) -> String {
+    /// The receipt, in one line; the clock shows `time`.
+    pub(super) fn line(&self, receipt: Receipt, time: f64) -> String {
+        let mut text = match receipt {
+            Receipt::Short => self.short(time),
+            Receipt::Long => self.long(),
+        };
+        // Writing to a string cannot fail.
+        if self.n_missed > 0 {
+            let _ = write!(text, ", {} missed {}", self.n_missed, format_number(self.tolerance));
+        }
+        if self.n_late > 0 {
+            let _ = write!(text, ", {} of them for want of time", self.n_late);
+        }
+        if let Some(rho) = self.lowered_rho {
+            let rho = format_rounded(rho);
+            let _ = write!(text, ", rho lowered to {rho} where it would diverge");
+        }
+        text
+    }
+
+    fn short(&self, time: f64) -> String {
+        let mut text = format!("t = {} s, {}", format_rounded(time), frames(self.n_frames));
+        if self.n_missed > 0 {
+            return text;
+        }
+        // Writing to a string cannot fail.
+        let _ = write!(text, ", exact to {}", format_number(self.tolerance));
+        // What is near to the tolerance goes without saying.
+        if let Some(error) = self.position_error.filter(|error| *error > 100.0 * self.tolerance) {
+            let _ = write!(text, ", positions to about {}", format_rounded(error));
+        }
+        text
+    }
+
+    fn long(&self) -> String {
         let n = self.n_frames.max(1) as f64;
         let mut text = format!(
             "{} by {}: {} iterations{} a frame, largest residual {}",
@@ -167,16 +201,6 @@ impl Summary {
         // Writing to a string cannot fail.
         if let Some(error) = self.position_error.filter(|error| *error > 0.0) {
             let _ = write!(text, ", position error about {}", format_rounded(error));
-        }
-        if self.n_missed > 0 {
-            let _ = write!(text, ", {} missed {}", self.n_missed, format_number(self.tolerance));
-        }
-        if self.n_late > 0 {
-            let _ = write!(text, ", {} of them for want of time", self.n_late);
-        }
-        if let Some(rho) = self.lowered_rho {
-            let rho = format_rounded(rho);
-            let _ = write!(text, ", rho lowered to {rho} where it would diverge");
         }
         text
     }

@@ -1,12 +1,14 @@
 //! A text from its first statement to its last: a script as a whole, or what is typed piece by
 //! piece, past mistakes.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::execution::Flow;
 use super::host::Host;
 use super::{Session, next_of};
 use crate::diag::{Diagnostic, SourceId, Span};
+use crate::lang::ast::Command;
 use crate::lang::parse;
 
 /// How a text went. The host was told what is wrong with it.
@@ -19,27 +21,36 @@ pub struct Outcome {
 }
 
 impl Session {
-    /// Carries out a script up to the first error and ends the session. What was recorded up to
-    /// there is not lost.
-    pub fn run_script(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
-        let result = self.execute_all(source, host).and_then(|flow| {
-            self.finish(host)?;
-            Ok(flow)
-        });
-        match result {
+    /// Carries out a text up to the first error.
+    pub fn run_text(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
+        match self.execute_all(source, host) {
             Ok(flow) => Outcome { flow, failure: None },
             Err(problem) => {
                 host.tell(&problem, self.sources());
-                if let Err(second) = self.finish(host)
-                    && second != problem
-                {
-                    host.tell(&second, self.sources());
-                }
                 Outcome { flow: Flow::On, failure: Some(problem) }
             }
         }
     }
+
+    /// Carries out a script up to the first error and ends the session. What was recorded up to
+    /// there is not lost.
+    pub fn run_script(&mut self, source: SourceId, host: &mut dyn Host) -> Outcome {
+        let mut outcome = self.run_text(source, host);
+        if let Err(problem) = self.finish(host)
+            && outcome.failure.as_ref() != Some(&problem)
+        {
+            host.tell(&problem, self.sources());
+            outcome.failure.get_or_insert(problem);
+        }
+        outcome
+    }
 }
+
+/// What a session asks for a statement with.
+pub const PROMPT: &str = "> ";
+
+/// What it asks for the rest of one with.
+pub const CONTINUATION: &str = "... ";
 
 /// A text that is typed piece by piece.
 #[derive(Debug)]
@@ -86,7 +97,14 @@ impl Transcript {
             }
             let statement = statement.map_err(|problem| session.advise(problem));
             let is_edit = statement.as_ref().is_ok_and(|statement| statement.command.is_edit());
-            match statement.and_then(|statement| session.execute(&statement, host)) {
+            let result = statement.and_then(|statement| {
+                let flow = session.execute(&statement, host)?;
+                if flow != Flow::Quit {
+                    session.note_typed(&statement, flow, host);
+                }
+                Ok(flow)
+            });
+            match result {
                 Ok(Flow::On) => self.look_at_pose(is_edit, session, host),
                 Ok(flow) => {
                     outcome.flow = flow;
@@ -100,6 +118,17 @@ impl Transcript {
             }
         }
         outcome
+    }
+}
+
+/// Whether a statement changes what there is, and does not only say or write it.
+pub(super) fn leaves_a_mark(command: &Command) -> bool {
+    match command {
+        Command::Looking(_) => false,
+        Command::Drawing(it) => it.leaves_a_mark(),
+        Command::Building(it) => it.leaves_a_mark(),
+        Command::Changing(it) => it.leaves_a_mark(),
+        Command::Making(_) | Command::Constrain(_) | Command::Running(_) => true,
     }
 }
 
@@ -120,4 +149,34 @@ impl Transcript {
 fn line_end(text: &str, span: Span) -> usize {
     let rest = text.get(span.end as usize..).unwrap_or_default();
     text.len() - rest.find('\n').map_or(0, |at| rest.len() - at)
+}
+
+/// What a copy of a session says without its prompts: where a line begins with one, such lines and
+/// those that go on from them are taken, and what the session answered is left out.
+///
+/// ```
+/// use linkwork::session::without_prompts;
+///
+/// let copied = "> let r = 3\n> for i in 1..2 {\n...   print r\n... }\n3\n3\n";
+/// assert_eq!(without_prompts(copied), "let r = 3\nfor i in 1..2 {\n  print r\n}");
+/// assert_eq!(without_prompts("let r = 3\nstep"), "let r = 3\nstep");
+/// ```
+pub fn without_prompts(text: &str) -> Cow<'_, str> {
+    let behind = |line, mark: &str| {
+        if line == mark.trim_end() { Some("") } else { str::strip_prefix(line, mark) }
+    };
+    if !text.lines().any(|line| behind(line.trim_start(), PROMPT).is_some()) {
+        return Cow::Borrowed(text);
+    }
+    let mut lines = Vec::new();
+    let mut goes_on = false;
+    for line in text.lines() {
+        // Lines of a paste may have been set in.
+        let rest = behind(line.trim_start(), PROMPT);
+        goes_on = rest.is_some() || (goes_on && behind(line.trim_start(), CONTINUATION).is_some());
+        if goes_on {
+            lines.extend(rest.or_else(|| behind(line.trim_start(), CONTINUATION)));
+        }
+    }
+    Cow::Owned(lines.join("\n"))
 }

@@ -54,6 +54,8 @@ fn without_a_clock_nothing_is_said_of_time() {
         assert_eq!(session.to_script(), script, "{statement}");
     }
     let told = session.run("step 20").unwrap().told;
+    assert!(told.last().unwrap().to_string().ends_with("20 frames, exact to 1e-12"));
+    let told = session.run("set receipt long; step 20").unwrap().told;
     let receipt = told.last().unwrap().to_string();
     assert!(receipt.contains("iterations a frame, largest residual"), "{receipt}");
     assert_eq!(session.last_run().unwrap().seconds, None);
@@ -151,9 +153,14 @@ fn a_second_front_end_types_and_completes() {
         &mut session,
         &mut Nowhere,
     );
-    assert_eq!(outcome.failure.unwrap().to_string(), "unknown command `lenght`: not a command");
+    assert_eq!(
+        outcome.failure.unwrap().to_string(),
+        "unknown name `lenght`: nothing has this name"
+    );
     assert!(session.position("B").is_none() && session.position("C").is_some());
     let mut completion = Completion::default();
-    completion.refresh(session.world());
-    assert_eq!(completion.candidates("show "), (5, vec!["A".to_owned(), "C".to_owned()]));
+    completion.refresh(&session);
+    let offer = completion.offer("show ");
+    let words: Vec<&str> = offer.candidates.iter().map(|candidate| &*candidate.text).collect();
+    assert_eq!((offer.start, words), (5, vec!["A", "C"]));
 }

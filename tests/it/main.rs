@@ -37,6 +37,8 @@ mod slips;
 mod solve;
 mod study;
 mod support;
+#[cfg(unix)]
+mod terminal;
 mod touches;
 mod watch;
 mod well_formed;

@@ -44,6 +44,70 @@ fn exit_statuses_say_how_a_batch_went() {
 }
 
 #[test]
+fn a_file_a_text_and_standard_input_run_without_a_command() {
+    let folder = folder(&[("a.link", "let r = 3\nr"), ("b.link", "let r = 4\nr")]);
+    let answers = |args: &[&str], input: &str| {
+        let out = run(folder.path(), args, input);
+        assert_eq!(out.status.code(), Some(0), "{args:?}: {}", text(&out.stderr));
+        text(&out.stdout)
+    };
+    assert_eq!(answers(&["a.link", "b.link"], ""), "3\n4\n");
+    assert_eq!(answers(&["-"], "1 + 2"), "3\n");
+    assert_eq!(answers(&["-e", "let s = 2", "-e", "-s, \"two\""], ""), "-2 two\n");
+    // In the world of the last file.
+    assert_eq!(answers(&["a.link", "b.link", "-e", "2 * r"], ""), "3\n4\n8\n");
+    // Without a terminal the session reads a pipe.
+    assert_eq!(answers(&["-i", "a.link"], "r + 1\n"), "3\n4\n");
+    // Options stand before the command or behind it, and those of a list add up.
+    for args in [&["--set", "r=5", "run", "a.link"][..], &["a.link", "--set", "r=5"]] {
+        assert_eq!(answers(args, ""), "5\n");
+    }
+    let both = ["--set", "r=5", "run", "-e", "let r = 1, s = 1; r, s", "--set", "s=6"];
+    assert_eq!(answers(&both, ""), "5 6\n");
+}
+
+#[test]
+fn mistakes_on_the_command_line_say_what_was_meant() {
+    let folder = folder(&[("crank.link", "")]);
+    let check = |args: &[&str], status: i32, says: &str| {
+        let out = run(folder.path(), args, "");
+        let said = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(status), "{args:?}: {said}");
+        assert!(said.contains(says), "{args:?}: {said}");
+    };
+    check(&["chek"], 3, "did you mean the command `check`?");
+    check(&["cronk.link"], 3, "did you mean the file `crank.link`?");
+    check(&["crank"], 3, "did you mean the file `crank.link`?");
+    check(&["-e", "nonsense here"], 2, "<argument>:1:1");
+    check(&["-e", "assert 1 = 2"], 1, "assertion failed");
+    check(&["-e", "quit; nonsense"], 0, "");
+    check(&["-i", "run", "crank.link"], 2, "stand behind the command");
+    check(&["help", "moter"], 2, "did you mean `motor`?");
+    check(&["examples", "fourbar"], 2, "did you mean `four-bar`?");
+}
+
+#[test]
+fn help_and_examples_come_with_the_program() {
+    let folder = folder(&[]);
+    let answer = |args: &[&str]| {
+        let out = run(folder.path(), args, "");
+        assert_eq!(out.status.code(), Some(0), "{args:?}: {}", text(&out.stderr));
+        text(&out.stdout)
+    };
+    assert!(answer(&["help", "motor"]).starts_with("motor O P"));
+    // The one of the shell, and the one of the language.
+    let run_help = answer(&["help", "run"]);
+    assert!(run_help.contains("linkwork run") && run_help.contains("run TIME"), "{run_help}");
+    assert!(answer(&["help"]).contains("change a setting, or print them"));
+    let list = answer(&["examples"]);
+    assert!(list.contains("four-bar ") && list.contains("crankshaft "), "{list}");
+    assert!(answer(&["examples", "four-bar"]).starts_with("# The coupler curve"));
+    // What an example includes comes with the program too.
+    answer(&["examples", "klann", "--run", "--out", "out", "-q"]);
+    assert!(folder.path().join("out").exists());
+}
+
+#[test]
 fn standard_input_is_a_script_too() {
     let folder = folder(&[("lib/leg.link", "print \"leg\"")]);
     let out = run(folder.path(), &["run", "-"], "include \"lib/leg.link\"\nnonsense\nprint 2");
@@ -382,7 +446,8 @@ mod unix {
             let out = child.wait_with_output().expect("it ends");
             let said = text(&out.stderr);
             assert_eq!(out.status.code(), Some(status), "{said}");
-            assert_eq!(said.is_empty(), status == 0, "{said}");
+            assert!(said.starts_with("note: wrote late.svg\n"), "{said}");
+            assert_eq!(said.lines().count() == 1, status == 0, "{said}");
             assert!(folder.path().join("late.svg").exists(), "before {end:?}");
         }
     }

@@ -10,7 +10,7 @@ use super::places::{offset, range};
 use crate::cli::files;
 use crate::diag::{Diagnostic, Severity, SourceId, Sources, Span};
 use crate::lang::format;
-use crate::session::{Completion, Host, Session};
+use crate::session::{Candidate, Completion, Host, Session};
 
 /// A loop that takes longer is left: the editor waits.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -155,13 +155,11 @@ pub fn completion(text: &str, params: &Value) -> Value {
     let address = params["textDocument"]["uri"].as_str().unwrap_or_default();
     let (session, ..) = reviewed(&text[..at], address);
     let mut completion = Completion::default();
-    completion.refresh(session.world());
-    let line = text[..at].rfind('\n').map_or(0, |end| end + 1);
-    let (start, words) = completion.candidates(&text[line..at]);
-    let place = range(text, Span::new(SourceId(0), line + start..at));
-    let item =
-        |word: &String| json!({ "label": word, "textEdit": { "range": place, "newText": word } });
-    words.iter().map(item).collect()
+    completion.refresh(&session);
+    let offer = completion.offer(&text[..at]);
+    let place = range(text, Span::new(SourceId(0), offer.start..at));
+    let item = |word: &Candidate| json!({ "label": word.shown, "textEdit": { "range": place, "newText": word.text } });
+    offer.candidates.iter().map(item).collect()
 }
 
 /// The document in canonical form; as it is where it cannot be read.

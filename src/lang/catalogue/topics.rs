@@ -37,8 +37,11 @@ pub(super) const TOPICS: &[Entry] = &[
         summary: "how values are computed",
         help: "Numbers and vectors. `^` binds tightest and to the right, then unary minus, then `*` and\n\
              `/`, then `+` and `-`. `(x, y)` is a vector; `v.x` and `v.y` are its components.\n\
-             The constants are `pi` and `tau`; `time` is the clock.",
-        example: "print -2^2, (A + B).x",
+             The constants are `pi` and `tau`; `time` is the clock.\n\
+             A statement of values alone prints them, as `print` does; the lone name of a constraint or an\n\
+             instance shows it, as `show` does.",
+        example: "-2^2, (A + B).x\n\
+             distance(A, C)",
     },
     Entry {
         keyword: "members",
@@ -81,7 +84,8 @@ pub(super) const TOPICS: &[Entry] = &[
              tolerance   stop below this residual, relative to the scene's size, 1e-12\n\
              dead-points where a motor cannot go on: hold, stop or reverse\n\
              live        on: each edit is followed by a solution; off\n\
-             cog         wheels that are made from here on: holonomic, or the paper's velocity form",
+             cog         wheels that are made from here on: holonomic, or the paper's velocity form\n\
+             receipt     what is said after a run: short, or long",
         example: "set tolerance 1e-9",
     },
     Entry {

@@ -40,6 +40,8 @@ pub enum Building {
     Include(Text),
     /// `save "session.link"`
     Save(Text),
+    /// `save "typed.link" history`
+    SaveHistory(Text),
     /// `load "session.link"`
     Load(Text),
     /// `restore turns crank = 0.25, 3`: state that no other statement can bring back.
@@ -115,10 +117,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "save",
             section: Section::Building,
-            usage: "save FILE",
+            usage: "save FILE [history]",
             summary: "write a script that brings this world back to the last bit",
-            help: "",
-            example: r#"save "session.link""#,
+            help: "With `history` what was typed, as `history` lists it.",
+            example: r#"save "session.link"
+save "typed.link" history"#,
         },
     },
     Verb {
@@ -146,6 +149,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Building {
+    /// Whether it changes what there is, and does not only say or write it.
+    pub const fn leaves_a_mark(&self) -> bool {
+        !matches!(self, Self::Save(_) | Self::SaveHistory(_))
+    }
+
     /// Whether it makes or changes things, without letting time pass.
     pub(super) fn is_edit(&self) -> bool {
         matches!(self, Self::For { .. } | Self::Use { .. })
@@ -164,7 +172,10 @@ impl Building {
             Rule::define => define(c, block)?,
             Rule::use_ => use_definition(c)?,
             Rule::include => Self::Include(c.text()?),
-            Rule::save => Self::Save(c.text()?),
+            Rule::save => {
+                let path = c.text()?;
+                if c.flag(Rule::kw_history) { Self::SaveHistory(path) } else { Self::Save(path) }
+            }
             Rule::load => Self::Load(c.text()?),
             Rule::restore => {
                 Self::Restore { what: c.ident(), name: c.name_if_any()?, values: c.exprs()? }
@@ -190,6 +201,7 @@ impl Building {
             }
             Self::Include(path) => write!(f, "include {path}"),
             Self::Save(path) => write!(f, "save {path}"),
+            Self::SaveHistory(path) => write!(f, "save {path} history"),
             Self::Load(path) => write!(f, "load {path}"),
             Self::Restore { what, name, values } => {
                 write!(f, "restore {what}{}", Clause(" ", name))?;

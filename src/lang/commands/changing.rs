@@ -166,6 +166,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Changing {
+    /// Whether it changes what there is, and does not only say or write it.
+    pub const fn leaves_a_mark(&self) -> bool {
+        !matches!(self, Self::Settings(_))
+    }
+
     /// Whether it makes or changes things, without letting time pass.
     pub(super) fn is_edit(&self) -> bool {
         matches!(self, Self::Delete { .. } | Self::Off(_) | Self::On(_) | Self::Change { .. })

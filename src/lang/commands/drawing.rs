@@ -46,7 +46,7 @@ pub enum Drawing {
     /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart.
     Plot {
         /// The file.
-        path: Text,
+        path: Option<Text>,
         /// How it looks.
         parts: Vec<PlotPart>,
     },
@@ -158,7 +158,7 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "plot",
             section: Section::Pictures,
-            usage: "plot FILE [log] [title TEXT] [x TEXT] [y TEXT]",
+            usage: "plot [FILE] [log] [title TEXT] [x TEXT] [y TEXT]",
             summary: "write all series as a line chart against the number of the sample",
             help: "The first sample of a series has number 0. With `log` equal ratios are equally high,
     and values that are not above 0 are left out.",
@@ -168,6 +168,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 ];
 
 impl Drawing {
+    /// Whether it changes what there is, and does not only say or write it.
+    pub const fn leaves_a_mark(&self) -> bool {
+        !matches!(self, Self::Svg(_) | Self::Plot { .. })
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {
@@ -178,7 +183,7 @@ impl Drawing {
             Rule::record if c.flag(Rule::kw_stop) => Self::RecordStop,
             Rule::record => Self::Record { path: c.text()?, every: c.clause(Rule::every)? },
             Rule::sample => Self::Sample { series: c.text()?, values: c.exprs()? },
-            Rule::plot => Self::Plot { path: c.text()?, parts: plot_parts(c)? },
+            Rule::plot => Self::Plot { path: c.text_if_any()?, parts: plot_parts(c)? },
             _ => return Ok(None),
         }))
     }
@@ -201,7 +206,7 @@ impl Drawing {
             Self::RecordStop => f.write_str("record stop"),
             Self::Sample { series, values } => write!(f, "sample {series} = {}", commas(values)),
             Self::Plot { path, parts } => {
-                write!(f, "plot {path}")?;
+                write!(f, "plot{}", Clause(" ", path))?;
                 parts.iter().try_for_each(|part| write!(f, " {part}"))
             }
         }

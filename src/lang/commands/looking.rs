@@ -8,7 +8,7 @@ use crate::lang::catalogue::{Entry, Section};
 use crate::lang::constraint::Relation;
 use crate::lang::expr::{Expr, Ident, Name, Unit};
 use crate::lang::grammar::Rule;
-use crate::lang::lower::{Cursor, refusal};
+use crate::lang::lower::{Cursor, is_bare, refusal};
 use crate::lang::parts::{Promise, Text};
 use crate::lang::print::{Clause, commas};
 
@@ -17,10 +17,12 @@ use crate::lang::print::{Clause, commas};
 pub enum Looking {
     /// `list`, `list points`
     List(Option<ListWhat>),
-    /// `show C`
-    Show(Name),
+    /// `show`, `show C`
+    Show(Option<Name>),
     /// `print C, distance(A, C), "text"`
     Print(Vec<PrintItem>),
+    /// `C`, `distance(A, C), "text"`: values alone print; the lone name of a thing shows it.
+    Bare(Vec<PrintItem>),
     /// `check`
     Check,
     /// `why C`
@@ -42,6 +44,10 @@ pub enum Looking {
     },
     /// `help`, `help motor`
     Help(Option<Ident>),
+    /// `history`
+    History,
+    /// `examples`, `examples four-bar`
+    Examples(Option<Ident>),
     /// `quit`, `exit`
     Quit,
 }
@@ -108,10 +114,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "show",
             section: Section::Looking,
-            usage: "show NAME",
-            summary: "a point with its constraints, a constraint with its residual",
-            help: "",
-            example: "show C",
+            usage: "show [NAME]",
+            summary: "draw the mechanism; a point with its constraints, a constraint with its residual",
+            help: "Alone it draws the mechanism in the terminal; `svg` draws it as it should look.",
+            example: "show\n\
+                 show C",
         },
     },
     Verb {
@@ -219,6 +226,29 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         },
     },
     Verb {
+        rule: Rule::history,
+        entry: Entry {
+            keyword: "history",
+            section: Section::Looking,
+            usage: "history",
+            summary: "list what was typed in this session",
+            help: "Without what failed. `save \"typed.link\" history` writes it.",
+            example: "history",
+        },
+    },
+    Verb {
+        rule: Rule::examples,
+        entry: Entry {
+            keyword: "examples",
+            section: Section::Looking,
+            usage: "examples [NAME]",
+            summary: "list the mechanisms that come with the program, or print one",
+            help: "",
+            example: "examples\n\
+                 examples four-bar",
+        },
+    },
+    Verb {
         rule: Rule::quit,
         entry: Entry {
             keyword: "quit",
@@ -247,7 +277,7 @@ impl Looking {
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {
             Rule::list => Self::List(list_what(c)?),
-            Rule::show => Self::Show(c.name()?),
+            Rule::show => Self::Show(c.name_if_any()?),
             Rule::print => Self::Print(print_items(c)?),
             Rule::check => Self::Check,
             Rule::why => Self::Why(c.name()?),
@@ -260,6 +290,9 @@ impl Looking {
                 within: c.clause(Rule::within)?,
             },
             Rule::help => Self::Help(c.setting_if_any()),
+            Rule::history => Self::History,
+            Rule::examples => Self::Examples(c.example_if_any()),
+            Rule::bare => Self::Bare(print_items(c)?),
             Rule::quit => Self::Quit,
             _ => return Ok(None),
         }))
@@ -270,8 +303,9 @@ impl Looking {
         match self {
             Self::List(None) => f.write_str("list"),
             Self::List(Some(what)) => write!(f, "list {}", what.word()),
-            Self::Show(name) => write!(f, "show {name}"),
+            Self::Show(name) => write!(f, "show{}", Clause(" ", name)),
             Self::Print(items) => write!(f, "print {}", commas(items)),
+            Self::Bare(items) => write!(f, "{}", Bare(items)),
             Self::Check => f.write_str("check"),
             Self::Why(name) => write!(f, "why {name}"),
             Self::Limits(name) => write!(f, "limits {name}"),
@@ -282,6 +316,8 @@ impl Looking {
             }
             Self::Help(None) => f.write_str("help"),
             Self::Help(Some(word)) => write!(f, "help {word}"),
+            Self::History => f.write_str("history"),
+            Self::Examples(name) => write!(f, "examples{}", Clause(" ", name)),
             Self::Quit => f.write_str("quit"),
         }
     }
@@ -317,6 +353,26 @@ fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {
     let Some(word) = c.ident_if_any() else { return Ok(None) };
     let what = ListWhat::ALL.into_iter().find(|what| what.word() == &*word.text);
     what.map(Some).ok_or_else(|| refusal::unknown_list(&word, &ListWhat::ALL.map(ListWhat::word)))
+}
+
+/// Values alone; in parentheses where the first would be taken for a command.
+struct Bare<'a>(&'a [PrintItem]);
+
+impl Display for Bare<'_> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let text = commas(self.0).to_string();
+        match self.0 {
+            [PrintItem::Value(value), rest @ ..] if !is_bare(&text) => {
+                write!(f, "({value}){}", if rest.is_empty() { "" } else { ", " })?;
+                write!(f, "{}", commas(rest))
+            }
+            [PrintItem::InUnit(value, unit), rest @ ..] if !is_bare(&text) => {
+                write!(f, "({value}) in {}", unit.suffix())?;
+                write!(f, "{}{}", if rest.is_empty() { "" } else { ", " }, commas(rest))
+            }
+            _ => f.write_str(&text),
+        }
+    }
 }
 
 impl Display for PrintItem {

@@ -133,6 +133,12 @@ impl<'a> Cursor<'a> {
         Some(self.ident_of(&pair))
     }
 
+    /// The name of an example: words and numbers joined by hyphens.
+    pub fn example_if_any(&mut self) -> Option<Ident> {
+        let pair = self.take(Rule::example)?;
+        Some(self.ident_of(&pair))
+    }
+
     /// The name of a setting: words joined by hyphens.
     pub fn setting_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::setting)?;
@@ -288,6 +294,10 @@ impl<'a> Cursor<'a> {
             Some(Rule::greater_equal) => Relation::GreaterEqual(value),
             _ => Relation::Equal(value),
         }))
+    }
+
+    pub fn text_if_any(&mut self) -> Result<Option<Text>> {
+        if self.peek() == Some(Rule::string) { self.text().map(Some) } else { Ok(None) }
     }
 
     pub fn text(&mut self) -> Result<Text> {

@@ -8,6 +8,8 @@ mod constraint;
 mod cursor;
 mod errors;
 mod expr;
+mod highlight;
+mod next;
 mod prefix;
 mod signs;
 
@@ -27,7 +29,10 @@ use super::layout::{Flaw, Layout, Piece};
 pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
-pub(super) use prefix::is_word_char;
+pub use highlight::{Class, Token, tokens};
+pub use next::{NameOf, Next, next};
+pub use prefix::nearest_command;
+pub(super) use prefix::{is_bare, is_word_char};
 pub(super) use signs::Signs;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
@@ -128,7 +133,9 @@ impl<'a> Reader<'a> {
             (Some(block), false) => return Err(self.needless_block(word, block.start - 1)),
             (None, true) => return Err(self.missing_block(word, piece.head.end)),
         };
-        cursor.pass_verb();
+        if rule != Rule::bare {
+            cursor.pass_verb();
+        }
         let command = Command::read(rule, &mut cursor, prefix.label, block)?;
         Ok(Statement { command, span: self.span(piece.whole.clone()) })
     }

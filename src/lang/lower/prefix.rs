@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::diag::{Diagnostic, Span, nearest};
 use crate::errors;
-use crate::lang::ast::Name;
+use crate::lang::ast::{Function, Name};
 use crate::lang::catalogue::{self, Trade};
 
 use super::errors::mistake::brief;
@@ -47,7 +47,11 @@ impl<'a> Reader<'a> {
         prefix: &Prefix,
         range: &Range<usize>,
     ) -> Result<(&'a str, Rule), Diagnostic> {
-        let word = first_word(&self.text[range.clone()]);
+        let text = &self.text[range.clone()];
+        let word = first_word(text);
+        if prefix.label.is_none() && prefix.add.is_none() && is_bare(text) {
+            return Ok((word, Rule::bare));
+        }
         let Some(rule) = catalogue::rule(word) else {
             return Err(self.unknown_verb(word, prefix, range));
         };
@@ -122,9 +126,6 @@ impl<'a> Reader<'a> {
         let words = catalogue::commands().map(|entry| entry.keyword).chain(["add"]);
         match nearest(word, words.filter(|word| fits(word))) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None if rest.is_empty() => {
-                problem.help(format!("to see what it is worth, write `print {shown}`"))
-            }
             None if rest.starts_with('(') => {
                 problem.help(format!("to make what a definition says, write `use {shown}(...)`"))
             }
@@ -147,11 +148,7 @@ impl<'a> Reader<'a> {
         let problem = Diagnostic::error(errors::UNEXPECTED, format!("unexpected {}", found.term))
             .at(found.span, expected);
         match self.text.as_bytes()[range.start] {
-            b'0'..=b'9' | b'.' | b'(' | b'-' => {
-                problem.help("to compute a value, write `print ...`")
-            }
             b'{' => problem.help("a block stands on the line of its `for` or `define`"),
-            b'"' => problem.help("to write a text, write `print \"...\"`"),
             b'/' | b'%' => problem.help("a comment begins with `#`"),
             b'?' => problem.help("`help` lists the commands"),
             _ => match found.meaning() {
@@ -160,6 +157,44 @@ impl<'a> Reader<'a> {
             },
         }
     }
+}
+
+/// Whether a statement without a verb is one of values: an expression or a string, or several.
+///
+/// A first word that is a command is that command, unless it is a function whose arguments
+/// follow at once; one that is none and is followed by another word is a misspelt command.
+pub fn is_bare(text: &str) -> bool {
+    let word = first_word(text);
+    if word.is_empty() {
+        let begins_value = |char: char| char.is_ascii_digit() || "(-\"".contains(char);
+        let begins_fraction = text.len() > 1 && text.starts_with('.') && text.as_bytes()[1] != b'.';
+        return text.starts_with(begins_value) || begins_fraction;
+    }
+    if text[word.len()..].starts_with('(') {
+        let mut names = Function::ALL.iter().map(|function| function.name());
+        let is_function = names.any(|name| name == word);
+        let is_command = catalogue::rule(word).is_some();
+        return is_function || (!is_command && near_function(word));
+    }
+    if catalogue::rule(word).is_some() || word == "add" {
+        return false;
+    }
+    let rest = text[name_end(text)..].trim_start();
+    let is_word = rest.starts_with(is_word_char) && first_word(rest) != "in";
+    !is_word && !rest.starts_with(['=', ':', '"'])
+}
+
+fn near_function(word: &str) -> bool {
+    nearest(word, Function::ALL.iter().map(|function| function.name())).is_some()
+}
+
+/// The command that an unknown word was probably meant to be, or the statement to type for a word
+/// of the trade.
+pub fn nearest_command(word: &str) -> Option<&'static str> {
+    if let Some(trade) = catalogue::trade(word) {
+        return Some(trade.example);
+    }
+    nearest(word, catalogue::commands().map(|entry| entry.keyword).chain(["add"]))
 }
 
 /// The statement to type for a word of the trade: with what was typed behind it if that reads,
@@ -236,7 +271,7 @@ pub(in crate::lang) fn is_word_char(char: char) -> bool {
 }
 
 /// How far the name goes that `text` begins with, its parts included.
-fn name_end(text: &str) -> usize {
+pub(super) fn name_end(text: &str) -> usize {
     let mut end = first_word(text).len();
     if end == 0 {
         return 0;

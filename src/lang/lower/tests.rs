@@ -147,7 +147,7 @@ fn spans_point_at_the_text() {
 
 #[test]
 fn a_statement_is_read_when_it_is_asked_for() {
-    let mut statements = parse(SourceId(0), "step\nlenght\nstep\nprint (");
+    let mut statements = parse(SourceId(0), "step\nlenght A\nstep\nprint (");
     assert!(matches!(statements.next(), Some(Ok(_))));
     assert!(matches!(statements.next(), Some(Err(_))));
     assert!(matches!(statements.next(), Some(Ok(_))));
@@ -189,7 +189,7 @@ fn a_session_knows_when_to_ask_for_more() {
         "print (1]",
         "print \"(",
         "print # (",
-        "nonsense,",
+        "nonsense here,",
         "print 1 2,",
         "print (1 2",
         "print (1; step",

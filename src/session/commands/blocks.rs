@@ -105,12 +105,19 @@ impl Execution<'_> {
             let slot = execution.scopes.bind(variable.text.clone(), from);
             let mut flow = Flow::On;
             let mut value = from;
+            let is_told = n_rounds > 1.0 && execution.begin_work();
             while value <= to && flow == Flow::On {
+                if is_told {
+                    execution.host.progress((value - from) / n_rounds);
+                }
                 execution.scopes.rebind(slot, value);
                 flow = execution.round(body)?;
                 value += 1.0;
             }
             execution.scopes.unbind(slot);
+            if is_told {
+                execution.end_work();
+            }
             Ok(flow)
         });
         self.n_rounds = n_outer;
@@ -222,6 +229,7 @@ impl Execution<'_> {
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
+        self.input.is_unrepeatable = true;
         let file = self.find(path)?;
         if self.included.contains(&file) {
             return Err(Diagnostic::error(
@@ -286,6 +294,7 @@ impl Execution<'_> {
     /// then beside the text that loads it.
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
+        self.input.is_unrepeatable = true;
         let (file, text) = if let Some(found) = self.saved(Path::new(&*path.value)) {
             found
         } else {

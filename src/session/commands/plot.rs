@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expr, PlotPart, Text};
+use crate::render::Sketch;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
@@ -21,11 +22,18 @@ impl Execution<'_> {
         self.input.quotas.check(Quota::PlotSamples, n_samples as u64, series.span)
     }
 
-    pub(crate) fn plot(&mut self, path: &Text, parts: &[PlotPart]) -> Result<(), Diagnostic> {
-        let file = self.output_file(path, FileKind::Picture)?;
+    /// Draws the series as a chart: to a file, or in characters.
+    pub(crate) fn plot(
+        &mut self,
+        path: Option<&Text>,
+        parts: &[PlotPart],
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
+        let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
-                .at(path.span, "no series has a value")
+                .at(place, "no series has a value")
                 .help(r#"`sample "error" = distance(A, B)` appends one"#));
         }
         let mut chart = Chart {
@@ -49,7 +57,12 @@ impl Execution<'_> {
             data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
-        self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), path.span);
+        if let Some(file) = file {
+            self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
+        } else {
+            let (n_columns, n_rows) = self.host.page();
+            self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
+        }
         Ok(())
     }
 }

@@ -84,6 +84,7 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (tolerance, seconds) = (positive(&promise.within)?, positive(&promise.in_time)?);
+        self.input.is_unrepeatable |= seconds.is_some();
         if let Some(time) = &promise.in_time
             && self.host.seconds().is_none()
         {
@@ -162,7 +163,11 @@ impl Execution<'_> {
         // Of the frame before; what a command begins with it goes back to by itself.
         let mut n_evaluations = (summary.n_frames > 0).then_some(0);
         let frames = Frames { n, hands };
+        let is_told = n > 1 && self.begin_work();
         for k in 1..=n {
+            if is_told {
+                self.host.progress((k - 1) as f64 / n as f64);
+            }
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
                 self.note(format!("stopped after {} of {n} frames", k - 1));
@@ -200,6 +205,9 @@ impl Execution<'_> {
             if !leaves_nothing {
                 self.keep_frame(is_missed(&report), span)?;
             }
+        }
+        if is_told {
+            self.end_work();
         }
         summary.add_time(begun, self.host.seconds());
         if let Some(tolerance) = limits.tolerance

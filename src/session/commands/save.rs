@@ -29,6 +29,18 @@ impl Execution<'_> {
         self.queue_file(file, FileKind::Script, text.into_bytes(), path.span);
         Ok(())
     }
+
+    /// Writes what was typed.
+    pub(crate) fn save_history(&mut self, path: &Text) -> Result<(), Diagnostic> {
+        let file = self.output_file(path, FileKind::Script)?;
+        let mut text = format!("{SCRIPT_MARK} What was typed in it.\n");
+        for statement in self.input.typed() {
+            text.push_str(statement);
+            text.push('\n');
+        }
+        self.queue_file(file, FileKind::Script, text.into_bytes(), path.span);
+        Ok(())
+    }
 }
 
 impl State {

@@ -4,7 +4,7 @@ use crate::diag::{Diagnostic, Span, format_fraction, format_number, suggest};
 use crate::errors;
 use crate::lang::ast::Expr;
 use crate::session::execution::Execution;
-use crate::session::preferences::{AtDeadPoint, Preferences};
+use crate::session::preferences::{AtDeadPoint, Preferences, Receipt};
 use crate::session::state::State;
 use crate::session::undo::journal::Change;
 use crate::solve::{CogForm, Method};
@@ -20,6 +20,8 @@ pub struct Setting {
     pub is_of_scene: bool,
     /// Its value as it would be typed.
     pub text: fn(&State) -> String,
+    /// The words that it may be set to, if it is set to words.
+    pub words: fn() -> Vec<&'static str>,
     /// Sets it.
     pub set: fn(&mut Execution<'_>, &Expr) -> Result<(), Diagnostic>,
 }
@@ -38,12 +40,13 @@ pub struct OwnSetting {
 }
 
 /// The settings, in the order in which they are printed.
-pub static SETTINGS: [Setting; 8] = [
+pub static SETTINGS: [Setting; 9] = [
     Setting {
         name: "dt",
         what: "time of one frame",
         is_of_scene: true,
         text: |state| format_fraction(state.world.clock().dt),
+        words: Vec::new,
         set: |command, value| {
             let dt = command.positive(value)?;
             command.edit(Edit::Clock(Box::new(command.state.world.clock().with_dt(dt))));
@@ -55,6 +58,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "how frames are solved",
         is_of_scene: true,
         text: |state| state.preferences.solve.method.word().to_owned(),
+        words: || Method::ALL.map(Method::word).to_vec(),
         set: |command, value| {
             let method = word_of(value, &Method::ALL, Method::word, "a method")?;
             command.prefer(|preferences| preferences.solve.method = method);
@@ -66,6 +70,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "relaxation coefficient",
         is_of_scene: true,
         text: |state| format_number(state.preferences.solve.rho),
+        words: Vec::new,
         set: |command, value| {
             let rho = coefficient(command.positive(value)?, value.span)?;
             command.prefer(|preferences| preferences.solve.rho = rho);
@@ -77,6 +82,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "most iterations between two frames",
         is_of_scene: true,
         text: |state| state.preferences.solve.iterations.to_string(),
+        words: Vec::new,
         set: |command, value| {
             let n = command.resolve().count(value, 1.0, 1e9, "iterations")?;
             command.prefer(|preferences| preferences.solve.iterations = n as u32);
@@ -88,6 +94,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "largest residual allowed, relative to the scene's size",
         is_of_scene: true,
         text: |state| format_number(state.preferences.solve.tolerance),
+        words: Vec::new,
         set: |command, value| {
             let tolerance = command.positive(value)?;
             command.prefer(|preferences| preferences.solve.tolerance = tolerance);
@@ -99,6 +106,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "where a motor cannot go on: `stop`, `hold` or `reverse`",
         is_of_scene: true,
         text: |state| state.preferences.dead_points.word().to_owned(),
+        words: || AtDeadPoint::ALL.map(AtDeadPoint::word).to_vec(),
         set: |command, value| {
             let what = "what happens at a dead point";
             let at = word_of(value, &AtDeadPoint::ALL, AtDeadPoint::word, what)?;
@@ -111,9 +119,22 @@ pub static SETTINGS: [Setting; 8] = [
         what: "`holonomic`, or the paper's `velocity` form",
         is_of_scene: true,
         text: |state| state.preferences.solve.cog.word().to_owned(),
+        words: || CogForm::ALL.map(CogForm::word).to_vec(),
         set: |command, value| {
             let form = word_of(value, &CogForm::ALL, CogForm::word, "a form of cogs")?;
             command.prefer(|preferences| preferences.solve.cog = form);
+            Ok(())
+        },
+    },
+    Setting {
+        name: "receipt",
+        what: "what is said after a run: `short` or `long`",
+        is_of_scene: false,
+        text: |state| state.preferences.receipt.word().to_owned(),
+        words: || Receipt::ALL.map(Receipt::word).to_vec(),
+        set: |command, value| {
+            let receipt = word_of(value, &Receipt::ALL, Receipt::word, "a length of receipts")?;
+            command.prefer(|preferences| preferences.receipt = receipt);
             Ok(())
         },
     },
@@ -122,6 +143,7 @@ pub static SETTINGS: [Setting; 8] = [
         what: "`on`: each edit is followed by a solution; `off`: `solve` and `step` solve",
         is_of_scene: false,
         text: |state| if state.preferences.is_live { "on" } else { "off" }.to_owned(),
+        words: || vec!["on", "off"],
         set: |command, value| {
             let word = |is_on| if is_on { "on" } else { "off" };
             let is_live = word_of(value, &[true, false], word, "whether edits are solved")?;

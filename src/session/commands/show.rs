@@ -7,9 +7,13 @@ use crate::constraint::ConstraintKind as _;
 use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
 use crate::errors;
 use crate::interrupt::tick;
-use crate::lang::ast::{Expr, Ident, ListWhat, Name, PrintItem, Relation};
+use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry, Trade};
+use crate::lang::nearest_command;
+use crate::render::{Scene, Sketch};
+use crate::session::examples::Example;
 use crate::session::execution::Execution;
+use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
 use crate::solve::{Method, present};
@@ -52,6 +56,29 @@ impl Execution<'_> {
         }
         self.host.print(&line);
         Ok(())
+    }
+
+    /// Values alone are printed; the lone name of what has no value of its own is shown.
+    pub(crate) fn bare(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
+        let [PrintItem::Value(Expr { node: Node::Name(name), .. })] = items else {
+            return self.print(items);
+        };
+        if self.resolve().instance(name)?.is_some() {
+            return self.show(name);
+        }
+        match self.resolve().meaning(name) {
+            Ok((Meaning::Entity(Entity::Constraint(_)), None)) => self.show(name),
+            _ => self.print(items).map_err(|problem| {
+                let word = name.as_simple().map_or("", |word| &*word.text);
+                match nearest_command(word) {
+                    Some(near) if self.state.world.names().is_free(word) => {
+                        problem.help(format!("did you mean the command `{near}`?"))
+                    }
+                    None if problem.helps.is_empty() => problem.help("`help` lists the commands"),
+                    _ => problem,
+                }
+            }),
+        }
     }
 
     pub(crate) fn assert(
@@ -168,9 +195,7 @@ impl Execution<'_> {
                 format!("define {}({})", definition.name.text, names.join(", "))
             }));
         }
-        for line in &lines {
-            self.host.print(line);
-        }
+        self.host.print_all(&lines);
         if lines.is_empty() {
             let nothing = match what {
                 None => "nothing here yet",
@@ -234,12 +259,43 @@ impl Execution<'_> {
         Ok(())
     }
 
+    /// Draws the mechanism in characters.
+    pub(crate) fn sketch(&mut self) {
+        if self.state.world.points().ids().next().is_none() {
+            return self.note("nothing here yet");
+        }
+        let (n_columns, n_rows) = self.host.page();
+        let sketch = Sketch::of(&Scene::new(&self.state.world), n_columns, n_rows);
+        self.host.draw(&sketch);
+    }
+
+    pub(crate) fn tell_history(&mut self) {
+        let typed = self.input.typed();
+        let lines: Vec<String> = typed.flat_map(str::lines).map(str::to_owned).collect();
+        self.host.print_all(&lines);
+    }
+
+    pub(crate) fn examples(&mut self, name: Option<&Ident>) -> Result<(), Diagnostic> {
+        let lines: Vec<String> = match name {
+            None => Example::overview(),
+            Some(word) => Example::named(&word.text)
+                .map_err(|problem| problem.at(word.span, "no such example"))?
+                .text
+                .lines()
+                .map(str::to_owned)
+                .collect(),
+        };
+        self.host.print_all(&lines);
+        Ok(())
+    }
+
     pub(crate) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
         let text = match topic {
             None => overview(),
             Some(topic) => self.state.help_on(topic)?,
         };
-        text.lines().for_each(|line| self.host.print(line));
+        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        self.host.print_all(&lines);
         Ok(())
     }
 }

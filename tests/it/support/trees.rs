@@ -200,8 +200,9 @@ fn looking() -> BoxedStrategy<Looking> {
     ];
     prop_oneof![
         of(select(ListWhat::ALL.to_vec())).prop_map(Looking::List),
-        name().prop_map(Looking::Show),
-        vec(item, 1..4).prop_map(Looking::Print),
+        of(name()).prop_map(Looking::Show),
+        vec(item.clone(), 1..4).prop_map(Looking::Print),
+        vec(item, 1..4).prop_map(Looking::Bare),
         Just(Looking::Check),
         name().prop_map(Looking::Why),
         name().prop_map(Looking::Limits),
@@ -213,6 +214,8 @@ fn looking() -> BoxedStrategy<Looking> {
             within
         }),
         of(ident()).prop_map(Looking::Help),
+        of(ident()).prop_map(Looking::Examples),
+        Just(Looking::History),
         Just(Looking::Quit),
     ]
     .boxed()
@@ -229,7 +232,7 @@ fn pictures() -> BoxedStrategy<Drawing> {
         (text(), of(expr())).prop_map(|(path, every)| Drawing::Record { path, every }),
         Just(Drawing::RecordStop),
         (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Drawing::Sample { series, values }),
-        (text(), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
+        (of(text()), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
             |(path, is_log, title, x, y)| {
                 let parts = [
                     is_log.then_some(PlotPart::Log),
@@ -251,6 +254,7 @@ fn building() -> BoxedStrategy<Building> {
         }),
         text().prop_map(Building::Include),
         text().prop_map(Building::Save),
+        text().prop_map(Building::SaveHistory),
         text().prop_map(Building::Load),
         (ident(), of(name()), vec(expr(), 0..5))
             .prop_map(|(what, name, values)| Building::Restore { what, name, values }),

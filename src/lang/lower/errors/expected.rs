@@ -45,6 +45,7 @@ impl Expected {
                     expected.keywords.push("in");
                 }
                 Rule::unit => expected.add("a unit"),
+                Rule::example => expected.add("the name of an example"),
                 Rule::string => {
                     let is_path = match verb {
                         "print" | "sample" => false,
@@ -153,7 +154,7 @@ fn token(rule: Rule) -> Option<&'static str> {
 }
 
 /// The word of a keyword's rule, or the one that a clause begins with.
-fn keyword(rule: Rule) -> Option<&'static str> {
+pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::every | Rule::kw_every => "every",
         Rule::within | Rule::kw_within => "within",

@@ -31,7 +31,8 @@ impl Reader<'_> {
             // Little stack was left to begin with, and pest stopped before it ran out.
             return refusal::too_long(self.span(range.clone()));
         };
-        let word = first_word(&self.text[range.clone()]);
+        let is_bare = rule == Rule::bare;
+        let word = if is_bare { "print" } else { first_word(&self.text[range.clone()]) };
         let before = self.text[range.start..at].trim_end();
         let expected = Expected::new(positives, word, before == word);
         if let Some(problem) = self.point_left_out(word, before, range, &expected) {
@@ -39,7 +40,9 @@ impl Reader<'_> {
         }
         let found = self.found_at(at, range.end);
         let message = match found.what {
-            Found::End if rule == Rule::prefix => "the statement is not complete".to_owned(),
+            Found::End if rule == Rule::prefix || is_bare => {
+                "the statement is not complete".to_owned()
+            }
             Found::End => format!("`{word}` is not complete"),
             _ => format!("unexpected {}", found.term),
         };
@@ -70,7 +73,7 @@ impl Reader<'_> {
             Some(comma) => problem.also(comma, "this comma holds the statement open"),
             None => problem,
         };
-        match catalogue::entry(word) {
+        match catalogue::entry(word).filter(|_| !is_bare) {
             Some(entry) => problem.help(format!("usage: `{}`", entry.usage)),
             None => problem,
         }
@@ -134,7 +137,7 @@ impl Reader<'_> {
             }
             "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
             _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
-            _ if expected.terms == [PATH] && !word.is_empty() => {
+            _ if expected.has(PATH) && !word.is_empty() => {
                 format!(
                     "a path stands in quotes: `{verb} \"{}\"`",
                     brief(&format!("{word}{behind}"))

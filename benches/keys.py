@@ -1,0 +1,81 @@
+"""From a key to the redrawn line, at a prompt in a pseudo-terminal; see docs/performance.md.
+
+    cargo build --release && python3 benches/keys.py [target/release/linkwork]
+
+Prints the median and the longest of 200 keys: in an empty session; with 10,000 points and their
+bars; and at the end of a block of 300 lines with these. A redraw is over when nothing has come for
+some milliseconds; what is told is when its last byte came.
+"""
+
+import os
+import pty
+import select
+import sys
+import tempfile
+import time
+
+N_KEYS = 200
+QUIET = 0.02
+
+
+def start(program, folder, *arguments):
+    pid, fd = pty.fork()
+    if pid == 0:
+        os.chdir(folder)
+        environment = {"HOME": folder, "PATH": os.environ["PATH"], "TERM": "xterm-256color"}
+        os.execve(program, [program, *arguments], environment)
+    return pid, fd
+
+
+def read(fd, quiet):
+    """All that comes until it is quiet; gives when the last of it came."""
+    last = None
+    while select.select([fd], [], [], quiet)[0]:
+        try:
+            if not os.read(fd, 1 << 16):
+                break
+        except OSError:
+            break
+        last = time.perf_counter()
+    return last
+
+
+def keys(fd, name):
+    times = []
+    for k in range(N_KEYS):
+        begun = time.perf_counter()
+        os.write(fd, b"x" if k % 2 == 0 else b"\x7f")
+        last = read(fd, QUIET)
+        if last is not None:
+            times.append(last - begun)
+    times.sort()
+    middle = times[len(times) // 2]
+    print(f"{name:40} {1e3 * middle:8.2f} ms {1e3 * times[-1]:8.2f} ms   ({len(times)} keys)")
+
+
+def main():
+    program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else "target/release/linkwork")
+    script = "point p[0] = (0, 0) frozen\nfor i in 1..9999 { point p[i] = (i, 0); length p[i-1] p[i] = 1 }\n"
+    block = "for k in 1..2 {\n" + "".join(
+        f"  point q[k][{i}] = (k, {i}) + polar({i}, 30deg) # the {i}th\n" for i in range(298)
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "big.link"), "w") as file:
+            file.write(script)
+        for name, arguments in (("an empty session", []), ("10,000 points", ["-i", "big.link"])):
+            pid, fd = start(program, folder, *arguments)
+            read(fd, 5.0)
+            os.write(fd, b"length p[3] p[4] = ")
+            read(fd, 0.5)
+            keys(fd, name)
+            if arguments:
+                os.write(fd, b"\x03\x1b[200~" + block.replace("\n", "\r").encode() + b"\x1b[201~")
+                read(fd, 5.0)
+                keys(fd, "10,000 points, a block of 300 lines")
+            os.close(fd)
+            os.kill(pid, 9)
+            os.waitpid(pid, 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,226 @@
+//! The line: colours, hints, completion, continuation, pastes, history, Ctrl-C.
+
+use tempfile::tempdir;
+use vt100::Color;
+
+use super::screen::{Start, Terminal};
+
+const CTRL_C: &str = "\x03";
+const CTRL_D: &str = "\x04";
+const UP: &str = "\x1b[A";
+const RIGHT: &str = "\x1b[C";
+
+/// A session with a little of everything that has a name.
+fn session(home: &std::path::Path) -> Terminal {
+    let terminal = Terminal::session(home);
+    terminal.enter("point A = (0, 0) frozen, B = (1, 0), p[1] = (0, 1)");
+    terminal.enter("crank: motor A B; let cr = 3");
+    terminal.enter("circle c = A radius 2");
+    terminal.enter("define pair(A, d) { point P = A + (d, 0) }");
+    terminal
+}
+
+#[test]
+fn what_is_typed_is_coloured_by_the_grammar() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("length A X = 35 # why");
+    terminal.wait_for_line("> length A X = 35 # why");
+    let (plain, colour) = (Color::Default, Color::Idx);
+    terminal.wait("the end of the line", |it| it.look("# why").0 == colour(8));
+    assert_eq!(terminal.look("length"), (plain, true, false));
+    assert_eq!(terminal.look("A "), (plain, false, false));
+    assert_eq!(terminal.look("X"), (colour(1), false, true));
+    assert_eq!(terminal.look("35"), (colour(3), false, false));
+    // A letter more makes a function of a name; a word that is being typed is not marked.
+    terminal.clear();
+    terminal.press("print si");
+    terminal.wait_for_line("> print si");
+    assert_eq!(terminal.look("si"), (plain, false, false));
+    terminal.press("n(B.x), \"a # b\"");
+    terminal.wait_for_line("> print sin(B.x), \"a # b\"");
+    assert_eq!(terminal.look("sin").0, colour(4));
+    assert_eq!(terminal.look("\"a # b\"").0, colour(2));
+}
+
+#[test]
+fn the_rest_of_the_shape_and_what_was_typed_before_are_hinted() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("glider B ");
+    terminal.wait_for("glider B on A B|CURVE [unbounded]");
+    assert_eq!(terminal.look("on A B|CURVE").0, Color::Idx(8));
+    // It is no part of the line.
+    terminal.wait_for_line("> glider B ");
+    terminal.clear();
+    terminal.press("crank: mo");
+    // What was typed before can be taken as it is.
+    terminal.wait_for("> crank: motor A B; let cr = 3");
+    terminal.press(RIGHT);
+    terminal.wait_for_line("> crank: motor A B; let cr = 3");
+    terminal.clear();
+    terminal.press("use pair(");
+    terminal.wait_for("use pair(A, d) [as NAME]");
+}
+
+#[test]
+fn every_position_is_completed_by_what_fits_it() {
+    let home = tempdir().expect("a folder");
+    std::fs::write(home.path().join("part.link"), "").expect("a file");
+    let terminal = session(home.path());
+    for (typed, completed) in [
+        ("mot", "motor "),
+        ("bar: leng", "bar: length "),
+        ("thaw p", "thaw p[1]"),
+        ("off cr", "off crank"),
+        ("glider B on c", "glider B on c"),
+        ("motor A B ra", "motor A B radius "),
+        ("motor A B radius 1 sp", "motor A B radius 1 speed "),
+        ("length A B = 2 * cra", "length A B = 2 * crank"),
+        ("print crank.an", "print crank.angle"),
+        ("print crank.angle in re", "print crank.angle in rev"),
+        ("point Q = (0, 0) fr", "point Q = (0, 0) frozen "),
+        ("set me", "set method"),
+        ("set method ne", "set method ne"),
+        ("set method new", "set method newton"),
+        ("set dead-points st", "set dead-points stop"),
+        ("list par", "list parameters"),
+        ("help hin", "help hinge"),
+        ("examples peau", "examples peaucellier"),
+        ("use pa", "use pair("),
+        ("include \"pa", "include \"part.link"),
+        ("for i in 1..2 { fre", "for i in 1..2 { freeze "),
+        ("step 3; un", "step 3; un"),
+        ("step 3; und", "step 3; undo "),
+        ("dista", "distance"),
+    ] {
+        terminal.press(typed);
+        terminal.wait_for_line(&format!("> {typed}"));
+        terminal.press("\t");
+        terminal.wait_for_line(&format!("> {completed}"));
+        terminal.clear();
+    }
+    // Where there are several, they are listed; definitions with their arguments.
+    terminal.press("use \t");
+    terminal.wait_for_line("> use pair(");
+    terminal.clear();
+    terminal.press("off c\t\t");
+    terminal.wait_for("c      crank");
+}
+
+#[test]
+fn a_statement_goes_on_with_a_prompt_of_its_own() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("for i in 1..2 {\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("print i,\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("  2 * i\r}");
+    terminal.wait_for_line("...   }");
+    terminal.press("\r");
+    terminal.wait_for("1 2\n2 4\n");
+    terminal.wait_for_prompt();
+    // A blank line ends it as it is.
+    terminal.press("point Z = (1,\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("\r");
+    terminal.wait_for("is never closed");
+    terminal.wait_for_prompt();
+    // It comes back as one.
+    terminal.press(&format!("{UP}{UP}"));
+    terminal.wait_for("for i in 1..2 {");
+}
+
+#[test]
+fn a_pasted_transcript_is_typed_without_its_prompts_and_answers() {
+    let home = tempdir().expect("a folder");
+    let terminal = Terminal::session(home.path());
+    let pasted = "> let r = 3\r> for i in 1..2 {\r...   print r * i\r... }\r30\r60\r> r";
+    terminal.press(&format!("\x1b[200~{pasted}\x1b[201~"));
+    terminal.wait_for("60\n> r");
+    terminal.press("\r");
+    terminal.wait_for("3\n6\n3\n> ");
+    // One without prompts is typed as it stands.
+    terminal.press("\x1b[200~let s = 4\rprint s + r\x1b[201~\r");
+    terminal.wait_for("\n7\n> ");
+}
+
+#[test]
+fn ctrl_c_clears_says_how_to_leave_and_stops_what_runs() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("length A");
+    terminal.wait_for_line("> length A");
+    terminal.press(CTRL_C);
+    terminal.wait_for_prompt();
+    assert!(!terminal.screen().contains("or Ctrl-D leaves"), "{}", terminal.screen());
+    terminal.press(CTRL_C);
+    terminal.wait_for("`quit` or Ctrl-D leaves");
+    // In a block, the whole of it.
+    terminal.press("for i in 1..2 {\r");
+    terminal.wait_for_line("...   ");
+    terminal.press(CTRL_C);
+    terminal.wait_for_prompt();
+    // What runs.
+    terminal.press("step 1e9\r");
+    terminal.wait_for(" %, ");
+    terminal.press(CTRL_C);
+    terminal.wait_for("of 1000000000 frames");
+    terminal.wait_for_prompt();
+    terminal.enter("time");
+    terminal.press(CTRL_D);
+    assert_eq!(terminal.end().code(), Some(0));
+}
+
+#[test]
+fn what_was_typed_is_there_in_the_next_session() {
+    let home = tempdir().expect("a folder");
+    let terminal = Terminal::session(home.path());
+    terminal.enter("let r = 3");
+    terminal.enter("nonsense");
+    terminal.enter("let r = r0");
+    terminal.enter("history");
+    terminal.wait_for("> history\nlet r = 3\n> ");
+    terminal.enter("save \"typed.link\" history");
+    let typed = std::fs::read_to_string(home.path().join("typed.link")).expect("it is written");
+    assert!(typed.ends_with("\nlet r = 3\nhistory\n"), "{typed}");
+    terminal.press("quit\r");
+    assert_eq!(terminal.end().code(), Some(0));
+    let terminal = Terminal::session(home.path());
+    terminal.press(&format!("{UP}{UP}{UP}{UP}"));
+    terminal.wait_for_line("> let r = r0");
+    terminal.clear();
+    terminal.press("let");
+    terminal.wait_for("> let r = r0");
+}
+
+#[test]
+fn a_terminal_that_changes_its_size_shows_the_line_anew() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    let line = "length A B = 1 + 2 + 3 + 4 + 5 + 6";
+    terminal.press(line);
+    terminal.wait_for_line(&format!("> {line}"));
+    terminal.resize(24, 30);
+    terminal.press(" + 7");
+    terminal.wait_for("+ 5 + 6 + 7");
+    terminal.press("\r");
+    terminal.enter("1 + 2");
+    terminal.wait_for("\n3\n> ");
+}
+
+#[test]
+fn keys_are_those_of_vi_where_the_user_has_them_so() {
+    let home = tempdir().expect("a folder");
+    std::fs::write(home.path().join(".inputrc"), "set editing-mode vi\n").expect("a file");
+    let terminal = Terminal::start(home.path(), &Start::default());
+    terminal.wait_for_prompt();
+    terminal.press("1 + 3");
+    terminal.wait_for_line("> 1 + 3");
+    // Back to the first letter, which is deleted.
+    terminal.press("\x1b");
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    terminal.press("0x");
+    terminal.wait_for(">  + 3");
+}

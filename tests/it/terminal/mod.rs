@@ -1,0 +1,6 @@
+//! The program as who sits at a terminal sees it, key by key.
+
+mod journal;
+mod line;
+mod screen;
+mod surroundings;

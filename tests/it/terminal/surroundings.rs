@@ -1,0 +1,141 @@
+//! What the program makes of the terminal it finds: none, a dumb one, a narrow one, one without
+//! colours; of the user's pager and first file.
+
+use std::fs;
+
+use tempfile::tempdir;
+
+use super::screen::{Start, Terminal};
+
+fn is_coloured(terminal: &Terminal) -> bool {
+    let text = String::from_utf8_lossy(&terminal.bytes()).into_owned();
+    let mut codes = text.split("\x1b[").skip(1);
+    codes.any(|code| {
+        code.find(|c: char| !c.is_ascii_digit() && c != ';')
+            .is_some_and(|end| &code[end..=end] == "m")
+    })
+}
+
+#[test]
+fn without_colours_nothing_is_coloured_and_nothing_hinted() {
+    let home = tempdir().expect("a folder");
+    let start = Start { env: &[("NO_COLOR", "1")], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for_prompt();
+    terminal.press("motor A ");
+    terminal.wait_for_line("> motor A ");
+    terminal.press("\r");
+    terminal.wait_for("expected");
+    terminal.wait_for_prompt();
+    assert!(!terminal.screen().contains("radius R]\n> motor"), "{}", terminal.screen());
+    assert!(!is_coloured(&terminal));
+    terminal.press("for i in 1..2 {\r");
+    terminal.wait_for_line("...   ");
+}
+
+#[test]
+fn a_dumb_terminal_gets_letters_only() {
+    let home = tempdir().expect("a folder");
+    let start = Start { env: &[("TERM", "dumb"), ("PAGER", "sed s/^/paged/")], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for("> ");
+    terminal.press("1 + 2\rhelp\rnonsense\r");
+    terminal.wait_for("unknown name");
+    let text = String::from_utf8_lossy(&terminal.bytes()).into_owned();
+    assert!(!text.contains('\x1b') && !text.contains("paged"), "{text:?}");
+    assert!(text.contains("\r\n3\r\n"), "{text:?}");
+}
+
+#[test]
+fn a_narrow_terminal_shows_all_of_it() {
+    let home = tempdir().expect("a folder");
+    let start = Start { size: (24, 40), ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for("> ");
+    terminal.press("point A = (0, 0) frozen, B = (1, 0), CCC = (1 2)\r");
+    terminal.wait_for("expected");
+    terminal.wait_for_prompt();
+    terminal.press("motor A ");
+    terminal.wait_for("> motor A ");
+    terminal.clear();
+    terminal.enter("1 + 2");
+    terminal.wait_for("\n3\n");
+}
+
+#[test]
+fn long_answers_go_to_the_pager_and_short_ones_do_not() {
+    let home = tempdir().expect("a folder");
+    let pager = ("PAGER", "sed s/^/paged:/");
+    let start = Start { env: &[pager], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for_prompt();
+    terminal.press("help motor\r");
+    terminal.wait_for("motor O P");
+    terminal.press("help\r");
+    terminal.wait_for("paged:");
+    terminal.wait_for_prompt();
+    assert!(!String::from_utf8_lossy(&terminal.bytes()).contains("paged:motor O P"));
+    drop(terminal);
+    let start = Start { env: &[pager], args: &["--no-pager"], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for_prompt();
+    terminal.press("help\r");
+    terminal.wait_for("says more");
+    assert!(!String::from_utf8_lossy(&terminal.bytes()).contains("paged:"));
+}
+
+#[test]
+fn a_long_run_shows_how_far_it_is_and_a_short_one_does_not() {
+    let home = tempdir().expect("a folder");
+    let terminal = Terminal::session(home.path());
+    terminal.enter("point A = (0, 0) frozen, B = (1, 0); motor A B");
+    terminal.enter("step 10");
+    assert!(!terminal.screen().contains('%'));
+    terminal.press("step 1e9\r");
+    terminal.wait_for(" %, ");
+    terminal.wait_for("left");
+    terminal.press("\x03");
+    terminal.wait_for("stopped after");
+    terminal.wait_for_prompt();
+    assert!(!terminal.screen().contains('%'), "{}", terminal.screen());
+}
+
+#[test]
+fn the_users_own_file_begins_a_session() {
+    let home = tempdir().expect("a folder");
+    let folder = home.path().join(".config/linkwork");
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("init.link"), "let mine = 42\nlenght").expect("a file");
+    let terminal = Terminal::session(home.path());
+    terminal.wait_for("init.link:2:1");
+    terminal.enter("mine");
+    terminal.wait_for("\n42\n");
+    drop(terminal);
+    let terminal =
+        Terminal::start(home.path(), &Start { args: &["--no-init"], ..Start::default() });
+    terminal.wait_for_prompt();
+    terminal.press("mine\r");
+    terminal.wait_for("unknown name `mine`");
+}
+
+#[test]
+fn a_session_goes_on_where_a_file_ended() {
+    let home = tempdir().expect("a folder");
+    fs::write(home.path().join("a.link"), "let r = 3\nassert 1 = 2").expect("a file");
+    let start = Start { args: &["-i", "a.link", "-e", "let r = 4"], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for("assertion failed");
+    terminal.wait_for_prompt();
+    terminal.enter("r + 0");
+    terminal.wait_for("\n3\n");
+}
+
+#[test]
+fn an_example_is_run_and_played_with() {
+    let home = tempdir().expect("a folder");
+    let start = Start { args: &["examples", "klann", "-i"], ..Start::default() };
+    let terminal = Terminal::start(home.path(), &start);
+    terminal.wait_for_prompt();
+    terminal.enter("list definitions");
+    terminal.wait_for("define dyad(");
+}
