@@ -53,7 +53,7 @@ const CASES: [Case; 9] = [
         before: nothing,
         statement: |n| format!("for i in 1..0 {{ {} }}", "let q = 1\n".repeat(n)),
     },
-    Case { what: "making islands", size: 8000, before: rods, statement: |_| "step".to_owned() },
+    Case { what: "making islands", size: 8000, before: rods, statement: |_| "solve".to_owned() },
     Case { what: "solving a net", size: 16, before: net, statement: |_| "solve".to_owned() },
     Case { what: "what a net can do", size: 12, before: net, statement: |_| "check".to_owned() },
     Case {

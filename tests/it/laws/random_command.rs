@@ -48,7 +48,7 @@ const OTHERS: [&str; 36] = [
     "print c1.value, c2.residual, p1",
     "assert distance(B, C) = r within 1e-3",
     "svg \"a.svg\"",
-    "trace B; trace p2; step 2; svg \"b.svg\"; untrace all",
+    "for i in 1..1 { trace B; step 2; svg \"b.svg\"; untrace all }",
     "record \"c.csv\"",
     "record stop",
     "record \"d.svg\"",
