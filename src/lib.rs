@@ -52,6 +52,7 @@ pub mod cli;
 pub mod constraint;
 pub mod diag;
 pub mod errors;
+mod interrupt;
 pub mod lang;
 #[doc(hidden)]
 pub mod linalg;

@@ -45,6 +45,9 @@ pub fn run() -> ExitCode {
         None => run::batch(&args.scripts, &args.host),
     };
     output::flush();
+    if let Some(status) = interrupt::ending() {
+        return status.into();
+    }
     let is_lost = status == run::ExitStatus::Fine && output::has_failed();
     if is_lost { run::ExitStatus::Unreadable.into() } else { status.into() }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::time::Instant;
 
 use super::args::HostArguments;
@@ -12,7 +13,7 @@ use super::spool::FileSpool;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Sketch;
-use crate::session::{Example, Host, Kept, Spool, contained, reason};
+use crate::session::{Example, Host, Kept, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
@@ -125,6 +126,10 @@ impl Host for ProcessHost {
 
     fn is_interrupted(&self) -> bool {
         interrupt::is_asked()
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        Some(Rc::new(interrupt::is_asked))
     }
 
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 use std::io::{self, BufRead, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, sync_channel};
 
 use super::args::{HostArguments, Scripts, command_names};
 use super::process_host::ProcessHost;
 use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
-use crate::lang::is_incomplete;
+use crate::lang::Growing;
 use crate::session::{Flow, Host, Outcome, Quota, Session, Transcript, reason};
 
 /// What the process says of how it went.
@@ -173,7 +174,7 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
 fn add(file: &Path, session: &mut Session) -> Result<SourceId, ExitStatus> {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
-    let text = if is_stdin { interrupt::while_waiting(read_stdin) } else { files::read(file) };
+    let text = if is_stdin { read_stdin() } else { interrupt::while_waiting(|| files::read(file)) };
     match text {
         Ok(text) => {
             let folder = file.parent().map(Path::to_path_buf).unwrap_or_default();
@@ -223,7 +224,29 @@ fn lone_word(file: &Path, problem: Diagnostic) -> Diagnostic {
 }
 
 fn read_stdin() -> io::Result<String> {
-    files::read_text(io::stdin().lock())
+    let (to, text) = sync_channel(1);
+    std::thread::spawn(move || drop(to.send(files::read_text(io::stdin().lock()))));
+    interrupt::next_from(&text).unwrap_or_else(|| Err(io::ErrorKind::Interrupted.into()))
+}
+
+/// Lines read ahead of what works on them.
+const LINES_AHEAD: usize = 1024;
+
+/// The lines of standard input with their ends, up to the end or the first that cannot be read. They
+/// are read by a thread of their own, so that who waits for one can be woken.
+fn lines_of_stdin() -> Receiver<io::Result<Vec<u8>>> {
+    let (to, lines) = sync_channel(LINES_AHEAD);
+    std::thread::spawn(move || {
+        loop {
+            let mut line = Vec::new();
+            let result = io::stdin().lock().read_until(b'\n', &mut line);
+            let is_last = !matches!(result, Ok(1..));
+            if matches!(result, Ok(0)) || to.send(result.map(|_| line)).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    lines
 }
 
 /// An empty session.
@@ -287,22 +310,17 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     process.end_journal();
 }
 
-/// A block longer than this is looked at from time to time only, to see whether it is whole:
-/// each look reads all of it.
-const LINES_WATCHED: usize = 64;
-
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
 fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
     let mut status = ExitStatus::Fine;
-    let mut piece = String::new();
-    let mut n_lines = 0;
+    let mut piece = Growing::default();
     let mut is_first = true;
+    let lines = lines_of_stdin();
     loop {
-        let mut line = Vec::new();
-        match interrupt::while_waiting(|| io::stdin().lock().read_until(b'\n', &mut line)) {
-            Ok(_) => {}
+        let line = match interrupt::next_from(&lines).unwrap_or_else(|| Ok(Vec::new())) {
+            Ok(line) => line,
             Err(e) => {
                 let problem = Diagnostic::error(
                     errors::CANNOT_READ,
@@ -311,21 +329,17 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
                 output::show(&problem, session.sources());
                 return ExitStatus::Unreadable;
             }
-        }
+        };
         let is_end = line.is_empty();
         let mark = files::BYTE_ORDER_MARK;
         let typed_line = if is_first { line.strip_prefix(mark) } else { None };
-        piece.push_str(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
+        let is_whole = piece.add(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
         is_first = false;
-        n_lines += 1;
-        let is_due = n_lines < LINES_WATCHED || n_lines % LINES_WATCHED == 0 || line == b"}\n";
-        if !is_end && (!is_due || is_incomplete(&piece)) {
+        if !is_end && !is_whole {
             continue;
         }
-        let Outcome { flow, failure } = transcript.enter(&piece, session, host);
+        let Outcome { flow, failure } = transcript.enter(&piece.take(), session, host);
         output::flush();
-        piece.clear();
-        n_lines = 0;
         if status == ExitStatus::Fine {
             status = failure.as_ref().map_or(ExitStatus::Fine, ExitStatus::of);
         }

@@ -43,4 +43,4 @@ pub use parts::row::Row;
 pub use parts::turns::Turns;
 pub use parts::vec2::Vec2;
 pub(crate) use parts::winding::Winding;
-pub use traits::{Activity, Carried, Flag, Flaw, Quantity, Traits};
+pub use traits::{Activity, Carried, Flag, Flaw, LARGEST, Quantity, Traits};

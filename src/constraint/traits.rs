@@ -2,6 +2,10 @@
 
 use crate::constraint::{Bounds, Field};
 
+/// Coordinates and values of constraints are no larger: products of four of them are still
+/// numbers. Nothing that is built comes near it, and what runs away to there is lost anyway.
+pub const LARGEST: f64 = 1e60;
+
 /// What a constraint says of itself besides its equations. There are no defaults: a kind that
 /// forgets to answer does not compile.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -166,7 +166,7 @@ fn snippet<'a>(marks: &[Mark<'a>], sources: &'a Sources) -> Option<Drawn<'a>> {
     let last = ranges.iter().map(|range| range.end).max()?;
     let tail = text.ceil_char_boundary(last.saturating_add(LONGEST_TAIL));
     let to = line_end(text, last).min(tail).max(last);
-    let line = text[..from].bytes().filter(|&byte| byte == b'\n').count() + source.first_line;
+    let line = source.line(from);
     let annotations = marks.iter().zip(ranges).map(|((_, label, kind), range)| {
         let label = (!label.is_empty()).then_some(*label);
         kind.span(range.start - from..range.end - from).label(label)

@@ -1,10 +1,10 @@
 //! The texts that were read, and places in them.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A stretch of bytes in one of the texts of a [`Sources`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// The text it lies in.
     pub source: SourceId,
@@ -57,6 +57,20 @@ pub struct Source {
     pub text: Arc<str>,
     /// The number of its first line: more than 1 for a piece of what was typed.
     pub first_line: usize,
+    /// Where each line ends, once asked for: a long text with many warnings is read once for all of
+    /// them.
+    line_ends: OnceLock<Arc<[usize]>>,
+}
+
+impl Source {
+    /// The number of the line that the byte `at` is in.
+    pub fn line(&self, at: usize) -> usize {
+        let ends = self.line_ends.get_or_init(|| {
+            let bytes = self.text.bytes().enumerate();
+            bytes.filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect()
+        });
+        self.first_line + ends.partition_point(|&end| end < at)
+    }
 }
 
 /// Every text read so far. What may still be pointed at is never taken out, so a [`Span`] stays
@@ -85,7 +99,8 @@ impl Sources {
         first_line: usize,
     ) -> SourceId {
         let id = SourceId(u32::try_from(self.all.len()).expect("fewer than 2^32 texts"));
-        self.all.push(Source { name: name.into(), text: text.into(), first_line });
+        let line_ends = OnceLock::new();
+        self.all.push(Source { name: name.into(), text: text.into(), first_line, line_ends });
         id
     }
 
@@ -120,11 +135,11 @@ impl Sources {
 
     /// Line and column of the first byte of `span`.
     pub fn place(&self, span: Span) -> Option<Place> {
-        let Source { text, first_line, .. } = self.get(span.source)?;
-        let before = &text[..clip(text, span.range()).start];
+        let source = self.get(span.source)?;
+        let before = &source.text[..clip(&source.text, span.range()).start];
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
         Some(Place {
-            line: before.bytes().filter(|&byte| byte == b'\n').count() + first_line,
+            line: source.line(before.len()),
             column: before[line_start..].chars().count() + 1,
         })
     }

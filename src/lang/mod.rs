@@ -11,6 +11,7 @@ mod constraint;
 mod expr;
 mod format;
 mod grammar;
+mod growing;
 mod layout;
 mod lower;
 mod parts;
@@ -18,6 +19,7 @@ mod print;
 mod usage;
 
 pub use format::format;
+pub use growing::Growing;
 pub use layout::{depth, statement_start};
 pub use lower::{
     Class, NameOf, Next, Statements, Token, is_incomplete, nearest_command, next, parse, tokens,

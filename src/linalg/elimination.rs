@@ -1,6 +1,10 @@
 //! What elimination does to the pattern: its tree, its fill, and an order that follows the tree.
 
 use super::graph::Lists;
+use crate::interrupt::tick;
+
+/// What a place of the pattern takes, in ticks.
+const FILL: usize = 10;
 
 /// Marks a root of the elimination tree.
 pub const ROOT: u32 = u32::MAX;
@@ -66,6 +70,7 @@ pub fn fill(lower: &Lists, parent: &[u32]) -> Lists {
     let mut rows = Lists::new();
     let mut row = Vec::new();
     for k in 0..lower.len() {
+        tick(FILL * (row.len() + 1));
         row.clear();
         seen[k] = k as u32;
         for &i in lower.get(k) {

@@ -7,6 +7,7 @@
 #![allow(clippy::inline_always)]
 
 use super::block::Pivots;
+use crate::interrupt::tick;
 
 /// Rows of a tile.
 const TALL: usize = 8;
@@ -38,6 +39,8 @@ pub fn subtract_product(
 ) {
     let mut j = 0;
     while j < n_columns {
+        // A product of this many numbers takes about a nanosecond for each eight.
+        tick(d.len() * (n_rows - j) / 2);
         if n_columns - j >= WIDE {
             strip::<WIDE>(&mut c[j * ldc..], ldc, l, d, packed, [j, n_rows]);
             j += WIDE;

@@ -1,8 +1,12 @@
 //! An elimination order with little fill: approximate minimum degree on a quotient graph.
 
 use super::graph::Graph;
+use crate::interrupt::tick;
 
 const NONE: u32 = u32::MAX;
+
+/// What the elimination of a point takes, in ticks.
+const PIVOT: usize = 200;
 
 /// An order in which to eliminate the points: `order[k]` goes k-th.
 ///
@@ -16,6 +20,7 @@ pub fn minimum_degree(graph: &Graph) -> Vec<u32> {
     let mut order = Vec::with_capacity(n);
     while order.len() < n {
         let pivot = quotient.buckets.pop_least();
+        tick(PIVOT);
         quotient.eliminate(pivot, n - order.len());
         let mut point = pivot as u32;
         while point != NONE {

@@ -3,6 +3,7 @@
 use super::elimination::{self, ROOT};
 use super::graph::{Graph, Lists, inverse, lower_triangle};
 use super::order::minimum_degree;
+use crate::interrupt::tick;
 
 /// An entry smaller than this is the rounding of a 0: not worth a rotation.
 const NOISE: f64 = 1e-15;
@@ -55,6 +56,7 @@ impl RowBasis {
         // All the row holds, or will hold, lies on the way from its first place to the root.
         while first != ROOT {
             let place = first as usize;
+            tick(2 * self.reach.get(place).len());
             for half in 0..2 {
                 if self.work[place][half].abs() < NOISE {
                     self.work[place][half] = 0.0;

@@ -3,6 +3,10 @@
 use super::block::{Block, Pivots};
 use super::graph::Lists;
 use super::normal::Normal;
+use crate::interrupt::tick;
+
+/// So many products of blocks are worth a tick.
+const MANY: usize = 1 << 14;
 
 /// A factor by columns of blocks, with room for its fill; nothing is allocated per factor.
 pub struct Sparse {
@@ -54,7 +58,11 @@ impl Sparse {
     /// `D_k = A_kk - sum_i L_ki Z_ki^T` (T. Davis, "Algorithm 849: LDL", ACM TOMS 31, 2005).
     pub fn factor(&mut self, normal: &Normal, mu: f64) -> Pivots {
         let mut pivots = Pivots::NONE;
+        let mut n_products = 0;
         for k in 0..self.diagonal.len() {
+            if n_products > MANY {
+                tick(std::mem::take(&mut n_products));
+            }
             for (i, block) in normal.row(k) {
                 self.work[i] = *block;
             }
@@ -66,6 +74,7 @@ impl Sparse {
                 let Diagonal { l, reciprocals: [r0, r1] } = self.diagonal[i];
                 let z = [y[0], y[1] - l * y[0], y[2], y[3] - l * y[2]];
                 let (start, end) = (self.rows.range(i).start, self.next[i] as usize);
+                n_products += end - start + 1;
                 for (&j, b) in self.rows.items()[start..end].iter().zip(&self.blocks[start..end]) {
                     let target = &mut self.work[j as usize];
                     target[0] -= z[0] * b[0] + z[1] * b[1];

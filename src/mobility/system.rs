@@ -268,11 +268,11 @@ impl ConstraintSystem<'_> {
     }
 
     fn unit(&self, row: &Row, place: &[Option<u32>], source: (usize, usize)) -> Option<UnitRow> {
-        let squared = row.norm_squared(self.w);
-        if squared == 0.0 {
+        let norm = row.norm(self.w);
+        let scale = 1.0 / norm;
+        if norm == 0.0 || !scale.is_normal() {
             return None;
         }
-        let scale = 1.0 / squared.sqrt();
         let mut unit = UnitRow {
             source,
             f: row.f * scale,

@@ -13,6 +13,7 @@ use super::page::{LEGEND_HEIGHT, Page};
 use super::style::{self, PAPER};
 use super::text::printable;
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
 
 /// How a picture begins that this program drew: `svg` writes attributes in the order of their names.
 pub const FIRST_WORDS: &str = "<svg class=\"linkwork\"";
@@ -23,6 +24,9 @@ const PLACES: usize = 2;
 const DEGREE_PLACES: usize = 3;
 /// How strongly something that is switched off is drawn.
 const OFF: f64 = 0.3;
+
+/// What the writing of a figure takes, in ticks.
+const FIGURE: usize = 2000;
 
 /// What a picture says besides the drawing.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -117,6 +121,7 @@ fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element
     if figure.is_off {
         group.assign("opacity", format_decimals(OFF, PLACES));
     }
+    tick(FIGURE);
     if let Some(note) = figure.note.as_deref().filter(|note| !note.is_empty()) {
         group.append(with_text("title", note));
     }

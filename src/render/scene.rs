@@ -39,6 +39,14 @@ impl Scene {
         Self { pose, ghosts, curves }
     }
 
+    /// Roughly how many bytes it takes beside others that share its symbols and ghosts.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>()
+            + size_of_val(&*self.pose.at)
+            + size_of_val(&*self.ghosts)
+            + size_of_val(&*self.curves)
+    }
+
     /// The scene of the same world somewhat later. It shares with this one what did not
     /// change: frames of a recording made this way take the room of their positions.
     #[must_use]

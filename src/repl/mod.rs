@@ -32,7 +32,8 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut transcript = Transcript::conversation("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
-        match editor.readline(PROMPT) {
+        match interrupt::at_prompt(|| editor.readline(PROMPT)) {
+            _ if interrupt::is_ending() => return,
             Ok(line) => {
                 let line = look::without_marks(&line);
                 let line = without_prompts(&line);

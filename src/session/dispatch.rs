@@ -6,6 +6,7 @@ use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
+use crate::interrupt;
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
 };
@@ -15,6 +16,7 @@ impl Execution<'_> {
     pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements += 1;
         self.input.quotas.check(Quota::Statements, self.n_statements, statement.span)?;
+        interrupt::rest();
         let flow = self.perform(statement).map_err(|problem| {
             // What fails elsewhere, in a live expression, was reached from here.
             let is_elsewhere = problem.place().is_some_and(|place| !statement.span.holds(place));

@@ -1,5 +1,6 @@
 //! The command under way: what it works on, and what is needed for as long as it runs.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::host::Host;
@@ -11,6 +12,7 @@ use super::summary::Summary;
 use super::undo::history::History;
 use super::undo::journal::Change;
 use crate::diag::{Diagnostic, Span};
+use crate::interrupt;
 use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
@@ -52,7 +54,7 @@ pub struct Execution<'a> {
     /// What has run so far.
     pub run: Option<Summary>,
     /// Where likely slips were found.
-    pub slips: Vec<Span>,
+    pub slips: BTreeSet<Span>,
     /// Whether work is under way whose progress is told: what is part of it tells none.
     is_telling_progress: bool,
 }
@@ -77,17 +79,28 @@ impl<'a> Execution<'a> {
             included: Vec::new(),
             outbox: Vec::new(),
             run: None,
-            slips: Vec::new(),
+            slips: BTreeSet::new(),
             is_telling_progress: false,
         }
     }
 
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
-        let result = self.dispatch(statement).and_then(|flow| {
+        let wish = self.host.wish_to_stop();
+        let work = || {
+            let flow = self.dispatch(statement)?;
             if self.state.preferences.is_live && statement.command.is_edit() {
                 self.solve_after_edit()?;
             }
+            Ok(flow)
+        };
+        let Ok(result) = interrupt::listening(wish, work) else {
+            self.history.roll_back(self.state);
+            self.state.solver.begin_anew();
+            self.note("stopped; it changed nothing");
+            return Ok(Flow::Stopped);
+        };
+        let result = result.and_then(|flow| {
             self.flush_outbox()?;
             Ok(flow)
         });

@@ -5,6 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources};
+use crate::interrupt::Wish;
 use crate::render::Sketch;
 
 /// What a journal is told of a session.
@@ -62,6 +63,12 @@ pub trait Host {
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {
         false
+    }
+
+    /// What says the same within a long piece of work, which is then left half done and taken back;
+    /// by default that is not asked.
+    fn wish_to_stop(&self) -> Option<Wish> {
+        None
     }
 
     /// Where a file that a script names is written, and found again; by default under its own

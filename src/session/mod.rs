@@ -55,10 +55,12 @@ pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 
+pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
 
 use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources};
+use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
 use crate::solve::present;
 use crate::world::{Entity, Value, World};
@@ -184,6 +186,11 @@ impl Session {
         self.history.last_run.as_ref()
     }
 
+    /// Roughly how many bytes are kept so that commands can be taken back or done again.
+    pub const fn undo_bytes(&self) -> usize {
+        self.history.journal.n_bytes()
+    }
+
     /// Keeps a text. `folder` is where what it includes is looked for.
     pub fn add_source(&mut self, name: &str, text: &str, folder: Option<PathBuf>) -> SourceId {
         self.add_piece(name, text, 1, folder)
@@ -237,7 +244,9 @@ impl Session {
         host: &mut dyn Host,
     ) -> Result<Flow, Diagnostic> {
         let text = self.input.sources.get(source).map(|s| s.text.clone()).unwrap_or_default();
-        for statement in crate::lang::parse(source, &text) {
+        let mut statements = crate::lang::parse(source, &text);
+        while let Some(statement) = next_of(&mut statements, host).transpose() {
+            let Ok(statement) = statement else { return Ok(Flow::Stopped) };
             let statement = statement.map_err(|problem| self.advise(problem))?;
             let flow = self.execute(&statement, host)?;
             if flow != Flow::On {
@@ -331,4 +340,12 @@ impl Session {
     fn command<'a>(&'a mut self, host: &'a mut dyn Host) -> Execution<'a> {
         Execution::new(&mut self.state, &mut self.input, &mut self.history, host)
     }
+}
+
+/// The next statement of a text, unless the user stops the reading of it.
+fn next_of(
+    statements: &mut impl Iterator<Item = Result<Statement, Diagnostic>>,
+    host: &dyn Host,
+) -> Result<Option<Result<Statement, Diagnostic>>, Stopped> {
+    interrupt::listening(host.wish_to_stop(), || statements.next())
 }

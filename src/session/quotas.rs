@@ -3,6 +3,7 @@
 
 use crate::diag::{Diagnostic, Span, format_count, format_number, suggest};
 use crate::errors;
+use crate::world::Extent;
 
 /// Something of which there is a most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +84,14 @@ pub const UNDO_BYTES: usize = 256 << 20;
 
 /// Commands kept for `undo`.
 pub const UNDO_COMMANDS: usize = 10_000;
+
+/// Terms of one expression with all that the members in it stand for, and how deep they may stand
+/// within each other: each is worked out many times a frame, by calls within calls.
+pub const LONGEST_EXPRESSION: Extent = Extent { n_terms: 100_000, depth: 500 };
+
+/// An argument of a definition that has more terms becomes a parameter of the instance: what it is
+/// handed on to mentions it, and does not hold it again.
+pub const LONGEST_ARGUMENT: u32 = 64;
 
 impl Quota {
     /// All of them.

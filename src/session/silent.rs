@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::host::Host;
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Severity, Sources};
+use crate::interrupt::Wish;
 
 /// A host behind which a script prints nothing, and what it writes is only there for itself to
 /// read. Errors reach the host, and so does the wish to stop.
@@ -33,6 +34,10 @@ impl Host for Silent<'_> {
 
     fn is_listening(&self) -> bool {
         false
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        self.host.wish_to_stop()
     }
 
     fn is_interrupted(&self) -> bool {

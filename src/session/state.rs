@@ -17,8 +17,6 @@ pub struct State {
     pub world: World,
     /// What solves it, with what that remembers.
     pub solver: Solver,
-    /// Whether the solver has yet to take in what it was told to remember.
-    pub is_behind: bool,
     /// What `set` sets.
     pub preferences: Preferences,
     /// What `define` defines, by name.
@@ -38,7 +36,6 @@ impl State {
         Self {
             world: World::new(),
             solver: Solver::new(),
-            is_behind: false,
             preferences: Preferences::default(),
             definitions: BTreeMap::new(),
             recorders: Vec::new(),

@@ -4,9 +4,9 @@
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use super::Session;
 use super::execution::Flow;
 use super::host::Host;
+use super::{Session, next_of};
 use crate::diag::{Diagnostic, SourceId, Span};
 use crate::lang::ast::Command;
 use crate::lang::parse;
@@ -82,7 +82,12 @@ impl Transcript {
         self.n_lines += piece.lines().count().max(1);
         let mut outcome = Outcome { flow: Flow::On, failure: None };
         let mut left_out = 0;
-        for statement in parse(source, piece) {
+        let mut statements = parse(source, piece);
+        while let Some(statement) = next_of(&mut statements, host).transpose() {
+            let Ok(statement) = statement else {
+                outcome.flow = Flow::Stopped;
+                break;
+            };
             let span = match &statement {
                 Ok(statement) => statement.span,
                 Err(problem) => problem.place().unwrap_or(Span::new(source, 0..0)),

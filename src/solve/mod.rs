@@ -30,6 +30,8 @@ pub use cost::{is_one_sided, is_wheel};
 pub use dead_point::Halt;
 #[doc(hidden)]
 pub use island::memory::Memory;
+#[doc(hidden)]
+pub use island::recall::Recall;
 pub use parallel::limit_cores;
 pub use report::Status;
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use super::hand::{Hand, move_by};
 use crate::constraint::{Carried, Constraint, ConstraintKind as _};
 use crate::diag::Diagnostic;
 use crate::solve::{Budget, Memory, Report, Settings, Solver};
-use crate::world::{Edit, Motion, PointId, World};
+use crate::world::{Edit, Moment, PointId, World};
 
 /// A motion that can be done again: a world as it was before, and what happened then.
 #[derive(Debug, Clone)]
@@ -33,20 +33,24 @@ pub struct Leg {
 impl RepeatableMotion {
     /// The motion of `world` from now on: time passes and nothing else happens.
     pub fn ahead(world: &World, memory: Memory, settings: Settings, n_frames: u64) -> Self {
-        Self::back(world, world.motion(), memory, settings, Vec::new()).with_frames(n_frames)
+        Self::back(world, world.moment(), memory, settings, Vec::new()).with_frames(n_frames)
     }
 
-    /// What happened in `world` since `motion`: `legs`, one after the other.
+    /// What happened in `world` since `moment`: `legs`, one after the other.
     pub fn back(
         world: &World,
-        motion: Motion,
+        moment: Moment,
         memory: Memory,
         settings: Settings,
         legs: Vec<Leg>,
     ) -> Self {
         let mut world = world.clone();
-        // Going back makes a solver that is new take in everything, too.
-        world.apply(Edit::Motion(Box::new(motion)));
+        world.go_to(moment);
+        Self::from(world, memory, settings, legs)
+    }
+
+    /// What happened in a world after it was this one: `legs`, one after the other.
+    pub fn from(mut world: World, memory: Memory, settings: Settings, legs: Vec<Leg>) -> Self {
         while !world.ghosts().is_empty() {
             world.apply(Edit::Ghost(None));
         }

@@ -17,6 +17,7 @@ impl World {
             Edit::Point(id, record) => Edit::Point(id, self.swap_point(id, record)),
             Edit::Move(id, at) => {
                 debug_assert!(at.is_finite(), "a position is finite");
+                self.note_place(id);
                 self.touched.moved.push(id);
                 self.dependencies.note_change();
                 Edit::Move(id, std::mem::replace(&mut self.points.at[id.idx()], at))
@@ -60,17 +61,19 @@ impl World {
             }
             Edit::Ghost(None) => Edit::Ghost(self.ghosts.pop().map(Box::new)),
             Edit::Start(id, at) => {
+                self.note_start();
                 Edit::Start(id, std::mem::replace(&mut self.points.start[id.idx()], at))
             }
-            Edit::StartState(id, state) => Edit::StartState(
-                id,
-                match state {
+            Edit::StartState(id, state) => {
+                self.note_start();
+                let old = match state {
                     Some(state) => self.start_states.insert(id, state.into_vec()),
                     None => self.start_states.remove(&id),
-                }
-                .map(Vec::into_boxed_slice),
-            ),
+                };
+                Edit::StartState(id, old.map(Vec::into_boxed_slice))
+            }
             Edit::StartStates(states) => {
+                self.note_start();
                 Edit::StartStates(Box::new(std::mem::replace(&mut self.start_states, *states)))
             }
             Edit::TurnCount(mut count) => {
@@ -107,6 +110,7 @@ impl World {
         record: Option<Box<Record>>,
     ) -> Option<Box<Record>> {
         self.touched.constraints.push(id);
+        self.note_constraint(id);
         let old = self.constraints.get(id.idx());
         self.dependencies.note_constraint(id, old, record.as_deref());
         self.point_users.note_constraint(id, old, record.as_deref());

@@ -51,6 +51,6 @@ pub struct BatchRecords {
 impl BatchRecords {
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.points) + size_of_val(&*self.constraints)
+        size_of_val(&*self.points) + self.constraints.iter().map(Record::n_bytes).sum::<usize>()
     }
 }

@@ -85,6 +85,7 @@ impl World {
                 let _ = record.drive(&Here::new(self, None));
                 self.touched.constraints.push(id);
                 self.dependencies.note_switch();
+                self.note_constraint(id);
                 self.constraints.swap(id.idx(), Some(record));
             }
         }

@@ -85,6 +85,7 @@ impl World {
             }
         }
         self.dependencies.set_lists(lists);
+        self.log.note_motor_lists();
     }
 
     /// A motor with a speed that mentions time, and what of its parameters time changes.
@@ -107,20 +108,23 @@ impl World {
     /// Whether a formula mentions a point that can move, at any depth.
     pub fn follows_motion(&self, formula: &Formula) -> bool {
         let mut follows = false;
-        formula.mentions(&mut |mention| {
-            follows |= match mention {
-                Mention::Point(id) => !self.points.is_frozen(id),
-                Mention::Parameter(id) => {
-                    self.parameter(id).is_some_and(|p| self.follows_motion(&p.formula))
+        // Each parameter is looked at once: those that mention others twice would double.
+        let mut seen = BTreeSet::new();
+        let mut open = vec![formula.clone()];
+        while let Some(formula) = open.pop().filter(|_| !follows) {
+            formula.mentions(&mut |mention| match mention {
+                Mention::Point(id) => follows |= !self.points.is_frozen(id),
+                Mention::Parameter(id) if seen.insert(id) => {
+                    open.extend(self.parameter(id).map(|parameter| parameter.formula.clone()));
                 }
                 Mention::Member(id, Member::Radius) => match self.radius_driver(id) {
-                    Some(formula) => self.follows_motion(formula),
-                    None => self.radius_depends(id).on_points,
+                    Some(formula) => open.push(formula.clone()),
+                    None => follows |= self.radius_depends(id).on_points,
                 },
-                Mention::Member(id, Member::Value) => self.follows_motion(&self.measure(id)),
-                Mention::Member(..) => false,
-            };
-        });
+                Mention::Member(id, Member::Value) => open.push(self.measure(id)),
+                Mention::Parameter(_) | Mention::Member(..) => {}
+            });
+        }
         follows
     }
 

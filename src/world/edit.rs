@@ -75,6 +75,35 @@ impl Edit {
 }
 
 impl Edit {
+    /// Roughly how many bytes it holds, but for itself.
+    pub fn n_bytes(&self) -> usize {
+        match self {
+            Self::Point(_, Some(record)) => size_of_val(&**record),
+            Self::Constraint(_, Some(record)) => record.n_bytes(),
+            Self::RestoreBatch(records) => records.n_bytes(),
+            Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),
+            Self::Clock(clock) => size_of_val(&**clock),
+            Self::Trace(_, Some(trace)) => size_of_val(&**trace) + size_of_val(&*trace.samples),
+            Self::Ghost(Some(ghost)) => ghost.n_bytes(),
+            Self::StartState(_, Some(state)) => size_of_val(&**state),
+            Self::StartStates(states) => 80 * states.len(),
+            Self::TurnCount(count) => size_of_val(&**count),
+            Self::Motion(motion) => motion.n_bytes(),
+            Self::Point(_, None)
+            | Self::Move(..)
+            | Self::Freeze(..)
+            | Self::Weight(..)
+            | Self::Constraint(_, None)
+            | Self::Switch(..)
+            | Self::DeleteBatch(_)
+            | Self::Parameter(_, None)
+            | Self::Trace(_, None)
+            | Self::Ghost(None)
+            | Self::Start(..)
+            | Self::StartState(_, None) => 0,
+        }
+    }
+
     /// What an edit that deletes points or constraints deletes.
     fn deletes(&self) -> Option<Batch> {
         let mut batch = Batch::default();

@@ -25,6 +25,28 @@ struct Inner {
     shape: Shape,
     depends: Depends,
     span: Span,
+    extent: Extent,
+}
+
+/// How long and how deep an expression is. What is shared counts wherever it stands, as whoever goes
+/// through the expression meets it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Extent {
+    /// How many terms it has; very many count as the largest number.
+    pub n_terms: u32,
+    /// How many of them stand within each other.
+    pub depth: u32,
+}
+
+impl Extent {
+    /// One term around others.
+    fn around(parts: impl IntoIterator<Item = Self>) -> Self {
+        let all = parts.into_iter().fold(Self::default(), |all, part| Self {
+            n_terms: all.n_terms.saturating_add(part.n_terms),
+            depth: all.depth.max(part.depth),
+        });
+        Self { n_terms: all.n_terms.saturating_add(1), depth: all.depth.saturating_add(1) }
+    }
 }
 
 /// One node of the tree.
@@ -120,6 +142,11 @@ pub trait Environment<T: Real> {
 }
 
 impl Formula {
+    /// Roughly how many bytes it takes, but for the formulas that it is made of: those are shared.
+    pub const fn n_bytes(&self) -> usize {
+        size_of::<Inner>()
+    }
+
     /// A constant number without a place in a text.
     pub fn constant(value: f64) -> Self {
         Self::new(Node::Number(value, Unit::None), Shape::Number, Depends::default(), NOWHERE)
@@ -132,7 +159,22 @@ impl Formula {
 
     /// A node with its shape, what it depends on and its place in the text.
     pub fn new(node: Node, shape: Shape, depends: Depends, span: Span) -> Self {
-        Self(Arc::new(Inner { node, shape, depends, span }))
+        let extent = match &node {
+            Node::Number(..)
+            | Node::Parameter(_)
+            | Node::Point(_)
+            | Node::Member(..)
+            | Node::Time => Extent::around([]),
+            Node::Negate(a) | Node::X(a) | Node::Y(a) => Extent::around([a.extent()]),
+            Node::Vector(a, b) | Node::Binary(_, a, b) => Extent::around([a.extent(), b.extent()]),
+            Node::Call(_, arguments) => Extent::around(arguments.iter().map(Self::extent)),
+        };
+        Self(Arc::new(Inner { node, shape, depends, span, extent }))
+    }
+
+    /// How long and how deep it is by itself; what it mentions is one term.
+    pub fn extent(&self) -> Extent {
+        self.0.extent
     }
 
     /// The tree.

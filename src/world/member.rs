@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::environments::Here;
-use super::{ConstraintId, Depends, Environment, Formula, Mention, Node, PointId, World};
+use super::{ConstraintId, Depends, Environment, Extent, Formula, Mention, Node, PointId, World};
 use crate::constraint::{
     Carried, Constraint, ConstraintKind as _, Curve, Equal, Field, Real, length,
 };
@@ -107,6 +107,38 @@ impl World {
             });
         }
         is_found
+    }
+
+    /// How long and how deep a formula is with all that the members in it stand for; none where that
+    /// is more than `most`.
+    pub fn extent_within(&self, formula: &Formula, most: Extent) -> Option<Extent> {
+        let Extent { mut n_terms, depth } = formula.extent();
+        if n_terms > most.n_terms || depth > most.depth {
+            return None;
+        }
+        let mut members = Vec::new();
+        formula.mentions(&mut |mention| {
+            if let Mention::Member(id, member) = mention {
+                members.push((id, member));
+            }
+        });
+        members.sort_unstable_by_key(|(id, member)| (*id, *member as u8));
+        let mut deepest = 0;
+        for mentions in members.chunk_by(|a, b| a == b) {
+            let (id, member) = mentions[0];
+            let behind = match member {
+                Member::Radius => self.radius_driver(id).cloned(),
+                Member::Value => Some(self.measure(id)),
+                Member::Angle | Member::Residual => None,
+            };
+            let Some(behind) = behind else { continue };
+            let n_left = (most.n_terms - n_terms) / mentions.len() as u32;
+            let most = Extent { n_terms: n_left, depth: most.depth - depth };
+            let extent = self.extent_within(&behind, most)?;
+            n_terms += extent.n_terms * mentions.len() as u32;
+            deepest = deepest.max(extent.depth);
+        }
+        Some(Extent { n_terms, depth: depth + deepest })
     }
 
     /// The circle or arc that a constraint is, if it is one.

@@ -37,8 +37,12 @@ mod value;
 mod apply;
 mod batch;
 mod edit;
+mod log;
+pub(crate) mod marks;
+mod moment;
 mod motion;
 mod motors_alone;
+mod noting;
 mod quadrature;
 mod same;
 mod turn_count;
@@ -53,10 +57,12 @@ pub(crate) use driving::Driving;
 pub use edit::Edit;
 #[doc(hidden)]
 pub use environments::Rates;
-pub use formula::{Depends, Environment, Formula, Mention, Node};
+pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, ParameterId, PointId};
 #[doc(hidden)]
-pub use motion::Motion;
+pub use log::Motion;
+#[doc(hidden)]
+pub use moment::Moment;
 pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};

@@ -1,159 +1,111 @@
-//! Time going on: what a frame advances, and all that running changes as one piece of data.
+//! Time going on: what a frame advances, and what takes back all that running changed.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::dependencies::Ramp;
 use super::environments::Within;
+use super::log::Motion;
 use super::quadrature::mean;
-use super::same::{States, are_same_places, are_same_states};
+use super::same::{are_same_places, are_same_states, is_same_constraint, same_place};
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
 use super::{Clock, ConstraintId, Ghost, Sample, World};
-use crate::constraint::{Constraint, ConstraintKind, Field, Point};
+use crate::constraint::{Constraint, ConstraintKind, Field, Heading, Point};
 use crate::diag::Diagnostic;
 
-/// All that running changes: positions, clock, states of motors and wheels, traces, ghosts.
-/// One of these takes a whole run back, however many frames it had. Copies share what is large.
-#[derive(Debug, Clone)]
-pub struct Motion {
-    at: Arc<Vec<Point>>,
-    start: Arc<Vec<Point>>,
-    start_states: Arc<States>,
-    clock: Clock,
-    turn_counts: Arc<TurnCounts>,
-    states: Arc<States>,
-    /// Constraints with live values, which a frame sets: whole.
-    driven: Vec<(ConstraintId, Constraint)>,
-    traces: Vec<Tail<Sample>>,
-    ghosts: Tail<Ghost>,
-}
-
-impl Motion {
-    /// Roughly how many bytes it holds.
-    pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.at)
-            + size_of_val(&*self.start)
-            + size_of_val(&*self.driven)
-            + 80 * self.states.len()
-    }
-}
-
 impl World {
-    /// The traces and ghosts as they are, for a motion to go back to.
-    fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
+    /// The traces and ghosts as they are, to go back to.
+    pub(super) fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
         (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
     }
 
-    /// All that running changes, as it is now.
-    pub fn motion(&self) -> Motion {
+    /// What brings the present back while nothing has changed.
+    pub(super) fn bare_motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
-        let at = Arc::new(self.points.at.clone());
-        let is_at_start = are_same_places(&self.points.start, &self.points.at);
-        let start = if is_at_start { at.clone() } else { Arc::new(self.points.start.clone()) };
         Motion {
-            at,
-            start,
-            start_states: Arc::new(self.start_states.clone()),
+            points: Vec::new(),
+            at: Vec::new(),
+            motors: Vec::new(),
+            headings: Vec::new(),
+            constraints: Vec::new(),
+            start: None,
             clock: self.clock,
-            turn_counts: Arc::new(self.turn_counts.clone()),
-            states: Arc::new(self.states()),
-            driven: self.driven(),
+            turn_counts: (!self.turn_counts.is_empty()).then(|| self.turn_counts.clone()),
             traces,
             ghosts,
         }
     }
 
-    /// The same, sharing with an earlier one what did not change since.
-    pub fn motion_since(&self, earlier: &Motion) -> Motion {
-        let mut motion = self.motion();
-        share(&mut motion.at, &earlier.at, are_same_places);
-        share(&mut motion.start, &earlier.start, are_same_places);
-        share(&mut motion.start_states, &earlier.start_states, are_same_states);
-        share(&mut motion.states, &earlier.states, are_same_states);
-        motion
-    }
-
-    /// Whether this is the motion there is.
+    /// Whether a motion would leave everything as it is.
     pub(super) fn is_at(&self, motion: &Motion) -> bool {
-        let traces = self.traces.iter().zip(&motion.traces);
+        let mut places = motion.points.iter().zip(&motion.at);
+        let mut motors = motion.motors.iter().zip(&motion.headings);
+        let mut traces = self.traces.iter().zip(&motion.traces);
+        let constraint = |id: &ConstraintId| self.constraint(*id).map(|record| &record.constraint);
+        let has_turned_so = |motor: Option<&Constraint>, then: Heading| {
+            motor.and_then(heading).is_some_and(|now| now.is_same(then))
+        };
         self.clock == motion.clock
-            && are_same_places(&self.points.at, &motion.at)
-            && are_same_places(&self.points.start, &motion.start)
-            && are_same_states(&self.start_states, &motion.start_states)
-            && are_same_states(&self.states(), &motion.states)
-            && are_same_counts(&self.turn_counts, &motion.turn_counts)
-            && self.driven() == motion.driven
+            && places.all(|(id, at)| same_place(&self.points.at[id.idx()], at))
+            && motors.all(|(id, heading)| has_turned_so(constraint(id), *heading))
+            && motion
+                .constraints
+                .iter()
+                .all(|(id, then)| constraint(id).is_some_and(|now| is_same_constraint(now, then)))
+            && motion.start.as_ref().is_none_or(|start| {
+                are_same_places(&self.points.start, &start.at)
+                    && are_same_states(&self.start_states, &start.states)
+            })
+            && are_same_counts(
+                &self.turn_counts,
+                motion.turn_counts.as_ref().unwrap_or(&TurnCounts::new()),
+            )
             && self.traces.len() == motion.traces.len()
-            && traces.into_iter().all(|(trace, tail)| tail.is_all_of(&trace.samples))
+            && traces.all(|(trace, tail)| tail.is_all_of(&trace.samples))
             && motion.ghosts.is_all_of(&self.ghosts)
     }
 
-    /// The states of all constraints that running changes.
-    fn states(&self) -> States {
-        self.constraints().filter_map(|(id, r)| Some((id, whole_state(&r.constraint)?))).collect()
-    }
-
-    /// All constraints with live values, whole.
-    fn driven(&self) -> Vec<(ConstraintId, Constraint)> {
-        let driven = self.constraints().filter(|(_, r)| !r.live().is_empty());
-        driven.map(|(id, r)| (id, r.constraint.clone())).collect()
-    }
-
-    pub(super) fn swap_motion(&mut self, motion: Motion) -> Motion {
-        let (states, driven) = (self.states(), self.driven());
-        for (id, constraint) in motion.driven {
-            if let Some(record) = self.constraints.get_mut(id.idx()) {
-                record.constraint = constraint;
+    /// Puts everything back as a motion has it; gives the motion that takes this back.
+    pub(super) fn swap_motion(&mut self, mut motion: Motion) -> Motion {
+        for (id, at) in motion.points.iter().zip(&mut motion.at) {
+            std::mem::swap(&mut self.points.at[id.idx()], at);
+            // Those that constraints may move the solver knows of itself.
+            if self.points.is_frozen[id.idx()] {
+                self.touched.moved.push(*id);
             }
         }
-        for (id, state) in &*motion.states {
-            self.restore_state(*id, state);
+        for (id, constraint) in &mut motion.constraints {
+            if let Some(record) = self.constraints.get_mut(id.idx()) {
+                std::mem::swap(&mut record.constraint, constraint);
+                self.touched.constraints.push(*id);
+            }
         }
-        let mut traces: Vec<Tail<Sample>> = motion.traces;
-        for (trace, tail) in self.traces.iter_mut().zip(&mut traces) {
+        for (id, heading) in motion.motors.iter().zip(&mut motion.headings) {
+            if let Some(record) = self.constraints.get_mut(id.idx()) {
+                swap_heading(&mut record.constraint, heading);
+                self.touched.values.push(*id);
+            }
+        }
+        if let Some(start) = &mut motion.start {
+            std::mem::swap(&mut self.points.start, &mut start.at);
+            std::mem::swap(&mut self.start_states, &mut start.states);
+            if self.points.start.len() < self.points.at.len() {
+                // Those that were made since live no more.
+                self.points.start.resize(self.points.at.len(), Point::ORIGIN);
+            }
+        }
+        std::mem::swap(&mut self.clock, &mut motion.clock);
+        if let Some(counts) = &mut motion.turn_counts {
+            std::mem::swap(&mut self.turn_counts, counts);
+        }
+        for (trace, tail) in self.traces.iter_mut().zip(&mut motion.traces) {
             let wanted = std::mem::replace(tail, Tail::cleared());
             *tail = wanted.swap(&mut trace.samples);
         }
-        let old = Motion {
-            at: exchange(&mut self.points.at, motion.at),
-            start: exchange(&mut self.points.start, motion.start),
-            start_states: exchange(&mut self.start_states, motion.start_states),
-            clock: std::mem::replace(&mut self.clock, motion.clock),
-            turn_counts: exchange(&mut self.turn_counts, motion.turn_counts),
-            states: Arc::new(states),
-            driven,
-            traces,
-            ghosts: motion.ghosts.swap(&mut self.ghosts),
-        };
+        motion.ghosts = motion.ghosts.swap(&mut self.ghosts);
+        motion.shrink();
         self.turns_ahead = TurnsAhead::default();
-        self.touched.all = true;
         self.dependencies.note_change();
-        old
-    }
-
-    fn restore_state(&mut self, id: ConstraintId, state: &[f64]) {
-        let Some(record) = self.constraints.get_mut(id.idx()) else { return };
-        let is_live = record
-            .drivers()
-            .iter()
-            .any(|(field, _)| field.is_of_gearing() || *field == Field::Radius);
-        restore_whole(&mut record.constraint, state, is_live);
-    }
-
-    /// The motion that brings back the start: time 0, every point where it stood when the
-    /// clock left 0, empty traces and no ghosts. Live values are those of now: call
-    /// [`World::refresh`] after.
-    pub fn start(&self) -> Motion {
-        let mut motion = self.motion();
-        if self.clock.frame > 0 {
-            motion.at = motion.start.clone();
-            motion.states = motion.start_states.clone();
-            motion.turn_counts = Arc::new(self.turn_counts_at_start());
-        }
-        motion.clock = self.clock.at_start();
-        motion.traces.iter_mut().for_each(|tail| *tail = Tail::cleared());
-        motion.ghosts = Tail::cleared();
         motion
     }
 
@@ -164,17 +116,22 @@ impl World {
     /// A live expression that has no value at this time; the world is then to be taken back.
     pub fn advance(&mut self) -> Result<(), Diagnostic> {
         if self.clock.frame == 0 {
+            self.note_start();
             self.points.start.clone_from(&self.points.at);
-            self.start_states = self.states();
+            let states = self.constraints();
+            let states = states.filter_map(|(id, r)| Some((id, whole_state(&r.constraint)?)));
+            self.start_states = states.collect();
             self.note_first_turns();
         }
         let before = self.angles_before();
         self.clock.tick();
         self.refresh()?;
         let dt = self.clock.dt;
+        self.note_headings();
         for k in 0..self.dependencies.motors().len() {
             let id = self.dependencies.motors()[k];
-            if self.constraint_state_mut(id).advance(dt) {
+            let record = self.constraints.get_mut(id.idx()).expect("a listed constraint lives");
+            if record.constraint.advance(dt) {
                 self.touched.values.push(id);
             }
         }
@@ -236,6 +193,7 @@ impl World {
             && let Some(record) = self.constraints.get(id.idx())
             && let Some(state) = whole_state(&record.constraint)
         {
+            self.note_start();
             self.start_states.insert(id, state);
         }
     }
@@ -243,6 +201,22 @@ impl World {
     /// The states that `reset` brings back.
     pub fn start_states(&self) -> &BTreeMap<ConstraintId, Vec<f64>> {
         &self.start_states
+    }
+}
+
+/// How far a motor has turned; none if its angle is measured on the pose, or it is none.
+pub(super) fn heading(constraint: &Constraint) -> Option<Heading> {
+    match constraint {
+        Constraint::Motor(motor) => Some(motor.heading()),
+        _ => None,
+    }
+}
+
+/// Exchanges how far a motor has turned.
+pub(super) fn swap_heading(constraint: &mut Constraint, other: &mut Heading) {
+    if let Constraint::Motor(motor) = constraint {
+        let now = motor.heading();
+        motor.set_heading(std::mem::replace(other, now));
     }
 }
 
@@ -257,7 +231,7 @@ pub(super) fn whole_state(constraint: &Constraint) -> Option<Vec<f64>> {
 
 /// Brings back what [`whole_state`] gave, or a state alone. Another ratio or radius than then stays, as if
 /// it had been changed then; a live one is about to be evaluated.
-fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
+pub(super) fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
     let n_state = constraint.state().map_or(0, |state| state.len());
     let n_mesh = constraint.captured().len();
     if whole.len() < n_state + n_mesh || n_mesh == 0 {
@@ -283,17 +257,5 @@ fn restore_whole(constraint: &mut Constraint, whole: &[f64], is_live: bool) {
             constraint.set_state(&then.state().unwrap_or_default());
         }
         _ => *constraint = then,
-    }
-}
-
-/// Puts `new` in a place; gives what was there.
-fn exchange<T: Clone>(place: &mut T, new: Arc<T>) -> Arc<T> {
-    Arc::new(std::mem::replace(place, Arc::unwrap_or_clone(new)))
-}
-
-/// Gives up a copy for what it is equal to by this measure.
-fn share<T>(copy: &mut Arc<T>, with: &Arc<T>, is_same: impl Fn(&T, &T) -> bool) {
-    if is_same(copy, with) {
-        copy.clone_from(with);
     }
 }

@@ -1,7 +1,7 @@
 //! Constraints and parameters as the user made them, kept apart from what the solver runs on.
 
 use super::{Depends, Formula, NameText, Value};
-use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, Traits};
+use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, LARGEST, Traits};
 use crate::diag::{Diagnostic, format_number};
 use crate::errors;
 use crate::terms::Unit;
@@ -34,6 +34,13 @@ struct Extra {
 }
 
 impl Record {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        let live = self.extra.as_ref().and_then(|extra| extra.live.as_ref());
+        let formulas = self.drivers().iter().chain(live.into_iter().flatten());
+        size_of::<Self>() + formulas.map(|(_, formula)| formula.n_bytes()).sum::<usize>()
+    }
+
     /// A constraint that is switched on, driven by these expressions.
     pub fn new(name: NameText, constraint: Constraint, mut drivers: Drivers) -> Self {
         in_order(&mut drivers);
@@ -105,6 +112,26 @@ impl Record {
     /// What is wrong with the values that its live expressions gave it: no pose could have
     /// such a length, such an interval, such wheels.
     pub fn flaw(&self) -> Option<Diagnostic> {
+        self.live()
+            .iter()
+            .find_map(|(field, formula)| self.excess(*field, formula))
+            .or_else(|| self.flaw_of_kind())
+    }
+
+    /// A live value that is too large to work with.
+    fn excess(&self, field: Field, formula: &Formula) -> Option<Diagnostic> {
+        let value = self.constraint.get(field).filter(|value| value.abs() > LARGEST)?;
+        let (value, most) = (format_number(value), format_number(LARGEST));
+        Some(
+            Diagnostic::error(
+                errors::OUT_OF_RANGE,
+                format!("a value in `{}` is too large to work with", self.name),
+            )
+            .at(formula.span(), format!("this is now {value}, no more than {most}")),
+        )
+    }
+
+    fn flaw_of_kind(&self) -> Option<Diagnostic> {
         let Traits { flaw, bounds, .. } = self.constraint.traits();
         let flaw = flaw?;
         let ends = bounds.filter(|_| flaw == Flaw::EmptyRange);
@@ -150,6 +177,13 @@ pub struct Parameter {
     pub value: Option<Value>,
     /// What can change it, its own parameters included.
     pub depends: Depends,
+}
+
+impl Parameter {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.formula.n_bytes()
+    }
 }
 
 /// Rows by handle, in order of creation, in pieces that stay where they are: room for a

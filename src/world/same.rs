@@ -19,8 +19,7 @@ pub(super) fn same_place(a: &Point, b: &Point) -> bool {
 }
 
 /// Whether two lists are of the same places.
-#[allow(clippy::ptr_arg, reason = "a measure for `share`")]
-pub(super) fn are_same_places(a: &Vec<Point>, b: &Vec<Point>) -> bool {
+pub(super) fn are_same_places(a: &[Point], b: &[Point]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_place(a, b))
 }
 
@@ -36,8 +35,12 @@ pub(super) fn is_same_record(a: &Record, b: &Record) -> bool {
     let is_plain = a.drivers().is_empty() && b.drivers().is_empty();
     is_plain
         && (a.is_on, a.rho()) == (b.is_on, b.rho())
-        && a.constraint == b.constraint
-        && content(&a.constraint) == content(&b.constraint)
+        && is_same_constraint(&a.constraint, &b.constraint)
+}
+
+/// Whether two constraints are the same to the bit.
+pub(super) fn is_same_constraint(a: &Constraint, b: &Constraint) -> bool {
+    a == b && content(a) == content(b)
 }
 
 /// The bits of all of a constraint but its points.

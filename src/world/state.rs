@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::dependencies::Dependencies;
+use super::log::Log;
 use super::name_index::NameIndex;
 use super::point_users::PointUsers;
 use super::records::Table;
@@ -32,6 +33,7 @@ pub struct World {
     pub(super) dependencies: Dependencies,
     pub(super) point_users: PointUsers,
     pub(super) touched: Box<Touched>,
+    pub(super) log: Log,
     pub(super) revision: u64,
 }
 
@@ -140,10 +142,11 @@ impl World {
         touched
     }
 
-    /// Puts a point where the solver found it. A position that is not finite is refused and
+    /// Puts a point where the solver found it. A position that is out of reach is refused and
     /// the one before kept.
     pub fn set_position(&mut self, id: PointId, at: Point) {
-        if at.is_finite() {
+        if at.is_in_reach() {
+            self.note_place(id);
             self.points.at[id.idx()] = at;
             self.dependencies.note_change();
         }
@@ -151,6 +154,7 @@ impl World {
 
     /// The relation as the solver carries it on: unwrapped angles and the like. Not for edits.
     pub fn constraint_state_mut(&mut self, id: ConstraintId) -> &mut Constraint {
+        self.note_constraint(id);
         &mut self.constraints.get_mut(id.idx()).expect("a handle of a living constraint").constraint
     }
 }

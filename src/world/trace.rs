@@ -30,6 +30,13 @@ pub struct Ghost {
     pub at: Vec<(PointId, Point)>,
 }
 
+impl Ghost {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&*self.at)
+    }
+}
+
 /// The end of a list that grows while running: how much of it to keep and what follows.
 #[derive(Debug, Clone)]
 pub(super) struct Tail<T> {
@@ -51,6 +58,16 @@ impl<T> Tail<T> {
     /// Nothing left of the list.
     pub const fn cleared() -> Self {
         Self { keep: 0, then: Vec::new() }
+    }
+
+    /// What follows what is kept.
+    pub fn then(&self) -> &[T] {
+        &self.then
+    }
+
+    /// Roughly how many bytes it holds, but for what its items point to.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&*self.then)
     }
 
     /// Puts the list in this state; gives the state it was in.

@@ -38,6 +38,14 @@ impl<T: Real> Value<T> {
         }
     }
 
+    /// Whether nothing in it is larger than `most`.
+    pub fn is_within(self, most: f64) -> bool {
+        match self {
+            Self::Number(n) => n.value().abs() <= most,
+            Self::Vector(v) => v.x.value().abs() <= most && v.y.value().abs() <= most,
+        }
+    }
+
     /// The number; formulas are checked for shape when they are bound.
     pub fn number(self) -> T {
         match self {

@@ -7,21 +7,23 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use; `diag` lies below all.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
+    ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
     ("terms", &[]),
-    ("lang", &["diag", "errors", "terms"]),
-    ("constraint", &["diag", "errors", "terms"]),
+    ("lang", &["interrupt", "diag", "errors", "terms"]),
+    ("constraint", &["interrupt", "diag", "errors", "terms"]),
     ("world", &["diag", "errors", "terms", "constraint"]),
-    ("linalg", &[]),
-    ("mobility", &["constraint", "linalg"]),
-    ("solve", &["diag", "errors", "constraint", "world", "linalg", "mobility"]),
-    ("render", &["diag", "errors", "constraint", "linalg", "world"]),
+    ("linalg", &["interrupt"]),
+    ("mobility", &["interrupt", "constraint", "linalg"]),
+    ("solve", &["interrupt", "diag", "errors", "constraint", "world", "linalg", "mobility"]),
+    ("render", &["interrupt", "diag", "errors", "constraint", "linalg", "world"]),
     ("study", &["diag", "errors", "constraint", "world", "mobility", "solve", "render"]),
     (
         "session",
         &[
+            "interrupt",
             "diag",
             "errors",
             "terms",
@@ -52,6 +54,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     (
         "cli",
         &[
+            "interrupt",
             "diag",
             "errors",
             "lang",
@@ -67,7 +70,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 18] = [
+const HOMES: [(&str, &[&str]); 19] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
@@ -75,6 +78,7 @@ const HOMES: [(&str, &[&str]); 18] = [
     ("ctrlc", &["cli/interrupt.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
+    ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/grammar.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),

@@ -6,6 +6,7 @@
 
 mod architecture;
 mod circles;
+mod edge_values;
 mod editors;
 mod errors;
 mod examples;
@@ -17,6 +18,7 @@ mod golden;
 mod guide;
 mod habits;
 mod hard_cases;
+mod interrupts;
 mod language_server;
 mod laws;
 mod long_texts;

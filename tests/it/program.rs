@@ -356,6 +356,69 @@ mod unix {
         assert!(folder.path().join("paths.csv").exists());
     }
 
+    fn send(signal: &str, to: &std::process::Child) {
+        let sent = Command::new("kill").args([signal, &to.id().to_string()]).status();
+        assert!(sent.expect("there is a kill").success());
+    }
+
+    fn wait_for(file: &Path) {
+        while !file.exists() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+    }
+
+    #[test]
+    fn who_asks_it_to_end_gets_what_was_recorded() {
+        for (signal, status) in [("-TERM", 143), ("-HUP", 129)] {
+            let script = format!("{RECORDED}\nsvg \"begun.svg\"\nstep 1e9\nprint \"never\"");
+            let folder = folder(&[("a.link", &script)]);
+            let child = endless(folder.path());
+            wait_for(&folder.path().join("begun.svg"));
+            send(signal, &child);
+            let out = child.wait_with_output().expect("it ends");
+            assert_eq!(out.status.code(), Some(status), "{}", text(&out.stderr));
+            assert_eq!(text(&out.stdout), "");
+            assert!(folder.path().join("paths.csv").exists(), "{signal}");
+        }
+    }
+
+    #[test]
+    fn a_session_that_waits_for_input_ends_in_order_when_it_is_asked_to() {
+        let folder = folder(&[]);
+        let mut child = Command::new(PROGRAM)
+            .current_dir(folder.path())
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut input = child.stdin.take().expect("piped");
+        writeln!(input, "{RECORDED}\nstep 3\nsvg \"begun.svg\"").expect("it reads");
+        wait_for(&folder.path().join("begun.svg"));
+        send("-TERM", &child);
+        let out = child.wait_with_output().expect("it ends");
+        assert_eq!(out.status.code(), Some(143), "{}", text(&out.stderr));
+        assert!(folder.path().join("paths.csv").exists());
+    }
+
+    #[test]
+    fn ctrl_c_ends_whatever_takes_long() {
+        let net = "for i in 1..70 { for k in 1..70 { point p[i][k] = (i + 0.01 * sin(k), k) } }
+            for i in 2..70 { for k in 1..70 { length p[i - 1][k] p[i][k] = 1 } }
+            for i in 1..70 { for k in 2..70 { length p[i][k - 1] p[i][k] = 1 } }
+            freeze p[1][1] p[70][1]";
+        for (before, statement) in [
+            ("", "for i in 1..1e7 {}; for i in 1..1e7 {}; for i in 1..1e7 {}; for i in 1..1e7 {}"),
+            (net, "check"),
+            (net, "solve"),
+        ] {
+            let script = format!("{before}\nsvg \"begun.svg\"\n{statement}\nprint \"never\"");
+            let folder = folder(&[("a.link", &script)]);
+            let out = interrupted(folder.path(), 50);
+            assert_eq!(text(&out.stdout), "", "{statement}");
+            assert!(text(&out.stderr).contains("stopped"), "{statement}");
+        }
+    }
+
     #[test]
     fn ctrl_c_ends_a_frame_of_very_many_iterations() {
         let script = "point p[0] = (0, 0) frozen

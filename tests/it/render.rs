@@ -366,7 +366,7 @@ fn degenerate_mechanisms_have_pictures() {
         "point A = (5, 5) frozen",
         "point A = (0, 0) frozen, B = (0, 0); motor A B radius 0 speed 1",
         "point A = (0, 0), B = (0, 0), C = (0, 0); glider A on B C",
-        "point A = (1e300, 0), B = (-1e300, 1e300), C = (0, 0); length A B; length B C",
+        "point A = (1e60, 0), B = (-1e60, 1e60), C = (0, 0); length A B; length B C",
         "point A = (1e-300, 0), B = (0, 1e-300); length A B",
         "point A = (1e9, 1e9), B = (1000000001, 1e9); length A B",
         "point A = (0, 0), B = (1, 0), C = (2, 0); rigid A B C",

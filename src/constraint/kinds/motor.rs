@@ -57,6 +57,17 @@ struct Drive {
     step: (f64, Turns),
 }
 
+impl Heading {
+    /// Whether another is the same to the bit.
+    pub fn is_same(&self, other: Self) -> bool {
+        let bits = |heading: Self| {
+            let [whole, hi, lo] = heading.turned.to_numbers();
+            [whole, hi, lo, heading.target.x, heading.target.y].map(f64::to_bits)
+        };
+        bits(*self) == bits(other)
+    }
+}
+
 impl Motor {
     /// A motor of a radius, a phase in radians and a speed in radians per time unit, that
     /// has not turned yet.

@@ -3,6 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::constraint::LARGEST;
+
 /// A place in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Point {
@@ -44,6 +46,11 @@ impl Point {
     /// Whether neither coordinate is infinite or not a number.
     pub const fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite()
+    }
+
+    /// Whether a point may be there: no coordinate is beyond [`LARGEST`].
+    pub const fn is_in_reach(self) -> bool {
+        self.x.abs() <= LARGEST && self.y.abs() <= LARGEST
     }
 }
 

@@ -6,6 +6,7 @@
 use super::content::add_all;
 use super::function::{length, power, value_of};
 use crate::constraint::{Jet, Real, Vec2, Vector};
+use crate::interrupt::tick;
 use crate::terms::{Function, Operator};
 use std::f64::consts::TAU;
 
@@ -45,6 +46,9 @@ pub struct Program {
     operations: Vec<Operation>,
 }
 
+/// What an operation takes, in ticks.
+const OPERATION: usize = 4;
+
 /// Results that find room without being asked for.
 const ROOM: usize = 32;
 
@@ -62,6 +66,7 @@ impl Program {
         input: impl Fn(usize) -> T,
         look: impl FnOnce(&[T]) -> R,
     ) -> R {
+        tick(OPERATION * self.operations.len());
         with_room(self.operations.len(), T::constant(0.0), |results| {
             for (k, operation) in self.operations.iter().enumerate() {
                 let at = |register: Register| results[register as usize];

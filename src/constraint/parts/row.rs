@@ -93,7 +93,30 @@ impl<'a> Row<'a> {
 
     /// The squared norm of the gradient in the metric of the weights; 0 if nothing can move.
     pub fn norm_squared(&self, w: &[f64]) -> f64 {
-        self.terms().map(|(p, g)| w[p as usize] * g.norm_squared()).sum()
+        let moving = self.terms().filter(|&(p, _)| w[p as usize] > 0.0);
+        moving.map(|(p, g)| w[p as usize] * g.norm_squared()).sum()
+    }
+
+    /// The norm of the gradient in the metric of the weights, also where its square is beyond what
+    /// numbers hold; 0 if nothing can move.
+    pub fn norm(&self, w: &[f64]) -> f64 {
+        self.norm_by(|p| w[p as usize])
+    }
+
+    fn norm_by(&self, weight: impl Fn(PointIdx) -> f64) -> f64 {
+        let terms = || self.terms().filter(|&(p, _)| weight(p) > 0.0);
+        let squared: f64 = terms().map(|(p, g)| weight(p) * g.norm_squared()).sum();
+        if squared.is_normal() {
+            return squared.sqrt();
+        }
+        let largest = terms().fold(0.0, |most: f64, (_, g)| most.max(g.x.abs()).max(g.y.abs()));
+        if !largest.is_normal() {
+            return largest;
+        }
+        let part = |(p, g): (PointIdx, Vector)| {
+            weight(p) * Vector::new(g.x / largest, g.y / largest).norm_squared()
+        };
+        largest * terms().map(part).sum::<f64>().sqrt()
     }
 
     /// The distance to satisfaction, see [`crate::constraint::ConstraintKind::violation`].
@@ -101,21 +124,17 @@ impl<'a> Row<'a> {
         if self.f == 0.0 {
             return 0.0;
         }
-        let weighted = self.norm_squared(w);
-        let squared = if weighted > 0.0 {
-            weighted
-        } else {
-            self.terms().map(|(_, g)| g.norm_squared()).sum()
-        };
+        let weighted = self.norm(w);
+        let norm = if weighted > 0.0 { weighted } else { self.norm_by(|_| 1.0) };
         let f = self.f.abs();
-        if squared > 0.0 { f / squared.sqrt() } else { f }
+        if norm > 0.0 { f / norm } else { f }
     }
 
     /// The shortest displacement that satisfies the linearised equation: the general form of
     /// the paper's `A_a`, `d = -f W grad f / |grad f|_W^2`.
     pub fn correct(&self, w: &[f64], move_by: &mut impl FnMut(PointIdx, Vector)) {
         let squared = self.norm_squared(w);
-        if self.f == 0.0 || squared == 0.0 {
+        if self.f == 0.0 || !squared.is_normal() {
             return;
         }
         let tau = -self.f / squared;

@@ -40,6 +40,10 @@ impl Pair {
     /// is met, and what they contradict each other in is a part of the length as it is.
     pub fn shortest(&self) -> Shortest {
         let ([f, g], [a, b, c]) = (self.values, self.products);
+        if !(a * c).is_finite() {
+            // Squares beyond what numbers hold lead nowhere.
+            return Shortest { length: Vector::new(f, g).norm(), multipliers: [0.0; 2] };
+        }
         let det = a * c - b * b;
         if det > PARALLEL * a * c {
             let multipliers = [(c * f - b * g) / det, (a * g - b * f) / det];

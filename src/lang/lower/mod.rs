@@ -21,6 +21,7 @@ use std::ops::Range;
 use pest::Parser;
 
 use crate::diag::{Diagnostic, SourceId, Span};
+use crate::interrupt::tick;
 
 use super::ast::{Body, Command, Statement};
 use super::grammar::{LinkworkParser, Rule};
@@ -105,6 +106,9 @@ enum State {
     Broken,
 }
 
+/// What reading a letter takes, in ticks.
+const LETTER: usize = 40;
+
 /// A text and the name under which diagnostics know it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reader<'a> {
@@ -118,6 +122,7 @@ impl<'a> Reader<'a> {
     }
 
     fn statement(&self, piece: &Piece) -> Result<Statement, Diagnostic> {
+        tick(LETTER * piece.head.len());
         let (prefix, at) = self.prefix(&piece.head)?;
         let range = at..piece.head.end;
         let (word, rule) = self.verb(&prefix, &range)?;

@@ -105,7 +105,7 @@ impl Execution<'_> {
 
     /// The motion to study.
     fn repeatable_motion(&mut self, n_frames: Option<u64>) -> RepeatableMotion {
-        let motion = if let Some(motion) = self.history.last_motion.repeatable_motion(self.state) {
+        let motion = if let Some(motion) = self.history.repeatable_motion(self.state) {
             let goes_on = motion.n_frames < FEW_FRAMES && motion.is_without_hands();
             let n = if goes_on { FRAMES } else { motion.n_frames };
             motion.with_frames(n)

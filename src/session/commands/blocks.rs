@@ -10,12 +10,15 @@ use crate::errors;
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::reason;
-use crate::session::quotas::Quota;
+use crate::session::quotas::{LONGEST_ARGUMENT, Quota};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
 use crate::terms::Shape;
-use crate::world::{Entity, Value};
+use crate::world::{Depends, Entity, Formula, Node, Value};
+
+/// Up to here each whole number has one that follows it: 2^53 less 1.
+const LARGEST_COUNT: f64 = 9_007_199_254_740_991.0;
 
 impl Execution<'_> {
     /// Goes one level deeper for as long as `inside` runs.
@@ -51,6 +54,15 @@ impl Execution<'_> {
         Ok(Flow::On)
     }
 
+    /// A round of a loop; one without statements ends it where the user wants that, too.
+    fn round(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
+        if body.is_empty() && self.host.is_interrupted() {
+            self.note("stopped");
+            return Ok(Flow::Stopped);
+        }
+        self.perform_all(body)
+    }
+
     pub(crate) fn repeat(
         &mut self,
         variable: &Ident,
@@ -67,6 +79,13 @@ impl Execution<'_> {
                 .at(expr.span, format!("this is {}", format_number(value))))
         };
         let (from, to) = (whole(self, &range.from)?, whole(self, &range.to)?);
+        for (value, expr) in [(from, &range.from), (to, &range.to)] {
+            if value.abs() > LARGEST_COUNT {
+                let text = format!("no number beyond {LARGEST_COUNT} has one that follows it");
+                return Err(Diagnostic::error(errors::TOO_MUCH, "a loop cannot count so far")
+                    .at(expr.span, text));
+            }
+        }
         // Loops within loops multiply; one that is long in every round is found in the first.
         let n_rounds = (to - from + 1.0).max(1.0);
         let n_outer = self.n_rounds;
@@ -92,7 +111,7 @@ impl Execution<'_> {
                     execution.host.progress((value - from) / n_rounds);
                 }
                 execution.scopes.rebind(slot, value);
-                flow = execution.perform_all(body)?;
+                flow = execution.round(body)?;
                 value += 1.0;
             }
             execution.scopes.unbind(slot);
@@ -143,6 +162,13 @@ impl Execution<'_> {
             Some(name) => self.resolve().declare(name)?.to_string(),
             None => self.resolve().numbered(&word.text),
         };
+        for (parameter, bound) in &mut bindings {
+            if let Bound::Formula(formula) = bound
+                && formula.extent().n_terms > LONGEST_ARGUMENT
+            {
+                *formula = self.as_parameter(&format!("{name}.{parameter}"), formula.clone())?;
+            }
+        }
         let result = self.nested(span, |execution| {
             execution.scopes.enter(Scope { prefix: format!("{name}."), bindings });
             let flow = execution.perform_all(&definition.body)?;
@@ -188,6 +214,18 @@ impl Execution<'_> {
                 .at(argument.span, "this is a vector")
                 .help("make it a point first: `point P = ... frozen`")),
         }
+    }
+
+    /// A parameter of an instance that stands for a long argument.
+    fn as_parameter(&mut self, name: &str, formula: Formula) -> Result<Formula, Diagnostic> {
+        let world = &mut self.state.world;
+        let is_free = world.names().is_free(name);
+        let name = if is_free { name.to_owned() } else { world.numbered_name(name) };
+        let id = world.next_parameter();
+        let span = formula.span();
+        self.set_parameter(id, name.as_str().into(), formula)?;
+        let depends = Depends { on_parameters: true, ..Depends::default() };
+        Ok(Formula::new(Node::Parameter(id), Shape::Number, depends, span))
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {

@@ -7,7 +7,7 @@ use crate::session::execution::Execution;
 use crate::session::preferences::AtDeadPoint;
 use crate::session::undo::recorder::{Recorder, Reel};
 use crate::solve::{Halt, Memory, Method};
-use crate::world::{ConstraintId, Edit, Entity, Formula, Motion};
+use crate::world::{ConstraintId, Edit, Entity, Formula, Moment};
 
 /// A way back to the beginning of a frame, while frames may have to be taken back: all that
 /// frames change, as it was before one of them. From there the frames since are done again, to
@@ -19,7 +19,7 @@ pub(crate) struct WayBack {
     first: u64,
     /// The frame that this is the beginning of.
     pub frame: u64,
-    motion: Motion,
+    moment: Moment,
     memory: Memory,
     reels: Vec<Reel>,
 }
@@ -48,19 +48,25 @@ impl Execution<'_> {
         let is_due =
             way_back.as_ref().is_none_or(|way| k - first >= 2 * (way.frame - first) || always);
         if is_due {
-            *way_back = Some(WayBack {
-                first,
-                frame: k,
-                motion: self.state.world.motion(),
-                memory: self.state.solver.memory(),
-                reels: self.state.recorders.iter().map(Recorder::mark).collect(),
-            });
+            *way_back = Some(self.way_back(first, k));
+        }
+    }
+
+    /// A way back from frame `k`, which is about to begin; `first` was the first that there was one
+    /// from.
+    pub(super) fn way_back(&self, first: u64, k: u64) -> WayBack {
+        WayBack {
+            first,
+            frame: k,
+            moment: self.state.world.moment(),
+            memory: self.state.solver.memory(),
+            reels: self.state.recorders.iter().map(Recorder::mark).collect(),
         }
     }
 
     /// Puts everything as it was before the frame that a way back is kept of.
     pub(crate) fn go_back(&mut self, way: WayBack) {
-        self.state.world.apply(Edit::Motion(Box::new(way.motion)));
+        self.state.world.go_to(way.moment);
         self.state.solver.set_memory(way.memory);
         for (recorder, reel) in self.state.recorders.iter_mut().zip(way.reels) {
             recorder.wind(reel);

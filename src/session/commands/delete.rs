@@ -121,7 +121,7 @@ impl Execution<'_> {
     pub(crate) fn reset(&mut self) -> Result<(), Diagnostic> {
         self.begin_motion();
         let start = self.state.world.start();
-        self.edit(Edit::Motion(Box::new(start)));
+        self.history.go_to(self.state, start);
         self.set_memory(Memory::default());
         self.state.world.refresh().map_err(|why| why.note("at time 0"))
     }

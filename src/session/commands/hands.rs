@@ -48,7 +48,7 @@ impl Execution<'_> {
         if n == 0 {
             self.history.last_motion.give_up();
         } else {
-            self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+            self.history.begin_leg(self.state, n, self.depth > 0);
         }
         self.begin_motion();
         for &id in &free {

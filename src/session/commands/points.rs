@@ -62,7 +62,7 @@ impl Execution<'_> {
         self.set_parameter(id, text, formula)
     }
 
-    fn set_parameter(
+    pub(super) fn set_parameter(
         &mut self,
         id: ParameterId,
         name: NameText,

@@ -179,12 +179,11 @@ impl Execution<'_> {
     fn restore_memory(&mut self, owner: Option<&Name>, values: &[Value]) -> Restored {
         let id = owner.map(|name| self.resolve().point(name)).transpose()?;
         let values = numbers(values)?;
-        let mut memory = self.state.solver.memory();
-        if !memory.restore(id, &values) {
-            return Err(Unfit::Values);
+        if self.history.restore_memory(self.state, id, &values) {
+            Ok(())
+        } else {
+            Err(Unfit::Values)
         }
-        self.set_memory(memory);
-        Ok(())
     }
 
     fn restore_past(&mut self, values: &[Value]) -> Restored {

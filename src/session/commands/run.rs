@@ -6,6 +6,7 @@ use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
 };
 use crate::errors;
+use crate::interrupt::{self, Stopped};
 use crate::lang::ast::{Expr, Promise};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::{Host, NO_CLOCK};
@@ -67,6 +68,8 @@ enum Stop {
 
 /// Iterations of `relax` between two looks at whether the user wants to stop.
 const RELAX_CHUNK: u64 = 256;
+/// A frame with so many evaluations of constraints takes much longer than a copy of what it changes.
+const LONG_FRAME: u64 = 100_000;
 /// With more iterations than that a frame may take so long that its user wants to stop it.
 pub(super) const LONG: u32 = 10_000;
 
@@ -106,7 +109,7 @@ impl Execution<'_> {
             }
         };
         let limits = self.promised_here(promise)?;
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
@@ -127,7 +130,7 @@ impl Execution<'_> {
                 .at(time.span, format!("{} frames of dt", format_count(n))));
         }
         let (n, limits) = (n as u64, self.promised_here(promise)?);
-        self.history.last_motion.begin_leg(self.state, n, self.depth > 0);
+        self.history.begin_leg(self.state, n, self.depth > 0);
         let (flow, n_done) = self.frames(n, limits, span, Hands::default())?;
         self.history.last_motion.end_leg(self.state, n, n_done, Vec::new());
         Ok(flow)
@@ -158,6 +161,8 @@ impl Execution<'_> {
             && self.state.preferences.expose_every.is_none();
         let mut way_back = None;
         let mut last = Status::Converged;
+        // Of the frame before; what a command begins with it goes back to by itself.
+        let mut n_evaluations = (summary.n_frames > 0).then_some(0);
         let frames = Frames { n, hands };
         let is_told = n > 1 && self.begin_work();
         let mut pace = Pace::new(self.may_stretch(&limits, hands));
@@ -185,7 +190,13 @@ impl Execution<'_> {
             // Frames that the time decides about are not the same when done again.
             self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
             let limits = Limits { known_error: summary.error_on_the_way, ..limits };
-            let mut report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
+            let Ok(report) = self.frame_unless_stopped(k, frames, &limits, n_evaluations) else {
+                flow = Flow::Stopped;
+                self.note(format!("stopped after {} of {n} frames", k - 1));
+                break;
+            };
+            let mut report = report?;
+            n_evaluations = Some(report.counters.evaluations);
             if report.status != Status::Converged {
                 let next = self.met(way_back.is_some(), k, n);
                 if next != Next::On
@@ -278,6 +289,28 @@ impl Execution<'_> {
         Err(Diagnostic::error(errors::NO_PROMISE, "this cannot be promised here")
             .at(within.span, format!("{} is below what rounding allows", format_number(tolerance)))
             .help(format!("the smallest tolerance that can be promised: `within {least}`")))
+    }
+
+    /// Lets frame `k` pass, unless the user stops it on its way: everything is then as it was at its
+    /// beginning. A frame that is not long is not stopped; whether it is, the one before tells.
+    fn frame_unless_stopped(
+        &mut self,
+        k: u64,
+        frames: Frames,
+        limits: &Limits,
+        n_evaluations: Option<u64>,
+    ) -> Result<Result<Report, Diagnostic>, Stopped> {
+        interrupt::rest();
+        let frame = |it: &mut Self| it.one_frame(k, frames, limits, Stop::Allowed);
+        match n_evaluations {
+            None => Ok(frame(self)),
+            Some(n) if n < LONG_FRAME => Ok(interrupt::undisturbed(|| frame(self))),
+            Some(_) => {
+                let way = self.way_back(k, k);
+                let report = interrupt::catch(|| frame(self));
+                report.inspect_err(|_| self.go_back(way))
+            }
+        }
     }
 
     /// Lets frame `k` pass.
@@ -395,6 +428,10 @@ impl Execution<'_> {
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
+        // Whatever it came to, more might have come of it.
+        if self.host.is_interrupted() {
+            interrupt::go_on(Stopped);
+        }
         if report.status != Status::Converged
             && let Some(why) = self.state.world.failed_measure()
         {

@@ -7,6 +7,7 @@ use super::restorable::{Restorable, VERSION, ordinals};
 use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::{Constraint, ConstraintKind as _, Field};
 use crate::diag::Diagnostic;
+use crate::interrupt::tick;
 use crate::lang::ast::{
     Binding, Building, Changing, Command, Drawing, Expose, Expr, Making, PointDecl, Text,
 };
@@ -17,6 +18,9 @@ use crate::session::state::State;
 use crate::solve::CogForm;
 use crate::terms::Shape;
 use crate::world::{ConstraintId, Drivers, Formula, Mention, ParameterId, Record};
+
+/// What the writing of a line takes, in ticks.
+const LINE: usize = 1000;
 
 impl Execution<'_> {
     pub(crate) fn save(&mut self, path: &Text) -> Result<(), Diagnostic> {
@@ -345,6 +349,7 @@ fn save_state(record: &Record, script: &mut String) {
 
 #[allow(clippy::needless_pass_by_value, reason = "the callers make it for this")]
 fn line(script: &mut String, command: impl Into<Command>) {
+    tick(LINE);
     script.push_str(&text_of(&command.into()));
     script.push('\n');
 }

@@ -6,6 +6,7 @@ use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
 use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
 use crate::errors;
+use crate::interrupt::tick;
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry, Trade};
 use crate::lang::nearest_command;
@@ -26,6 +27,9 @@ pub(crate) fn format_value(value: Value) -> String {
         Value::Vector(v) => format!("({}, {})", format_number(v.x), format_number(v.y)),
     }
 }
+
+/// What the writing of a line takes, in ticks.
+const LINE: usize = 1000;
 
 impl Execution<'_> {
     pub(crate) fn print(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
@@ -309,6 +313,7 @@ impl State {
     }
 
     fn point_line(&self, id: PointId) -> String {
+        tick(LINE);
         let points = self.world.points();
         let at = points.at(id);
         let mut line = format!(
@@ -328,6 +333,7 @@ impl State {
 
     /// A constraint, with its residual in a world that is as this one is `now`.
     fn constraint_line(&self, now: &World, id: ConstraintId) -> String {
+        tick(LINE);
         let record = self.world.constraint(id).expect("a listed constraint lives");
         let mut line = Unbind::of(&self.world).constraint_text(record);
         if record.is_on {

@@ -78,8 +78,7 @@ impl Execution<'_> {
 
     /// Says what is likely a slip, but not in each round of a loop.
     fn note_slip(&mut self, note: Diagnostic, at: Span, label: &str) {
-        if !self.slips.contains(&at) {
-            self.slips.push(at);
+        if self.slips.insert(at) {
             self.warn(&note.at(at, label));
         }
     }

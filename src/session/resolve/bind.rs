@@ -1,7 +1,7 @@
 //! Expressions of the language become values, or formulas that stay live.
 
 use super::scope::{Bound, Meaning, Resolver};
-use crate::constraint::{Point, Vec2};
+use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
@@ -86,7 +86,10 @@ impl Resolver<'_> {
     /// The value of an expression that has to be a place.
     pub(crate) fn place(&mut self, expr: &Expr) -> Result<Point, Diagnostic> {
         match self.value(expr)? {
-            Value::Vector(v) => Ok(Point::new(v.x, v.y)),
+            Value::Vector(v) => {
+                let at = Point::new(v.x, v.y);
+                if at.is_in_reach() { Ok(at) } else { Err(too_large(expr, Value::Vector(v))) }
+            }
             Value::Number(_) => Err(wanted(expr, Shape::Vector)
                 .help("a place is written `(x, y)`, or named by a point")),
         }
@@ -121,7 +124,11 @@ impl Resolver<'_> {
 
     /// A live expression, its constant parts folded.
     pub(crate) fn live(&mut self, expr: &Expr) -> Result<Term, Diagnostic> {
-        self.bind(expr, Mode::Live)
+        let term = self.bind(expr, Mode::Live)?;
+        if let Term::Live(formula) = &term {
+            self.refuse_too_long(formula, expr.span)?;
+        }
+        Ok(term)
     }
 
     /// A live number with its value now.
@@ -147,7 +154,15 @@ impl Resolver<'_> {
 
     /// A value that a constraint may have or hold, with the expression behind it if it can change.
     pub(crate) fn measure(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
-        match self.bind(expr, Mode::Live)? {
+        let (value, formula) = self.measured(expr)?;
+        if value.is_within(LARGEST) || self.state.is_restoring {
+            return Ok((value, formula));
+        }
+        Err(too_large(expr, value))
+    }
+
+    fn measured(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
+        match self.live(expr)? {
             Term::Constant(value) => Ok((value, None)),
             Term::Live(formula) => {
                 self.refuse_what_follows(&formula, expr.span)?;
@@ -465,6 +480,15 @@ fn binary(
 }
 
 /// The error for an expression of the other shape.
+fn too_large(expr: &Expr, value: Value) -> Diagnostic {
+    let size = match value {
+        Value::Number(n) => n.abs(),
+        Value::Vector(v) => v.x.abs().max(v.y.abs()),
+    };
+    Diagnostic::error(errors::OUT_OF_RANGE, "this is too large to work with")
+        .at(expr.span, format!("{}, no more than {}", format_number(size), format_number(LARGEST)))
+}
+
 fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(errors::MIXED_SORTS, format!("expected a {}", shape.noun()))

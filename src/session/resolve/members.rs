@@ -3,8 +3,9 @@
 use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
+use crate::session::quotas::LONGEST_EXPRESSION;
 use crate::terms::Member;
-use crate::world::{ConstraintId, Entity, Formula};
+use crate::world::{ConstraintId, Entity, Extent, Formula};
 
 impl Resolver<'_> {
     /// The members that a constraint has.
@@ -42,6 +43,19 @@ impl Resolver<'_> {
         Err(Diagnostic::error(errors::NO_MEMBER, format!("`{name}` has no `.{word}`"))
             .at(span, label)
             .help(format!("there is {}", others.join(" and "))))
+    }
+
+    /// Refuses an expression that is too long, or too deep, with all that it mentions: every level of
+    /// members of members, each mentioned twice, doubles it.
+    pub(super) fn refuse_too_long(&self, formula: &Formula, span: Span) -> Result<(), Diagnostic> {
+        if self.state.world.extent_within(formula, LONGEST_EXPRESSION).is_some() {
+            return Ok(());
+        }
+        let Extent { n_terms, depth } = LONGEST_EXPRESSION;
+        let label = format!("more than {n_terms} terms, or {depth} within each other");
+        Err(Diagnostic::error(errors::TOO_MUCH, "this is too long with all that it mentions")
+            .at(span, label)
+            .help("`let name = ...` gives a part a name, and its value is then worked out once"))
     }
 
     /// Refuses to drive a constraint by what follows from the constraints.

@@ -7,8 +7,8 @@ use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
 use crate::session::preferences::Preferences;
 use crate::session::quotas::{UNDO_BYTES, UNDO_COMMANDS};
-use crate::session::series::SeriesList;
-use crate::solve::Memory;
+use crate::session::series::{SeriesList, n_bytes};
+use crate::solve::Recall;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
 
 /// One reversible change of a session, small: a loop makes millions. Making it gives the change
@@ -21,8 +21,8 @@ pub enum Change {
     Preferences(Box<Preferences>),
     /// Sets what a definition is, or that there is none.
     Definition(Box<(Arc<str>, Option<Arc<Definition>>)>),
-    /// Sets what the solver remembers.
-    Memory(Arc<Memory>),
+    /// Sets what the solver remembers of some islands.
+    Memory(Box<Recall>),
     /// Begins a recording at a place in the list, or takes it out.
     Recorder(usize, Option<Box<Recorder>>),
     /// Appends a value to a series, or takes the last one away.
@@ -36,12 +36,19 @@ pub enum Change {
 }
 
 impl Change {
+    /// Roughly how many bytes it holds.
     fn n_bytes(&self) -> usize {
         let inside = match self {
-            Self::World(Edit::Motion(motion)) => motion.n_bytes(),
-            Self::World(Edit::RestoreBatch(records)) => records.n_bytes(),
-            Self::World(Edit::Constraint(_, Some(_))) => size_of::<crate::world::Record>(),
-            _ => 0,
+            Self::World(edit) => edit.n_bytes(),
+            Self::Preferences(_) => size_of::<Preferences>(),
+            // The texts that definitions were read from are kept anyway.
+            Self::Definition(_) => size_of::<(Arc<str>, Option<Arc<Definition>>)>(),
+            Self::Memory(recall) => recall.n_bytes(),
+            Self::Recorder(_, recorder) => recorder.as_ref().map_or(0, |r| r.n_bytes()),
+            Self::Sample(sample) => size_of_val(&**sample),
+            Self::Series(series) => n_bytes(series),
+            Self::Reels(reels) => reels.iter().map(Reel::n_bytes).sum(),
+            Self::Restoring(_) => 0,
         };
         size_of::<Self>() + inside
     }
@@ -65,17 +72,25 @@ pub enum Part {
     Parameter(ParameterId),
     /// The clock.
     Clock,
-    /// All that running changes.
-    Motion,
 }
 
 /// One command that changed something.
 #[derive(Debug)]
 pub struct Entry {
+    /// Counts commands: none has the number of another.
+    pub number: u64,
     /// Its text, for telling what was undone.
     pub label: String,
     /// What takes it back, in the order it was made.
     pub changes: Vec<Change>,
+}
+
+impl Entry {
+    fn n_bytes(&self) -> usize {
+        size_of::<Self>()
+            + self.label.len()
+            + self.changes.iter().map(Change::n_bytes).sum::<usize>()
+    }
 }
 
 /// The commands done and undone, and the one under way.
@@ -83,18 +98,20 @@ pub struct Entry {
 pub struct Journal {
     /// What takes back the command under way, in the order it was made.
     pub current: Vec<Change>,
-    /// Whether `current` holds all that running changes already: once is enough.
-    pub has_motion: bool,
-    /// Whether `current` holds what the solver remembered.
+    /// Where in `current` what the world notes of running has its place, while it does.
+    pub motion: Option<usize>,
+    /// Whether the solver notes what it remembered.
     pub has_memory: bool,
-    /// What `current` takes back already; anew once it holds all that running changes.
+    /// What `current` takes back already; anew once the world notes what running changes.
     pub covered: BTreeSet<Part>,
-    /// The last of `done` that the solver has not taken in, so that none of them says what it
-    /// remembered before.
-    n_unseen: usize,
+    /// Each with the bytes it holds.
     done: VecDeque<(Entry, usize)>,
-    undone: Vec<Entry>,
+    /// The last of them is done again first.
+    undone: VecDeque<(Entry, usize)>,
+    /// The bytes of both.
     n_bytes: usize,
+    /// Commands that changed something so far.
+    n_commands: u64,
 }
 
 impl Journal {
@@ -102,66 +119,81 @@ impl Journal {
     pub fn commit(&mut self, label: &str) {
         let mut changes = self.take_current();
         if !changes.is_empty() {
-            self.undone.clear();
+            self.n_bytes -= self.undone.drain(..).map(|(_, n_bytes)| n_bytes).sum::<usize>();
             changes.shrink_to_fit();
-            self.keep(Entry { label: label.to_owned(), changes });
+            let number = self.n_commands;
+            self.n_commands += 1;
+            self.keep(Entry { number, label: label.to_owned(), changes });
+            self.forget_oldest();
         }
     }
 
-    /// Whether there are commands that the solver has not taken in.
-    pub const fn has_unseen(&self) -> bool {
-        self.n_unseen > 0
+    /// The number that the command under way will have.
+    pub const fn next_number(&self) -> u64 {
+        self.n_commands
     }
 
-    /// Adds what brings the solver back to all commands that it is about to take in.
-    pub fn see(&mut self, change: impl Fn() -> Change) {
-        let n_unseen = std::mem::take(&mut self.n_unseen).min(self.done.len());
-        for (entry, _) in self.done.range_mut(self.done.len() - n_unseen..) {
-            // A long entry was shrunk to what it holds: it needs no room for more than this.
-            entry.changes.reserve_exact(1);
-            entry.changes.push(change());
-        }
+    /// How many commands are to be taken back, or else to be done again, until a command is the next
+    /// one to be done; none where it is forgotten.
+    pub fn way_before(&self, number: u64) -> Option<(usize, usize)> {
+        let place = |list: &VecDeque<(Entry, usize)>| {
+            list.iter().rev().position(|(entry, _)| entry.number == number)
+        };
+        let back = place(&self.done).map(|n| (n + 1, 0));
+        back.or_else(|| Some((0, place(&self.undone)?)))
     }
 
     /// Ends the command under way without a trace; gives what takes it back.
     pub fn take_current(&mut self) -> Vec<Change> {
-        self.has_motion = false;
-        self.has_memory = false;
         self.covered.clear();
         std::mem::take(&mut self.current)
     }
 
     /// Keeps a command as the last one done.
     pub fn keep(&mut self, entry: Entry) {
-        let is_seen = entry.changes.iter().any(|change| matches!(change, Change::Memory(_)));
-        self.n_unseen = if is_seen { 0 } else { self.n_unseen + 1 };
-        let n_bytes = entry.changes.iter().map(Change::n_bytes).sum();
+        let n_bytes = entry.n_bytes();
         self.n_bytes += n_bytes;
         self.done.push_back((entry, n_bytes));
-        while self.done.len() > UNDO_COMMANDS || (self.n_bytes > UNDO_BYTES && self.done.len() > 1)
+    }
+
+    /// Forgets what is farthest from now, where there is more than is kept.
+    pub fn forget_oldest(&mut self) {
+        while self.done.len() > UNDO_COMMANDS
+            || self.n_bytes > UNDO_BYTES && self.done.len() + self.undone.len() > 1
         {
-            if let Some((_, n_bytes)) = self.done.pop_front() {
-                self.n_bytes -= n_bytes;
-            }
+            let farthest = if self.done.len() >= self.undone.len() {
+                self.done.pop_front()
+            } else {
+                self.undone.pop_front()
+            };
+            self.n_bytes -= farthest.map_or(0, |(_, n_bytes)| n_bytes);
         }
+    }
+
+    /// Roughly how many bytes all of it holds.
+    pub const fn n_bytes(&self) -> usize {
+        self.n_bytes
     }
 
     /// The last command done.
     pub fn pop_done(&mut self) -> Option<Entry> {
         let (entry, n_bytes) = self.done.pop_back()?;
-        self.n_unseen = self.n_unseen.saturating_sub(1);
         self.n_bytes -= n_bytes;
         Some(entry)
     }
 
     /// Keeps a command for `redo`.
     pub fn push_undone(&mut self, entry: Entry) {
-        self.undone.push(entry);
+        let n_bytes = entry.n_bytes();
+        self.n_bytes += n_bytes;
+        self.undone.push_back((entry, n_bytes));
     }
 
     /// The last command undone.
     pub fn pop_undone(&mut self) -> Option<Entry> {
-        self.undone.pop()
+        let (entry, n_bytes) = self.undone.pop_back()?;
+        self.n_bytes -= n_bytes;
+        Some(entry)
     }
 }
 

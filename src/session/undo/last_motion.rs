@@ -2,27 +2,35 @@
 
 use crate::session::state::State;
 use crate::solve::Memory;
-use crate::study::{Hand, Leg, RepeatableMotion};
-use crate::world::Motion;
+use crate::study::{Hand, Leg};
+use crate::world::Moment;
 
 /// The motions that are kept.
 #[derive(Debug, Default)]
 pub(crate) struct LastMotion {
     /// The longest since the structure last changed; of equals the first.
-    longest: Option<Lap>,
+    pub(super) longest: Option<Lap>,
     /// That of the command under way.
     current: Option<Lap>,
 }
 
 /// A motion: where it began, and what happened.
 #[derive(Debug)]
-struct Lap {
-    motion: Motion,
-    memory: Memory,
-    legs: Vec<Leg>,
-    n_frames: u64,
+pub(super) struct Lap {
+    pub beginning: Beginning,
+    pub legs: Vec<Leg>,
+    pub n_frames: u64,
     /// The world's revision at its end.
-    revision: u64,
+    pub revision: u64,
+}
+
+/// Where a motion began.
+#[derive(Debug)]
+pub(super) enum Beginning {
+    /// Before the command of this number.
+    Command(u64),
+    /// In the middle of a command.
+    Within(Box<(Moment, Memory)>),
 }
 
 /// Stretches of a motion beyond which no more are kept.
@@ -32,11 +40,6 @@ impl LastMotion {
     /// Forgets the command under way.
     pub fn give_up(&mut self) {
         self.current = None;
-    }
-
-    /// Where the command under way began to let time pass, or the longest did.
-    pub fn latest(&self) -> Option<&Motion> {
-        self.current.as_ref().or(self.longest.as_ref()).map(|lap| &lap.motion)
     }
 
     /// The command under way is done, and this the world's revision at its end.
@@ -49,21 +52,20 @@ impl LastMotion {
     }
 
     /// Frames are about to pass in the command under way. What the hand holds is not yet frozen.
-    /// In a block more frames may follow.
-    pub fn begin_leg(&mut self, state: &State, n_frames: u64, is_in_block: bool) {
+    /// In a block more frames may follow; else they are all of the command of this number.
+    pub fn begin_leg(&mut self, state: &State, n_frames: u64, is_in_block: bool, number: u64) {
         let revision = state.world.revision();
         if self.current.as_ref().is_some_and(|lap| lap.revision == revision) {
             return;
         }
         self.end(revision);
         if is_in_block || n_frames > self.n_longest(revision) {
-            self.current = Some(Lap {
-                motion: state.world.motion(),
-                memory: state.solver.memory(),
-                legs: Vec::new(),
-                n_frames: 0,
-                revision,
-            });
+            let beginning = if is_in_block {
+                Beginning::Within(Box::new((state.world.moment(), state.solver.memory())))
+            } else {
+                Beginning::Command(number)
+            };
+            self.current = Some(Lap { beginning, legs: Vec::new(), n_frames: 0, revision });
         }
     }
 
@@ -79,19 +81,6 @@ impl LastMotion {
             Some(last) if last.hands.is_empty() && hands.is_empty() => last.n_frames += n_frames,
             _ => lap.legs.push(Leg { n_frames, hands }),
         }
-    }
-
-    /// The longest motion since the structure changed, if there was one.
-    pub fn repeatable_motion(&self, state: &State) -> Option<RepeatableMotion> {
-        let lap = self.longest.as_ref()?;
-        if lap.revision != state.world.revision() {
-            return None;
-        }
-        let (motion, memory) = (lap.motion.clone(), lap.memory.clone());
-        let settings = state.preferences.solve;
-        let repeatable =
-            RepeatableMotion::back(&state.world, motion, memory, settings, lap.legs.clone());
-        Some(repeatable.with_frames(lap.n_frames))
     }
 
     fn n_longest(&self, revision: u64) -> u64 {

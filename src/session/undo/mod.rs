@@ -4,4 +4,5 @@ pub mod history;
 pub mod journal;
 pub mod last_motion;
 pub mod recorder;
+mod repeat;
 pub mod transaction;

@@ -76,6 +76,13 @@ pub struct Reel {
 /// What a shot takes in memory, roughly.
 const SHOT_BYTES: usize = size_of::<Shot>() + size_of::<Scene>();
 
+impl Reel {
+    /// Roughly how many bytes it takes in memory.
+    pub const fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.then.len() * SHOT_BYTES
+    }
+}
+
 impl Recorder {
     /// A recording that has taken nothing yet.
     pub const fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {

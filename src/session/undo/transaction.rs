@@ -1,14 +1,13 @@
 //! A command is a transaction: what it changed can be taken back, and done again.
 
-use std::sync::Arc;
-
 use super::history::History;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
+use crate::interrupt;
 use crate::session::series::swap_sample;
 use crate::session::state::State;
 use crate::solve::{Memory, Settings, Solver};
-use crate::world::{Edit, World};
+use crate::world::{Edit, Moment, PointId, World};
 
 impl State {
     /// Makes a reversible change; gives the change that takes it back.
@@ -26,12 +25,7 @@ impl State {
                 };
                 Change::Definition(definition)
             }
-            Change::Memory(memory) => {
-                let old = Arc::new(self.solver.memory());
-                self.solver.set_memory(Memory::clone(&memory));
-                self.is_behind = true;
-                Change::Memory(old)
-            }
+            Change::Memory(recall) => Change::Memory(Box::new(self.solver.recall(*recall))),
             Change::Recorder(idx, Some(recorder)) => {
                 self.recorders.insert(idx, *recorder);
                 Change::Recorder(idx, None)
@@ -56,18 +50,33 @@ impl State {
         }
     }
 
+    /// Whether a change would leave everything as it is. Says no where that is not seen at once.
+    fn is_at(&self, change: &Change) -> bool {
+        match change {
+            Change::World(edit) => self.world.is_already(edit),
+            Change::Preferences(preferences) => **preferences == self.preferences,
+            Change::Reels(reels) => {
+                reels.len() == self.recorders.len()
+                    && self.recorders.iter().zip(reels).all(|(r, reel)| r.is_at(reel))
+            }
+            Change::Memory(recall) => self.solver.is_at(recall),
+            _ => false,
+        }
+    }
+
     /// Asks the solver something. What it has to take in for that, it forgets again, so that
     /// looking changes nothing of what comes after.
     pub fn look<T>(&mut self, ask: impl FnOnce(&mut Solver, &mut World, &Settings) -> T) -> T {
         let Self { solver, world, preferences, .. } = self;
-        let is_behind = self.is_behind || !world.is_untouched();
-        let memory = is_behind.then(|| solver.memory());
-        let answer = ask(solver, world, &preferences.solve);
-        if let Some(memory) = memory {
-            solver.set_memory(memory);
-            self.is_behind = true;
+        let outer = solver.begin_recall();
+        let answer = interrupt::catch(|| ask(solver, world, &preferences.solve));
+        if let Some(recall) = solver.end_recall(outer) {
+            solver.recall(recall);
         }
-        answer
+        answer.unwrap_or_else(|stopped| {
+            solver.begin_anew();
+            interrupt::go_on(stopped)
+        })
     }
 }
 
@@ -80,8 +89,19 @@ impl History {
 
     /// Makes an edit of the world that belongs to the command under way.
     pub fn edit(&mut self, state: &mut State, edit: Edit) {
+        let made = match &edit {
+            Edit::Constraint(id, Some(_)) if !state.world.start_states().contains_key(id) => {
+                Some(*id)
+            }
+            _ => None,
+        };
         let inverse = state.world.apply(edit);
         self.keep(&state.world, inverse);
+        if let Some(id) = made
+            && state.world.start_states().contains_key(&id)
+        {
+            self.keep(&state.world, Edit::StartState(id, None));
+        }
     }
 
     /// Keeps the inverse of an edit that was made, unless what takes back an earlier edit of
@@ -95,7 +115,7 @@ impl History {
             | Edit::StartState(..)
             | Edit::StartStates(_)
             | Edit::Ghost(None)
-                if self.journal.has_motion =>
+                if self.journal.motion.is_some() =>
             {
                 return;
             }
@@ -103,7 +123,6 @@ impl History {
             Edit::Freeze(id, _) => Some(Part::Freedom(*id)),
             Edit::Weight(id, _) => Some(Part::Weight(*id)),
             Edit::Clock(_) => Some(Part::Clock),
-            Edit::Motion(_) => Some(Part::Motion),
             Edit::Switch(id, _) => Some(Part::Switch(*id)),
             Edit::Constraint(id, Some(_)) if world.constraint(*id).is_some() => {
                 Some(Part::Constraint(*id))
@@ -128,70 +147,74 @@ impl History {
     pub fn set_memory(&mut self, state: &mut State, memory: Memory) {
         self.note_memory(state);
         state.solver.set_memory(memory);
-        state.is_behind = true;
     }
 
-    /// Keeps all that running changes, before the command under way lets time pass or the
+    /// Adds a part to what the solver remembers, as part of the command under way; false if it cannot
+    /// be one.
+    pub fn restore_memory(
+        &mut self,
+        state: &mut State,
+        owner: Option<PointId>,
+        numbers: &[f64],
+    ) -> bool {
+        self.note_memory(state);
+        state.solver.restore(owner, numbers)
+    }
+
+    /// Keeps what running changes from here on, before the command under way lets time pass or the
     /// solver move points. Once a command is enough.
     pub fn begin_motion(&mut self, state: &mut State) {
-        if std::mem::replace(&mut self.journal.has_motion, true) {
+        if self.journal.motion.is_some() {
             return;
         }
         self.journal.covered.clear();
+        self.journal.motion = Some(self.journal.current.len());
+        state.world.begin_motion();
         let reels = state.recorders.iter().map(Recorder::mark).collect();
-        self.sync(state);
-        let motion = Box::new(match self.last_motion.latest() {
-            Some(latest) => state.world.motion_since(latest),
-            None => state.world.motion(),
-        });
-        self.journal.current.push(Change::World(Edit::Motion(motion)));
         self.journal.current.push(Change::Reels(reels));
+        self.sync(state);
     }
 
-    /// Keeps what the solver remembers, before the command under way has it take in an edit.
-    fn note_memory(&mut self, state: &State) {
-        if !std::mem::replace(&mut self.journal.has_memory, true) {
-            self.note_unseen(state);
-            let memory = Arc::new(state.solver.memory());
-            self.journal.current.push(Change::Memory(memory));
+    /// Puts everything as it was at a moment, as part of the command under way.
+    pub fn go_to(&mut self, state: &mut State, moment: Moment) {
+        self.begin_motion(state);
+        let before = state.world.go_to(moment);
+        if before.has_paths() {
+            self.journal.current.push(Change::World(Edit::Motion(Box::new(before))));
         }
     }
 
-    /// Commands that the solver has not seen yet are taken back to what it remembers now.
-    fn note_unseen(&mut self, state: &State) {
-        if self.journal.has_unseen() {
-            let memory = Arc::new(state.solver.memory());
-            self.journal.see(|| Change::Memory(memory.clone()));
+    /// Keeps what the solver remembers from here on, before the command under way has it take in an
+    /// edit.
+    fn note_memory(&mut self, state: &mut State) {
+        if !std::mem::replace(&mut self.journal.has_memory, true) {
+            state.solver.begin_recall();
         }
     }
 
     /// Lets the solver take in what was edited, as part of the command under way.
     pub fn sync(&mut self, state: &mut State) {
         self.note_memory(state);
-        state.is_behind = false;
         state.solver.sync(&mut state.world, &state.preferences.solve);
     }
 
+    /// All that takes back the command under way, in the order it was made.
+    fn gather(&mut self, state: &mut State) {
+        let journal = &mut self.journal;
+        if let (Some(place), Some(motion)) = (journal.motion.take(), state.world.end_motion()) {
+            journal.current.insert(place, Change::World(Edit::Motion(motion)));
+        }
+        if std::mem::take(&mut journal.has_memory)
+            && let Some(recall) = state.solver.end_recall(None)
+        {
+            journal.current.push(Change::Memory(Box::new(recall)));
+        }
+    }
+
     /// Ends the command under way. One that left everything as it was is none to be taken back.
-    pub fn commit(&mut self, state: &State, label: &str) {
-        let changes = &self.journal.current;
-        let is_idle = changes.iter().all(|change| match change {
-            Change::World(edit) => state.world.is_already(edit),
-            Change::Preferences(preferences) => **preferences == state.preferences,
-            Change::Reels(reels) => {
-                reels.len() == state.recorders.len()
-                    && state.recorders.iter().zip(reels).all(|(r, reel)| r.is_at(reel))
-            }
-            // Looked at below: it takes the longest.
-            Change::Memory(_) => true,
-            _ => false,
-        });
-        let is_idle = is_idle
-            && changes.iter().all(|change| match change {
-                Change::Memory(memory) => memory.is_same(&state.solver.memory()),
-                _ => true,
-            });
-        if is_idle {
+    pub fn commit(&mut self, state: &mut State, label: &str) {
+        self.gather(state);
+        if self.journal.current.iter().all(|change| state.is_at(change)) {
             self.journal.take_current();
         } else {
             self.journal.commit(label);
@@ -201,6 +224,7 @@ impl History {
     /// Takes back what the command under way did.
     pub fn roll_back(&mut self, state: &mut State) {
         self.last_motion.give_up();
+        self.gather(state);
         for change in self.journal.take_current().into_iter().rev() {
             if let Change::Reels(reels) = &change {
                 state.recorders.iter().zip(reels).for_each(|(recorder, reel)| recorder.cut(reel));
@@ -211,23 +235,55 @@ impl History {
 
     /// Takes back the last command; gives its text, if there was one.
     pub fn undo(&mut self, state: &mut State) -> Option<String> {
+        let label = self.step_back(state);
+        self.journal.forget_oldest();
+        label
+    }
+
+    /// Does the command that was taken back last again; gives its text, if there was one.
+    pub fn redo(&mut self, state: &mut State) -> Option<String> {
+        let label = self.step_forth(state);
+        self.journal.forget_oldest();
+        label
+    }
+
+    fn step_back(&mut self, state: &mut State) -> Option<String> {
         let inverse = invert(state, self.journal.pop_done()?);
         let label = inverse.label.clone();
         self.journal.push_undone(inverse);
         Some(label)
     }
 
-    /// Does the command that was taken back last again; gives its text, if there was one.
-    pub fn redo(&mut self, state: &mut State) -> Option<String> {
+    fn step_forth(&mut self, state: &mut State) -> Option<String> {
         let inverse = invert(state, self.journal.pop_undone()?);
         let label = inverse.label.clone();
         self.journal.keep(inverse);
         Some(label)
+    }
+
+    /// Asks something of the state as it was before a command, or would be once it is the next to be
+    /// done again; none where that is forgotten, or a command is under way.
+    pub(super) fn before<T>(
+        &mut self,
+        number: u64,
+        state: &mut State,
+        ask: impl FnOnce(&State) -> T,
+    ) -> Option<T> {
+        if !self.journal.current.is_empty() {
+            return None;
+        }
+        let (n_back, n_forth) = self.journal.way_before(number)?;
+        (0..n_back).for_each(|_| drop(self.step_back(state)));
+        (0..n_forth).for_each(|_| drop(self.step_forth(state)));
+        let answer = ask(state);
+        (0..n_forth).for_each(|_| drop(self.step_back(state)));
+        (0..n_back).for_each(|_| drop(self.step_forth(state)));
+        Some(answer)
     }
 }
 
 /// Takes back one command, or does it again; gives what takes that back.
 fn invert(state: &mut State, entry: Entry) -> Entry {
     let changes = entry.changes.into_iter().rev().map(|change| state.apply(change)).collect();
-    Entry { label: entry.label, changes }
+    Entry { changes, ..entry }
 }

@@ -3,7 +3,7 @@
 use crate::constraint::{Constraint, Heading, Point};
 
 /// What changed since the last visit, with the values before.
-#[derive(Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Inputs {
     /// Motors that turned on, which is all that most frames change. One that is in `constraints`
     /// too turned after its values changed.

@@ -6,9 +6,8 @@ use std::sync::Arc;
 
 use super::Island;
 use super::history::History;
-use super::snapshot::Snapshot;
+use super::snapshot::{Exact, Snapshot};
 use crate::solve::method::spectrum::Spectrum;
-use crate::solve::report::Status;
 use crate::solve::settings::{Method, Settings};
 use crate::world::PointId;
 
@@ -73,41 +72,48 @@ impl Memory {
         self.made_by
     }
 
-    /// Whether another makes no difference: with which settings nothing was solved is none.
-    pub fn is_same(&self, other: &Self) -> bool {
-        let is_bare = self.islands.is_empty() && other.islands.is_empty();
-        is_bare || self == other
-    }
-
     /// Adds what is remembered of an island; nothing of one that was never solved.
     pub(crate) fn insert(&mut self, island: &Island) {
         if !island.is_new {
-            self.islands.insert(island.points[0], snapshot_of(island));
+            self.put(island.points[0], snapshot_of(island));
         }
     }
 
-    /// Takes out what is remembered of an island.
-    pub(crate) fn take(&mut self, island: &Island) -> Option<Arc<Snapshot>> {
-        self.islands.remove(&island.points[0])
+    /// Adds a snapshot of the island that begins with a point.
+    pub(crate) fn put(&mut self, first: PointId, snapshot: Arc<Snapshot>) {
+        if !snapshot.is_new() {
+            self.islands.insert(first, snapshot);
+        }
+    }
+
+    /// The snapshots, each with the first point of its island.
+    pub(crate) fn into_islands(self) -> impl Iterator<Item = (PointId, Arc<Snapshot>)> {
+        self.islands.into_iter()
     }
 }
 
 /// What of an island is remembered; worked out once after each visit.
-fn snapshot_of(island: &Island) -> Arc<Snapshot> {
+pub(crate) fn snapshot_of(island: &Island) -> Arc<Snapshot> {
     let snapshot = || {
         Arc::new(Snapshot {
             n_free: island.n_free,
             status: island.status,
-            residual: island.residual.min(f64::MAX),
+            residual: island.residual,
             probed_at: island.probed_at,
             has_degree: island.has_degree,
             is_smooth: island.is_smooth(),
             is_edited: island.is_edited,
             is_awake: island.is_awake,
             fingerprint: island.fingerprint(),
-            past: island.history.to_past(),
+            past: island.history.to_past().into(),
             feasible: island.feasible.clone().unwrap_or_default(),
             direction: island.spectrum.as_deref().map_or(&[][..], Spectrum::direction).into(),
+            exact: Some(Exact {
+                is_new: island.is_new,
+                n_evaluations: island.n_evaluations,
+                sides: island.known_sides(),
+                inputs: (!island.inputs.is_empty()).then(|| Box::new(island.inputs.clone())),
+            }),
         })
     };
     island.remembered.get_or_init(snapshot).clone()
@@ -120,13 +126,9 @@ pub(crate) fn restore(island: &mut Island, then: &Snapshot) {
     if now.structure != then.fingerprint.structure || then.n_free != island.n_free {
         return;
     }
-    island.status = match then.status {
-        // Whether nothing can help is found again by who asks.
-        Status::Unsatisfiable => Status::Stalled,
-        status => status,
-    };
+    island.status = then.status;
     island.residual = then.residual;
-    island.is_new = false;
+    island.is_new = then.is_new();
     island.is_edited = then.is_edited;
     island.is_awake = then.is_awake;
     island.probed_at = then.probed_at;
@@ -137,6 +139,11 @@ pub(crate) fn restore(island: &mut Island, then: &Snapshot) {
     island.feasible = (!then.feasible.is_empty()).then(|| then.feasible.clone());
     let direction = (!then.direction.is_empty()).then(|| then.direction.to_vec());
     island.spectrum = direction.map(|direction| Box::new(Spectrum::from_direction(direction)));
+    if let Some(exact) = &then.exact {
+        island.n_evaluations = exact.n_evaluations;
+        island.recall_sides(&exact.sides);
+        island.inputs = exact.inputs.as_deref().cloned().unwrap_or_default();
+    }
     if now != then.fingerprint {
         island.note_edit(now.pose != then.fingerprint.pose);
     }

@@ -5,8 +5,10 @@ pub mod closed;
 pub mod fingerprint;
 pub mod history;
 pub mod inputs;
+pub mod known_sides;
 pub mod memory;
 pub mod partition;
+pub mod recall;
 pub mod sides;
 pub mod snapshot;
 pub mod structure;
@@ -249,25 +251,27 @@ impl Island {
         here.words(|p| self.points[p as usize].0).eq(there.words(|p| p))
     }
 
-    /// Puts a constraint's values in place of those it has; it has the same points as before.
-    pub fn set_values(&mut self, c: usize, constraint: &Constraint) {
+    /// Puts a constraint's values in place of those it has; it has the same points as before. False
+    /// if they are the same.
+    pub fn set_values(&mut self, c: usize, constraint: &Constraint) -> bool {
         if let (Constraint::Motor(here), Constraint::Motor(there)) =
             (&mut self.constraints[c], constraint)
             && here.is_copy(there)
         {
             let before = here.heading();
-            if before != there.heading() {
+            let has_turned = before != there.heading();
+            if has_turned {
                 here.set_heading(there.heading());
                 self.remembered.take();
                 self.inputs.note_turn(c as u32, before);
             }
-            return;
+            return has_turned;
         }
         let mut new = constraint.clone();
         new.set_points(self.constraints[c].points());
         if new == self.constraints[c] {
             // Deleted and brought back, or set to what it was.
-            return;
+            return false;
         }
         self.remembered.take();
         if new.nominal_length() != self.constraints[c].nominal_length() {
@@ -279,6 +283,7 @@ impl Island {
         }
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.note_values(c as u32, old);
+        true
     }
 
     /// Puts a point elsewhere, from outside.

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use super::memory::Memory;
 use super::{Island, Member};
 use crate::constraint::ConstraintKind;
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::solve::parallel::Effort;
 use crate::world::{ConstraintId, PointId, Touched, World};
@@ -14,6 +14,9 @@ use crate::world::{ConstraintId, PointId, Touched, World};
 const NONE: u32 = u32::MAX;
 /// All points are frozen: in no island, but to be checked.
 const CHECKED: u32 = u32::MAX - 1;
+
+/// What finding the island of a constraint takes, in ticks.
+const CONSTRAINT: usize = 500;
 
 /// Where a constraint is looked after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,28 +123,37 @@ impl Partition {
         self.checked.iter().copied()
     }
 
-    /// Takes apart what an edit touched and puts it together anew; gives the new islands.
-    /// What is remembered of those taken apart is added to `memory`.
-    pub fn update(&mut self, touched: &Touched, world: &World, memory: &mut Memory) -> Vec<u32> {
+    /// Takes apart what an edit touched, and the islands of these free points, and puts it together
+    /// anew; gives the new islands. Those taken apart are shown to `leave` before.
+    pub fn update(
+        &mut self,
+        touched: &Touched,
+        outdated: &[PointId],
+        world: &World,
+        leave: &mut dyn FnMut(&Island),
+    ) -> Vec<u32> {
         let n_points = world.points().column().len();
         self.of_point.resize(n_points, NONE);
         self.of_constraint.resize(world.next_constraint().idx(), NONE);
         self.local_constraint.resize(world.next_constraint().idx(), NONE);
-        let mut loose = Loose { memory: std::mem::take(memory), ..Loose::default() };
+        let mut loose = Loose { constraints: BTreeSet::new(), leave };
         if touched.all {
             for island in self.islands.iter().flatten() {
-                loose.memory.insert(island);
+                (loose.leave)(island);
             }
             self.clear();
             for (id, _) in world.constraints().filter(|(_, record)| record.is_on) {
                 loose.constraints.insert(id);
             }
         } else {
+            for &p in outdated {
+                if let Some(k) = self.island_of_point(p) {
+                    self.dissolve(k, &mut loose);
+                }
+            }
             self.loosen(touched, world, &mut loose);
         }
-        let made = self.assemble(&loose, world);
-        *memory = loose.memory;
-        made
+        self.assemble(&loose, world)
     }
 
     fn clear(&mut self) {
@@ -154,7 +166,7 @@ impl Partition {
     }
 
     /// Collects all constraints whose island may change.
-    fn loosen(&mut self, touched: &Touched, world: &World, loose: &mut Loose) {
+    fn loosen(&mut self, touched: &Touched, world: &World, loose: &mut Loose<'_>) {
         let changed: BTreeSet<ConstraintId> = touched.constraints.iter().copied().collect();
         for &id in &changed {
             self.dissolve_home(id, loose);
@@ -191,7 +203,7 @@ impl Partition {
         loose.constraints.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
     }
 
-    fn dissolve_home(&mut self, id: ConstraintId, loose: &mut Loose) {
+    fn dissolve_home(&mut self, id: ConstraintId, loose: &mut Loose<'_>) {
         match self.home(id) {
             Home::None => {}
             Home::Island(k) => drop(self.dissolve(k, loose)),
@@ -204,10 +216,10 @@ impl Partition {
     }
 
     /// Takes an island apart; gives its constraints.
-    fn dissolve(&mut self, k: u32, loose: &mut Loose) -> Vec<ConstraintId> {
+    fn dissolve(&mut self, k: u32, loose: &mut Loose<'_>) -> Vec<ConstraintId> {
         let Some(island) = self.islands[k as usize].take() else { return Vec::new() };
         self.vacant.push(k);
-        loose.memory.insert(&island);
+        (loose.leave)(&island);
         for p in &island.points[..island.n_free] {
             self.of_point[p.idx()] = NONE;
         }
@@ -224,12 +236,13 @@ impl Partition {
     }
 
     /// Puts loose constraints together to islands, by the free points they share.
-    fn assemble(&mut self, loose: &Loose, world: &World) -> Vec<u32> {
+    fn assemble(&mut self, loose: &Loose<'_>, world: &World) -> Vec<u32> {
         let points = world.points();
         let is_free = |p: u32| !points.is_frozen(PointId(p));
         let mut sets = Sets::default();
         let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.constraints.len());
         for &id in &loose.constraints {
+            tick(CONSTRAINT);
             let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
             if constraint.n_rows() == 0 {
                 // A circle asks for nothing.
@@ -302,11 +315,10 @@ fn frozen_points(island: &Island) -> impl Iterator<Item = (PointId, ConstraintId
 }
 
 /// Constraints that belong to no island for the moment.
-#[derive(Default)]
-struct Loose {
+struct Loose<'a> {
     constraints: BTreeSet<ConstraintId>,
-    /// What is remembered of the islands they were in.
-    memory: Memory,
+    /// Takes a last look at the islands they were in.
+    leave: &'a mut dyn FnMut(&Island),
 }
 
 /// Disjoint sets of points, as far as they are named.

@@ -1,6 +1,7 @@
 //! On which side of its singular pose everything in an island is, and what turned over.
 
 use super::Island;
+use super::known_sides::{KnownSides, WatchedSides};
 use crate::constraint::PointIdx;
 use crate::solve::frame::branch::{FLAT, PartSide};
 use crate::solve::frame::decomposition::Side;
@@ -21,6 +22,40 @@ pub(crate) struct Sides {
 }
 
 impl Island {
+    /// On which side everything was when last looked at.
+    pub fn known_sides(&self) -> KnownSides {
+        let watch = &self.watch;
+        let is_watched = !watch.triangles.is_empty() || !watch.part_sides.is_empty();
+        let watched = is_watched.then(|| {
+            Box::new(WatchedSides {
+                triangles: watch.sides.clone(),
+                parts: watch.part_sides.clone(),
+                knows_parts: watch.knows_part_sides,
+            })
+        });
+        let blocks = &self.plan.blocks;
+        if self.are_sides_old && self.inputs.is_empty() {
+            // It is where the last frame left it: what was put off is worked out here.
+            let blocks = (0..blocks.len()).map(|k| self.side_of_block(k)).collect();
+            return KnownSides { blocks, are_old: false, watched };
+        }
+        let blocks = blocks.iter().map(|block| block.side).collect();
+        KnownSides { blocks, are_old: self.are_sides_old, watched }
+    }
+
+    /// Brings back what [`known_sides`](Self::known_sides) gave.
+    pub fn recall_sides(&mut self, sides: &KnownSides) {
+        self.are_sides_old = sides.are_old;
+        for (block, side) in self.plan.blocks.iter_mut().zip(&sides.blocks) {
+            block.side = *side;
+        }
+        if let Some(watched) = &sides.watched {
+            self.watch.sides.clone_from(&watched.triangles);
+            self.watch.part_sides.clone_from(&watched.parts);
+            self.watch.knows_part_sides = watched.knows_parts;
+        }
+    }
+
     /// Works out on which side the parts are at the present pose, where they are not known.
     pub fn measure_part_sides(&mut self, work: &mut Counters) {
         if self.watch.knows_part_sides || self.plan.is_complete() {

@@ -1,5 +1,7 @@
 //! What is remembered of one island, and how it is written as plain numbers.
 
+use super::inputs::Inputs;
+use super::known_sides::KnownSides;
 use crate::constraint::Point;
 use crate::solve::report::Status;
 
@@ -12,7 +14,7 @@ pub(crate) struct Fingerprint {
     pub pose: u64,
 }
 
-/// What is remembered of one island; all its numbers are finite.
+/// What is remembered of one island.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(crate) struct Snapshot {
@@ -35,11 +37,27 @@ pub(crate) struct Snapshot {
     /// What it was.
     pub fingerprint: Fingerprint,
     /// The poses of the last frames, the latest first.
-    pub past: Vec<Point>,
+    pub past: Box<[Point]>,
     /// The last pose that met everything, kept while none does; else empty.
     pub feasible: Box<[Point]>,
     /// What its spectrum carries from frame to frame, (x, y) for each free point; else empty.
     pub direction: Box<[f64]>,
+    /// What is not written down; none where this was read.
+    pub exact: Option<Exact>,
+}
+
+/// What of an island follows from its pose, nearly: kept for those who bring it back in the same
+/// session.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Exact {
+    /// Whether it was never solved.
+    pub is_new: bool,
+    /// The work of its last visit.
+    pub n_evaluations: u32,
+    /// On which side everything was when last looked at.
+    pub sides: KnownSides,
+    /// What drives it in a frame that was cut short.
+    pub inputs: Option<Box<Inputs>>,
 }
 
 /// How many numbers there are before those of the points.
@@ -48,6 +66,17 @@ const HEADER: usize = 17;
 const MOST_POINTS: usize = 1 << 31;
 
 impl Snapshot {
+    /// Whether the island was never solved.
+    pub fn is_new(&self) -> bool {
+        self.exact.as_ref().is_some_and(|exact| exact.is_new)
+    }
+
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        let sides = self.exact.as_ref().map_or(0, |exact| exact.sides.n_bytes());
+        size_of::<Self>() + size_of::<f64>() * (self.n_numbers() - HEADER) + sides
+    }
+
     /// How many numbers [`Snapshot::to_numbers`] gives.
     pub fn n_numbers(&self) -> usize {
         HEADER + 2 * (self.past.len() + self.feasible.len()) + self.direction.len()
@@ -60,7 +89,7 @@ impl Snapshot {
         let mut numbers = vec![
             self.n_free as f64,
             f64::from(code(self.status)),
-            self.residual,
+            self.residual.min(f64::MAX),
             self.probed_at,
             flag(self.has_degree),
             flag(self.is_smooth),
@@ -107,7 +136,7 @@ impl Snapshot {
             status: match status {
                 0.0 => Status::Converged,
                 1.0 => Status::BestFit,
-                3.0 => Status::Unsatisfiable,
+                // Whether nothing can help is found again by who asks.
                 _ => Status::Stalled,
             },
             residual,
@@ -117,9 +146,10 @@ impl Snapshot {
             is_edited: is_edited != 0.0,
             is_awake: is_awake != 0.0,
             fingerprint: Fingerprint { structure, inputs, pose },
-            past: points(past),
+            past: points(past).into(),
             feasible: points(feasible).into(),
             direction: direction.into(),
+            exact: None,
         })
     }
 }
@@ -173,6 +203,7 @@ mod tests {
             past: (0..4).map(place).collect(),
             feasible: (4..6).map(place).collect(),
             direction: [1.0, 2.0, 3.0, 4.0].into(),
+            exact: None,
         }
     }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::constraint::{
     Activity, Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Real, Row, Vec2, Vector,
 };
+use crate::interrupt::tick;
 use crate::solve::report::Counters;
 
 /// A constraint of no more points has all of them in each of its rows, as far as we know; so has
@@ -150,6 +151,9 @@ impl Equations {
     }
 }
 
+/// What the evaluation of a row takes, in ticks.
+const ROW: usize = 20;
+
 /// The rows at a pose, normalised: a gradient is of length 1 in the metric of the weights, so
 /// that each value is a distance to satisfaction and all kinds compare.
 #[derive(Debug, Clone, Default)]
@@ -230,6 +234,7 @@ impl Rows {
             let of_one = if r - first == 1 { distance } else { squares.sqrt() };
             self.worst = self.worst.max(of_one);
         }
+        tick(ROW * n_rows);
         debug_assert_eq!(r, n_rows, "a constraint gives as many rows as it says");
         self.energy *= 0.5;
         work.evaluations += equations.constraints.len() as u64;
@@ -245,7 +250,7 @@ impl Rows {
         let gradient = &mut self.gradient[2 * entries.start..2 * entries.end];
         let (gradient, _) = gradient.as_chunks_mut::<2>();
         let mut squared = 0.0;
-        for (&unknown, to) in equations.unknown[entries].iter().zip(&mut *gradient) {
+        for (&unknown, to) in equations.unknown[entries.clone()].iter().zip(&mut *gradient) {
             let unknown = unknown as usize;
             let point = equations.points[unknown];
             let term = row.terms().find(|&(p, _)| p == point);
@@ -253,7 +258,11 @@ impl Rows {
             *to = [g.x, g.y];
             squared += g.norm_squared();
         }
-        let scale = if row.is_active && squared > 0.0 { 1.0 / squared.sqrt() } else { 0.0 };
+        let norm = if squared.is_normal() { squared.sqrt() } else { norm_of(gradient) };
+        if !norm.is_finite() {
+            return self.set_without_value(r, entries);
+        }
+        let scale = if row.is_active && norm > 0.0 { 1.0 / norm } else { 0.0 };
         gradient.as_flattened_mut().iter_mut().for_each(|g| *g *= scale);
         let f = row.f * scale;
         self.scale[r] = scale;
@@ -355,6 +364,17 @@ impl Rows {
         }
         sum
     }
+}
+
+/// The norm of a gradient whose squares are beyond what numbers hold.
+#[cold]
+fn norm_of(gradient: &[[f64; 2]]) -> f64 {
+    let components = || gradient.as_flattened().iter();
+    let largest = components().fold(0.0, |most: f64, g| most.max(g.abs()));
+    if !largest.is_normal() {
+        return if largest.is_finite() { 0.0 } else { largest };
+    }
+    largest * components().map(|g| (g / largest) * (g / largest)).sum::<f64>().sqrt()
 }
 
 /// The second derivatives of a function of the places of some unknown points, by the weighted

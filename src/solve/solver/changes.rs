@@ -4,7 +4,7 @@ use super::Solver;
 use crate::constraint::Point;
 use crate::solve::dispatch::{Alone, Cause, check};
 use crate::solve::island::Island;
-use crate::solve::island::memory::{self, Memory};
+use crate::solve::island::memory;
 use crate::solve::island::partition::{Home, Partition};
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
@@ -22,6 +22,7 @@ impl Solver {
         if self.is_up_to_date(world, settings) {
             return Vec::new();
         }
+        self.note_pending();
         let before = self.settings.replace(*settings);
         let is_doubtful = before.is_some_and(|before| {
             (before.method, before.tolerance) != (settings.method, settings.tolerance)
@@ -43,37 +44,20 @@ impl Solver {
             touched.values.extend(values);
             touched.constraints = others;
         }
-        let is_changed = !touched.is_empty();
         let mut made = Vec::new();
-        if touched.all || !touched.points.is_empty() || !touched.constraints.is_empty() {
-            made = self.partition.update(&touched, world, &mut self.pending);
+        let is_outdated = !self.pending.is_empty();
+        if touched.all
+            || is_outdated
+            || !touched.points.is_empty()
+            || !touched.constraints.is_empty()
+        {
+            made = self.make_islands(&touched, world);
             work.islands_rebuilt += made.len() as u64;
-            for &k in &made {
-                self.restore_island(k);
-            }
-            self.pending = Memory::default();
-            if touched.all {
-                self.awake.clear();
-                self.is_awake.fill(false);
-            }
-            for &k in &made {
-                // One that was asleep when it was remembered sleeps on.
-                if self.partition.get(k).is_some_and(|island| island.is_awake) {
-                    self.wake(k);
-                }
-            }
             if is_doubtful {
                 // What was brought back is as doubtful as what was there.
                 self.invalidate(|_| true);
             }
             let partition = &self.partition;
-            // An island that takes the place of one that was awake is to be woken again.
-            let is_awake = &mut self.is_awake;
-            self.awake.retain(|&k| {
-                is_awake[k as usize] = partition.get(k).is_some();
-                is_awake[k as usize]
-            });
-            self.unsolved.retain(|&k| partition.get(k).is_some());
             self.unsatisfiable.clear();
             let checked: Vec<ConstraintId> = partition.checked().collect();
             for id in checked {
@@ -90,13 +74,12 @@ impl Solver {
         for &p in &touched.moved {
             self.apply_move(world, p, settings);
         }
-        if cause == Cause::Hand && is_changed {
-            for k in self.awake.clone() {
-                if let Some(island) = self.partition.get_mut(k)
-                    && !island.inputs.is_empty()
-                {
-                    island.note_edit(island.inputs.is_disturbed);
-                }
+        while let Some(k) = self.edited.pop() {
+            if cause == Cause::Hand
+                && let Some(island) = self.partition.get_mut(k)
+                && !island.inputs.is_empty()
+            {
+                island.note_edit(island.inputs.is_disturbed);
             }
         }
         // What makes islands may have touched everything: that much room is not needed again.
@@ -104,12 +87,48 @@ impl Solver {
         made
     }
 
+    /// Makes the islands anew that were touched, or that are to remember something else; gives them.
+    fn make_islands(&mut self, touched: &Touched, world: &World) -> Vec<u32> {
+        let outdated: Vec<PointId> = self.pending.keys().copied().collect();
+        let Self { partition, pending, notes, .. } = self;
+        let made = partition.update(touched, &outdated, world, &mut |island| {
+            notes.note(island);
+            pending
+                .entry(island.points[0])
+                .or_insert_with(|| (!island.is_new).then(|| memory::snapshot_of(island)));
+        });
+        for &k in &made {
+            self.is_awake.resize(self.is_awake.len().max(k as usize + 1), false);
+            self.is_awake[k as usize] = false;
+            self.unsolved.remove(&k);
+            self.restore_island(k);
+        }
+        self.pending.clear();
+        let (partition, is_awake) = (&self.partition, &mut self.is_awake);
+        self.awake.retain(|&k| {
+            is_awake[k as usize] &= partition.get(k).is_some();
+            is_awake[k as usize]
+        });
+        self.unsolved.retain(|&k| partition.get(k).is_some());
+        for &k in &made {
+            // One that was asleep when it was remembered sleeps on.
+            if self.partition.get(k).is_some_and(|island| island.is_awake) {
+                self.wake(k);
+            }
+        }
+        made
+    }
+
     /// Gives a new island the memory that waits for it.
     fn restore_island(&mut self, k: u32) {
         let Some(island) = self.partition.get_mut(k) else { return };
-        if let Some(remembered) = self.pending.take(island) {
+        let first = island.points[0];
+        let remembered = self.pending.remove(&first).flatten();
+        // What was remembered under this point before is noted already.
+        self.notes.note_as(first, None);
+        if let Some(remembered) = remembered {
             memory::restore(island, &remembered);
-            if island.status != Status::Converged {
+            if !island.is_new && island.status != Status::Converged {
                 self.unsolved.insert(k);
             }
         }
@@ -122,6 +141,7 @@ impl Solver {
             if let Some(island) = self.partition.get_mut(k)
                 && is_doubtful(island)
             {
+                self.notes.note(island);
                 island.status = Status::Stalled;
                 island.remembered.take();
                 self.wake(k);
@@ -141,8 +161,11 @@ impl Solver {
     fn apply_values(&mut self, world: &World, k: u32, id: ConstraintId) {
         let c = self.partition.local_constraint(id);
         if let (Some(island), Some(record)) = (self.partition.get_mut(k), world.constraint(id)) {
-            island.set_values(c, &record.constraint);
-            self.wake(k);
+            self.notes.note(island);
+            if island.set_values(c, &record.constraint) {
+                self.wake(k);
+                self.edited.push(k);
+            }
         }
     }
 
@@ -169,8 +192,10 @@ impl Solver {
             && let Some(p) = island.local_point(p)
             && island.x[p] != at
         {
+            self.notes.note(island);
             island.set_point(p, at);
             self.wake(k);
+            self.edited.push(k);
         }
     }
 

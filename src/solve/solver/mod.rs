@@ -7,11 +7,14 @@ mod visits;
 pub use stretch::Stretch;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::dispatch::{Cause, Task, check};
 use super::island::Island;
-use super::island::memory::Memory;
+use super::island::memory::{self, Memory};
 use super::island::partition::{Home, Partition};
+use super::island::recall::{Notes, Recall};
+use super::island::snapshot::Snapshot;
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
@@ -28,6 +31,8 @@ pub struct Solver {
     is_awake: Vec<bool>,
     /// Room for the lists of what changed.
     touched: Option<Box<Touched>>,
+    /// Islands of which values or places were changed from outside, while that is taken in.
+    edited: Vec<u32>,
     /// Room for the list of those that are visited now.
     due: Vec<u32>,
     /// Islands that could follow until the last frame and could not in it.
@@ -38,10 +43,13 @@ pub struct Solver {
     unsatisfiable: BTreeMap<ConstraintId, f64>,
     /// The settings of the last call: others may wake every island.
     settings: Option<Settings>,
-    /// What islands yet to be made are to remember.
-    pending: Memory,
+    /// What islands yet to be made are to remember, each under its first free point; nothing where
+    /// what an island there remembers does not count.
+    pending: BTreeMap<PointId, Option<Arc<Snapshot>>>,
     /// Whether all islands are to be made anew.
     is_stale: bool,
+    /// What commands take back.
+    notes: Notes,
 }
 
 impl Solver {
@@ -137,17 +145,27 @@ impl Solver {
     /// Whether nothing was edited or set since the last call.
     #[inline]
     fn is_up_to_date(&self, world: &World, settings: &Settings) -> bool {
-        !self.is_stale && world.is_untouched() && self.settings.as_ref() == Some(settings)
+        !self.is_stale
+            && self.pending.is_empty()
+            && world.is_untouched()
+            && self.settings.as_ref() == Some(settings)
     }
 
     /// All that later results depend on besides the world and the settings.
     pub fn memory(&self) -> Memory {
-        let mut memory = self.pending.clone();
+        let mut memory = Memory::default();
         memory.sign(self.settings.as_ref());
         // What was brought back counts, not what was there before.
         if !self.is_stale {
             for (_, island) in self.partition.iter() {
-                memory.insert(island);
+                if !self.pending.contains_key(&island.points[0]) {
+                    memory.insert(island);
+                }
+            }
+        }
+        for (first, snapshot) in &self.pending {
+            if let Some(snapshot) = snapshot {
+                memory.put(*first, snapshot.clone());
             }
         }
         memory
@@ -155,13 +173,129 @@ impl Solver {
 
     /// Brings back what was remembered, for a world that is as it was then.
     pub fn set_memory(&mut self, memory: Memory) {
-        let settings = match memory.made_by() {
-            Some((method, tolerance)) => {
-                Some(Settings { method, tolerance, ..self.settings.unwrap_or_default() })
+        self.note_all();
+        self.remember_settings(memory.made_by());
+        self.pending.clear();
+        let islands = memory.into_islands();
+        self.pending.extend(islands.map(|(first, snapshot)| (first, Some(snapshot))));
+        for &first in self.pending.keys() {
+            self.notes.note_as(first, None);
+        }
+        self.partition = Partition::default();
+        self.forget_lists();
+        self.is_stale = true;
+    }
+
+    /// Makes everything anew from what is remembered: for who left it half done.
+    pub fn begin_anew(&mut self) {
+        self.set_memory(self.memory());
+    }
+
+    /// Adds a part of what is to be remembered, as [`Memory::to_numbers`] gave it; false if it cannot
+    /// be one.
+    pub fn restore(&mut self, owner: Option<PointId>, numbers: &[f64]) -> bool {
+        let mut memory = Memory::default();
+        if !memory.restore(owner, numbers) {
+            return false;
+        }
+        if memory.made_by().is_some() {
+            self.remember_settings(memory.made_by());
+        }
+        for (first, snapshot) in memory.into_islands() {
+            self.notes.note_as(first, self.remembered(first));
+            self.pending.insert(first, Some(snapshot));
+        }
+        true
+    }
+
+    fn remember_settings(&mut self, made_by: Option<(Method, f64)>) {
+        if let Some((method, tolerance)) = made_by {
+            let settings = self.settings.unwrap_or_default();
+            self.settings = Some(Settings { method, tolerance, ..settings });
+        }
+    }
+
+    fn forget_lists(&mut self) {
+        self.awake.clear();
+        self.is_awake.clear();
+        self.edited.clear();
+        self.missed.clear();
+        self.unsolved.clear();
+        self.unsatisfiable.clear();
+    }
+
+    /// From here on what is remembered of an island is noted before it changes; gives what was noted
+    /// for who asked before.
+    pub fn begin_recall(&mut self) -> Option<Recall> {
+        self.notes.begin(self.settings)
+    }
+
+    /// What brings back what was remembered when that was asked for; `outer` goes on.
+    pub fn end_recall(&mut self, outer: Option<Recall>) -> Option<Recall> {
+        self.notes.end(outer)
+    }
+
+    /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
+    /// to become so before the solver is called again.
+    pub fn recall(&mut self, then: Recall) -> Recall {
+        let mut now =
+            Recall { islands: Vec::with_capacity(then.islands.len()), settings: self.settings };
+        for (first, snapshot) in then.islands {
+            now.islands.push((first, self.remembered(first)));
+            self.pending.insert(first, snapshot);
+        }
+        self.settings = then.settings;
+        self.missed.clear();
+        now
+    }
+
+    /// Whether what was noted is what is remembered.
+    pub fn is_at(&self, recall: &Recall) -> bool {
+        let counts =
+            |snapshot: Option<Arc<Snapshot>>| snapshot.filter(|snapshot| !snapshot.is_new());
+        let mut islands = recall.islands.iter();
+        islands.all(|(first, then)| counts(self.remembered(*first)) == counts(then.clone()))
+    }
+
+    /// What is remembered of the island that begins with a point.
+    fn remembered(&self, first: PointId) -> Option<Arc<Snapshot>> {
+        if let Some(snapshot) = self.pending.get(&first) {
+            return snapshot.clone();
+        }
+        if self.is_stale {
+            return None;
+        }
+        let island = self.partition.get(self.partition.island_of_point(first)?)?;
+        (island.points[0] == first).then(|| memory::snapshot_of(island))
+    }
+
+    /// All that is remembered is about to change.
+    fn note_all(&mut self) {
+        if !self.notes.is_on() {
+            return;
+        }
+        self.note_pending();
+        if !self.is_stale {
+            for (_, island) in self.partition.iter() {
+                self.notes.note(island);
             }
-            None => self.settings,
-        };
-        *self = Self { pending: memory, settings, is_stale: true, ..Self::new() };
+        }
+    }
+
+    /// What is pending is about to be taken, or given up.
+    fn note_pending(&mut self) {
+        for (first, snapshot) in &self.pending {
+            self.notes.note_as(*first, snapshot.clone());
+        }
+    }
+
+    /// An island is about to change.
+    pub(super) fn note(&mut self, k: u32) {
+        if self.notes.is_on()
+            && let Some(island) = self.partition.get(k)
+        {
+            self.notes.note(island);
+        }
     }
 
     /// The size of the largest island, length units; 1 if there is none.

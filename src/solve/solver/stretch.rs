@@ -91,22 +91,24 @@ impl Solver {
             return riders;
         };
         let mut n_turning = 0;
-        for &k in &self.awake {
-            let Some(island) = self.partition.lend(k) else { break };
+        let Self { awake, partition, notes, .. } = self;
+        for &k in awake.iter() {
+            let Some(island) = partition.lend(k) else { break };
+            notes.note(&island);
             match Rider::mount(k, island, world, dt) {
                 Ok(rider) => {
                     n_turning += rider.n_turning;
                     riders.push(rider);
                 }
                 Err(island) => {
-                    self.partition.give_back(k, island);
+                    partition.give_back(k, island);
                     break;
                 }
             }
         }
-        if riders.len() != self.awake.len() || n_turning != n_motors {
+        if riders.len() != awake.len() || n_turning != n_motors {
             for rider in riders.drain(..) {
-                self.partition.give_back(rider.k, rider.dismount(0, world));
+                partition.give_back(rider.k, rider.dismount(0, world));
             }
         }
         riders

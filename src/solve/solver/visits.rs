@@ -62,6 +62,7 @@ impl Solver {
         std::mem::swap(&mut due, &mut self.awake);
         for &k in &due {
             self.is_awake[k as usize] = false;
+            self.note(k);
         }
         let can_share = budget.stop.is_none() && due.len() > 1;
         if can_share && parallel::pays(&self.partition.effort_of(&due)) {
@@ -121,6 +122,7 @@ impl Solver {
             let Some(island) = self.partition.get_mut(k) else { continue };
             if island.status == Status::Converged {
                 island.leave_closed_form();
+                self.notes.note(island);
                 let limits = island.limits(settings, budget);
                 pull(island, &pulled, &limits, &mut report.counters);
                 report.include(island.status, 0, island.residual);
@@ -159,8 +161,8 @@ impl Solver {
         let (Some(island), Some(mut outcome)) = (self.partition.get_mut(k), visit.outcome) else {
             return;
         };
-        if !island.x[..island.n_free].iter().all(|p| p.is_finite()) {
-            // What has run away to where there are no numbers meets nothing.
+        if !island.x[..island.n_free].iter().all(|p| p.is_in_reach()) {
+            // What has run away to where squares are no numbers meets nothing.
             take_back(island, world);
             outcome.status = Status::Stalled;
         }

@@ -30,7 +30,7 @@ pub const SCENE: &str = "
 ";
 
 /// Statements that may or may not make sense when their turn comes.
-fn statement() -> impl Strategy<Value = String> {
+pub fn statement() -> impl Strategy<Value = String> {
     let point = || prop::sample::select(vec!["B", "C", "E", "G", "K1", "K2", "tail.X", "tail.Y"]);
     let held = || prop::sample::select(vec!["B", "C", "D", "E", "F", "G", "K1", "shade1.B"]);
     let constraint = || {

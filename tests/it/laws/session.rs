@@ -92,6 +92,46 @@ fn saved_goes_on(before: &[String], after: &[String]) {
     }
 }
 
+/// Statements that all fail, some of them after they let time pass or moved points.
+fn failing() -> impl Strategy<Value = String> {
+    prop::sample::select(vec![
+        "for i in 1..3 { step; print nowhere }",
+        "for i in 1..2 { step 3; move B to (i, 2); step; length B nowhere }",
+        "for i in 1..2 { reset; step; trace B; step; print nowhere }",
+        "for i in 1..2 { solve; relax 3; drag C to (3, 2); print nowhere }",
+        "for i in 1..2 { pull C to (3, 2) over 2; off coupler; step; print nowhere }",
+        "for i in 1..2 { set tolerance 1e-6; set method newton; step; print nowhere }",
+        "for i in 1..2 { point N[i] = (i, 9); length N[i] B; step; delete N[i] cascade; print nowhere }",
+        "for i in 1..2 { drag F to (6, 2); freeze B; step; thaw B; step; let r = 3.4; print nowhere }",
+        "for i in 1..2 { expose; clear; print nowhere }",
+        "print nowhere",
+    ])
+    .prop_map(str::to_owned)
+}
+
+/// What leads nowhere leaves nothing: with statements that fail, and with commands that are taken
+/// back and done again at once, a session goes the same way to the bit.
+fn leaves_no_trace(statements: &[String], failing: &[String]) {
+    let mut plain = Talking::after(SCENE);
+    let mut busy = Talking::after(SCENE);
+    for (k, statement) in statements.iter().enumerate() {
+        let wrong = &failing[k % failing.len()];
+        assert!(busy.execute(wrong).is_err(), "`{wrong}` is wrong");
+        let before = busy.script();
+        let is_done = plain.execute(statement).is_ok();
+        assert_eq!(busy.execute(statement).is_ok(), is_done, "`{statement}` after `{wrong}`");
+        let changed = busy.script() != before;
+        check_same(&busy.script(), &plain.script(), &format!("`{statement}` after `{wrong}`"));
+        if changed {
+            for command in ["undo", "redo", "undo 2", "redo 2"] {
+                // Where there is but one command, one is taken back.
+                assert!(busy.execute(command).is_ok(), "`{command}` after `{statement}`");
+            }
+            check_same(&busy.script(), &plain.script(), &format!("`{statement}` done again"));
+        }
+    }
+}
+
 /// As many cases as a test run has time for; `PROPTEST_CASES` asks for more.
 fn config() -> ProptestConfig {
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24);
@@ -139,6 +179,14 @@ proptest! {
     #[test]
     fn what_is_saved_goes_on_to_the_same_bits(before in statements(12), after in statements(6)) {
         saved_goes_on(&before, &after);
+    }
+
+    #[test]
+    fn what_fails_and_what_is_undone_and_redone_leaves_no_trace(
+        statements in statements(12),
+        failing in prop::collection::vec(failing(), 1..6),
+    ) {
+        leaves_no_trace(&statements, &failing);
     }
 
     #[test]

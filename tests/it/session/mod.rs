@@ -4,4 +4,5 @@ mod names;
 mod picture_hash;
 mod saved;
 mod start_and_switch;
+mod undo;
 mod verdict;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use linkwork::diag::{Diagnostic, Paint, Sources, render};
 use linkwork::session::Host;
@@ -28,6 +29,10 @@ pub struct Notebook {
     pub n_looks: Cell<u64>,
     /// The user wants to stop once the clock was looked at more often than that.
     pub patience: Option<u64>,
+    /// How often it was asked whether the user wants to stop.
+    pub n_polls: Rc<Cell<u64>>,
+    /// The user wants to once that was asked more often.
+    pub most_polls: Option<u64>,
 }
 
 impl Notebook {
@@ -55,7 +60,17 @@ impl Host for Notebook {
     }
 
     fn is_interrupted(&self) -> bool {
+        self.n_polls.set(self.n_polls.get() + 1);
         self.patience.is_some_and(|most| self.n_looks.get() > most)
+            || self.most_polls.is_some_and(|most| self.n_polls.get() > most)
+    }
+
+    fn wish_to_stop(&self) -> Option<Rc<dyn Fn() -> bool>> {
+        let (n_polls, most) = (self.n_polls.clone(), self.most_polls);
+        Some(Rc::new(move || {
+            n_polls.set(n_polls.get() + 1);
+            most.is_some_and(|most| n_polls.get() > most)
+        }))
     }
 
     fn read(&mut self, path: &Path) -> io::Result<String> {

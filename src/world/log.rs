@@ -1,0 +1,97 @@
+//! What running changes, as it was before a command changed it first: what it takes to go back is as
+//! much as what was touched, however large the scene.
+
+use super::marks::Marks;
+use super::same::States;
+use super::trace::Tail;
+use super::turning::TurnCounts;
+use super::{Clock, ConstraintId, Ghost, PointId, Sample};
+use crate::constraint::{Constraint, Heading, Point};
+
+/// What takes back all that running changed since a moment, and does it again: of points, motors
+/// and constraints those that changed, as they were.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    pub(super) points: Vec<PointId>,
+    pub(super) at: Vec<Point>,
+    /// Motors of which nothing changed but how far they have turned.
+    pub(super) motors: Vec<ConstraintId>,
+    pub(super) headings: Vec<Heading>,
+    /// Constraints that changed in another way, whole.
+    pub(super) constraints: Vec<(ConstraintId, Constraint)>,
+    /// What `reset` brings back, where that changed.
+    pub(super) start: Option<Box<Start>>,
+    pub(super) clock: Clock,
+    /// None if nothing was counted.
+    pub(super) turn_counts: Option<TurnCounts>,
+    pub(super) traces: Vec<Tail<Sample>>,
+    pub(super) ghosts: Tail<Ghost>,
+}
+
+/// What `reset` brings back.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    pub at: Vec<Point>,
+    pub states: States,
+}
+
+impl Motion {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
+        let traces: usize = self.traces.iter().map(Tail::n_bytes).sum();
+        let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
+        size_of::<Self>()
+            + size_of_val(&**points)
+            + size_of_val(&**at)
+            + size_of_val(&**motors)
+            + size_of_val(&**headings)
+            + size_of_val(&**constraints)
+            + start.as_ref().map_or(0, |s| size_of_val(&*s.at) + 80 * s.states.len())
+            + turn_counts.as_ref().map_or(0, |counts| 80 * counts.len())
+            + size_of_val(&*self.traces)
+            + traces
+            + exposed
+    }
+
+    /// Whether paths or ghosts come back with it.
+    pub fn has_paths(&self) -> bool {
+        let mut traces = self.traces.iter();
+        traces.any(|tail| !tail.then().is_empty()) || !self.ghosts.then().is_empty()
+    }
+
+    /// Gives up room that is not needed.
+    pub(super) fn shrink(&mut self) {
+        self.points.shrink_to_fit();
+        self.at.shrink_to_fit();
+        self.motors.shrink_to_fit();
+        self.headings.shrink_to_fit();
+        self.constraints.shrink_to_fit();
+    }
+}
+
+/// What was noted since it was asked for.
+#[derive(Debug, Default)]
+pub(super) struct Log {
+    /// All of it; none while nobody asks.
+    pub motion: Option<Box<Motion>>,
+    pub points: Marks,
+    pub constraints: Marks,
+    pub headings: Marks,
+    /// Whether the headings of all motors that are running now are noted.
+    pub has_headings: bool,
+}
+
+/// A copy of a world notes nothing until it is asked to.
+impl Clone for Log {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Log {
+    /// Other motors may be running from here on.
+    pub fn note_motor_lists(&mut self) {
+        self.has_headings = false;
+    }
+}

@@ -1,0 +1,89 @@
+//! Notes, while a command is under way, what running changes as it was before it changes first.
+
+use super::log::Start;
+use super::motion::{heading, swap_heading};
+use super::{ConstraintId, Motion, PointId, World};
+
+impl World {
+    /// From here on what running changes is noted as it is now, as soon as it is about to change.
+    pub fn begin_motion(&mut self) {
+        let motion = Box::new(self.bare_motion());
+        let log = &mut self.log;
+        log.points.begin();
+        log.constraints.begin();
+        log.headings.begin();
+        log.has_headings = false;
+        log.motion = Some(motion);
+    }
+
+    /// What brings back all that running changed since [`begin_motion`](Self::begin_motion).
+    pub fn end_motion(&mut self) -> Option<Box<Motion>> {
+        self.log.motion.take()
+    }
+
+    /// A point is about to be put elsewhere.
+    #[inline]
+    pub(super) fn note_place(&mut self, id: PointId) {
+        if let Some(motion) = &mut self.log.motion
+            && self.log.points.mark(id.idx())
+        {
+            motion.points.push(id);
+            motion.at.push(self.points.at[id.idx()]);
+        }
+    }
+
+    /// A constraint is about to change.
+    #[inline]
+    pub(super) fn note_constraint(&mut self, id: ConstraintId) {
+        if self.log.motion.is_some() && self.log.constraints.mark(id.idx()) {
+            self.keep_constraint(id);
+        }
+    }
+
+    fn keep_constraint(&mut self, id: ConstraintId) {
+        let (Some(motion), Some(record)) = (&mut self.log.motion, self.constraints.get(id.idx()))
+        else {
+            return;
+        };
+        let mut constraint = record.constraint.clone();
+        if !self.log.headings.mark(id.idx())
+            && let Some(k) = motion.motors.iter().position(|motor| *motor == id)
+        {
+            // It has turned since it was noted: that goes into the whole.
+            motion.motors.swap_remove(k);
+            swap_heading(&mut constraint, &mut motion.headings.swap_remove(k));
+        }
+        motion.constraints.push((id, constraint));
+    }
+
+    /// Motors are about to turn.
+    pub(super) fn note_headings(&mut self) {
+        if self.log.motion.is_none() || std::mem::replace(&mut self.log.has_headings, true) {
+            return;
+        }
+        for k in 0..self.dependencies.motors().len() {
+            let id = self.dependencies.motors()[k];
+            let record = self.constraints.get(id.idx()).expect("a listed constraint lives");
+            let Some(heading) = heading(&record.constraint) else {
+                self.note_constraint(id);
+                continue;
+            };
+            if self.log.headings.mark(id.idx())
+                && let Some(motion) = &mut self.log.motion
+            {
+                motion.motors.push(id);
+                motion.headings.push(heading);
+            }
+        }
+    }
+
+    /// What `reset` brings back is about to change.
+    pub(super) fn note_start(&mut self) {
+        if let Some(motion) = &mut self.log.motion
+            && motion.start.is_none()
+        {
+            let (at, states) = (self.points.start.clone(), self.start_states.clone());
+            motion.start = Some(Box::new(Start { at, states }));
+        }
+    }
+}

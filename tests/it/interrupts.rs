@@ -1,0 +1,152 @@
+//! Whatever takes long is left when the user wants that, and leaves the world whole.
+//!
+//! Time is counted in how often a statement asks whether the user wants to stop, never by a clock:
+//! a statement that takes twice as long has to ask twice as often, and once the answer is yes it
+//! asks no more than a few times until it has ended.
+
+use crate::support::compare::check_same;
+use crate::support::talk::Talking;
+use linkwork::session::Flow;
+
+/// How often a statement may go on asking after it was told to stop.
+const MOST_AFTER: u64 = 8;
+
+/// A statement that takes long, and what comes before it, by size.
+struct Case {
+    what: &'static str,
+    size: usize,
+    before: fn(usize) -> String,
+    statement: fn(usize) -> String,
+}
+
+fn nothing(_: usize) -> String {
+    String::new()
+}
+
+fn rods(n: usize) -> String {
+    format!(
+        "point p[0] = (0, 0) frozen
+         for i in 1..{n} {{ point p[i] = (i, mod(i, 2)); length p[i - 1] p[i] }}"
+    )
+}
+
+/// A net of `n` by `n` points that hangs from two of them, off by a little.
+fn net(n: usize) -> String {
+    format!(
+        "for i in 1..{n} {{ for k in 1..{n} {{ point p[i][k] = (i + 0.01 * sin(k), k) }} }}
+         for i in 2..{n} {{ for k in 1..{n} {{ length p[i - 1][k] p[i][k] = 1 }} }}
+         for i in 1..{n} {{ for k in 2..{n} {{ length p[i][k - 1] p[i][k] = 1 }} }}
+         freeze p[1][1] p[{n}][1]"
+    )
+}
+
+const CASES: [Case; 9] = [
+    Case {
+        what: "a loop without statements",
+        size: 1000,
+        before: nothing,
+        statement: |n| format!("for i in 1..{n} {{}}"),
+    },
+    Case {
+        what: "reading a long block",
+        size: 8000,
+        before: nothing,
+        statement: |n| format!("for i in 1..0 {{ {} }}", "let q = 1\n".repeat(n)),
+    },
+    Case { what: "making islands", size: 8000, before: rods, statement: |_| "solve".to_owned() },
+    Case { what: "solving a net", size: 16, before: net, statement: |_| "solve".to_owned() },
+    Case { what: "what a net can do", size: 12, before: net, statement: |_| "check".to_owned() },
+    Case {
+        what: "how far a driver goes",
+        size: 150,
+        before: |n| format!("{}; crank: motor p[0] p[1] speed 1rev; freeze p[{n}]", rods(n)),
+        statement: |_| "limits crank".to_owned(),
+    },
+    Case { what: "a picture", size: 1500, before: rods, statement: |_| "svg \"a.svg\"".to_owned() },
+    Case { what: "a file", size: 1500, before: rods, statement: |_| "save \"a.link\"".to_owned() },
+    Case { what: "a list", size: 2000, before: rods, statement: |_| "list".to_owned() },
+];
+
+/// Carries out a statement that may ask `most` times before the user wants to stop; gives how it
+/// ended and how often it asked.
+fn asked(talking: &mut Talking, statement: &str, most: Option<u64>) -> (Flow, u64) {
+    talking.talk.n_polls.set(0);
+    talking.talk.most_polls = most;
+    let flow = talking.execute(statement).expect("it does not fail");
+    (flow, talking.talk.n_polls.get())
+}
+
+#[test]
+fn what_takes_twice_as_long_asks_twice_as_often() {
+    for Case { what, size, before, statement } in CASES {
+        let [once, twice] = [size, 2 * size].map(|n| {
+            let mut talking = Talking::after(&before(n));
+            asked(&mut talking, &statement(n), None).1
+        });
+        assert!(once >= 2, "{what}: asked {once} times");
+        assert!(2 * twice >= 3 * once, "{what}: asked {once} times, and {twice} of twice the size");
+    }
+}
+
+#[test]
+fn what_is_stopped_ends_soon_and_changes_nothing() {
+    for Case { what, size, before, statement } in CASES {
+        let (before, statement) = (before(size), statement(size));
+        let mut whole = Talking::after(&before);
+        let n = asked(&mut whole, &statement, None).1;
+        for most in [0, n / 2, n - 2] {
+            let mut talking = Talking::after(&before);
+            let script = talking.script();
+            let (flow, n_asked) = asked(&mut talking, &statement, Some(most));
+            assert_eq!(flow, Flow::Stopped, "{what}");
+            assert!(
+                n_asked <= most + MOST_AFTER,
+                "{what}: asked {n_asked} times, told after {most}"
+            );
+            check_same(&talking.script(), &script, what);
+            assert!(!talking.talk.files.contains_key(std::path::Path::new("a.svg")), "{what}");
+            assert_eq!(asked(&mut talking, &statement, None).0, Flow::On, "{what}");
+            check_same(&talking.script(), &whole.script(), &format!("{what}, then not stopped"));
+        }
+    }
+}
+
+#[test]
+fn a_run_that_is_stopped_within_a_frame_ends_with_the_last_whole_one() {
+    let scene = format!("{}; crank: motor p[16][1] p[16][2] speed 1rev; set dt 1/1000", net(16));
+    let mut whole = Talking::after(&scene);
+    let n = asked(&mut whole, "step 4", None).1;
+    let mut frames = Vec::new();
+    for most in [n / 3, n / 2, n - 2] {
+        let mut talking = Talking::after(&scene);
+        assert_eq!(asked(&mut talking, "step 4", Some(most)).0, Flow::Stopped);
+        let frame = talking.world().clock().frame;
+        frames.push(frame);
+        talking.talk.most_polls = None;
+        let mut other = Talking::after(&scene);
+        if frame > 0 {
+            other.run(&format!("step {frame}"));
+        }
+        check_same(&talking.script(), &other.script(), "the last whole frame");
+        talking.run("step");
+        other.run("step");
+        check_same(&talking.script(), &other.script(), "the frame after it");
+    }
+    assert!(frames.iter().any(|frame| (1..4).contains(frame)), "{frames:?}");
+}
+
+#[test]
+fn a_loop_counts_as_far_as_numbers_do() {
+    let mut talking = Talking::default();
+    for (range, place) in [
+        ("1e16..1e16+4", "1e16"),
+        ("9007199254740990..9007199254740993", "9007199254740993"),
+        ("-1e300..1", "-1e300"),
+    ] {
+        let problem = talking.execute(&format!("for i in {range} {{}}")).expect_err(range);
+        assert_eq!(&*problem.message, "a loop cannot count so far");
+        assert_eq!(talking.session.sources().slice(problem.place().expect("a place")), place);
+    }
+    let last = talking.ask("for i in 9007199254740989..9007199254740991 { print i }");
+    assert_eq!(last, ["9007199254740989", "9007199254740990", "9007199254740991"]);
+}

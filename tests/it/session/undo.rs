@@ -1,0 +1,133 @@
+//! What commands leave behind for `undo`: as much as they changed, and nothing where they failed.
+
+use crate::support::compare::check_same;
+use crate::support::talk::Talking;
+use linkwork::session::Telling;
+
+/// A driven four-bar, so many still ones, and a point far from all of them.
+fn scene(n: usize) -> Talking {
+    let mut talking = Talking::after(&format!(
+        "set dt 1/360
+         for i in 0..{n} {{
+           point A[i] = (0, 6 * i) frozen, D[i] = (4, 6 * i) frozen
+           point B[i] = (1, 6 * i), C[i] = (3, 6 * i + 2.9)
+           length A[i] B[i] = 1
+           length B[i] C[i] = 3.5
+           length C[i] D[i] = 3
+         }}
+         let r = 2
+         point Y = (-90, 0) frozen, Z = (-90, 1)
+         length Y Z = r"
+    ));
+    talking.run("step 3");
+    talking
+}
+
+/// The bytes that a command adds to what is kept.
+fn kept_by(talking: &mut Talking, command: &str) -> isize {
+    let before = talking.session.undo_bytes();
+    // One that fails is one of those.
+    let _ = talking.execute(command);
+    talking.session.undo_bytes().cast_signed() - before.cast_signed()
+}
+
+#[test]
+fn a_command_keeps_what_it_changes_however_large_the_scene() {
+    let kept = |n: usize| {
+        let mut talking = scene(n);
+        [
+            "step",
+            "move Z to (-90, 1.5)",
+            "step",
+            "step 20",
+            "let r = 2.5",
+            "step",
+            "undo",
+            "redo",
+            "for i in 1..3 { step; move Z to (-90, i); print nowhere }",
+            "print velocity(Z)",
+            "pull Z to (-88, 0)",
+            "drag Z to (-90, 2) over 3",
+            "solve",
+            "off length4; on length4; step",
+            "undo 3",
+            "step",
+        ]
+        .map(|command| (command, kept_by(&mut talking, command)))
+    };
+    let few = kept(5);
+    assert_eq!(few, kept(500));
+    let failed = few.iter().find(|(command, _)| command.contains("nowhere"));
+    assert_eq!(failed.expect("it is one of them").1, 0);
+    // What was taken back is kept for `redo`.
+    assert!(few.iter().all(|(_, n_bytes)| n_bytes.abs() < 4_000), "{few:?}");
+}
+
+#[test]
+fn what_failed_leaves_no_trace_in_the_bits_of_what_follows() {
+    // The heading of a motor that has not turned is not quite that of one that was set back.
+    let motor = "point A = (0, 0) frozen, B = (1, 0)
+                 motor A B radius 1 speed 1rev phase -3.470";
+    let live = "point A = (0, 0) frozen, B = (1, 0), C = (2, 2)
+                length A B = 1 + sin(7 * time); length B C = 3; hold C.y = B.x + 1";
+    let wheels = "point A = (0, 0) frozen, B = (1, 0), C = (4, 0) frozen, D = (5, 0)
+                  motor A B speed 1rev from C D phase 0.7; cog A B, C D ratio 2; set cog velocity";
+    for scene in [motor, live, wheels] {
+        let mut plain = Talking::after(scene);
+        let mut failing = Talking::after(scene);
+        for next in ["solve", "step 2", "move B to (0.5, 0.7)", "step"] {
+            for wrong in
+                ["for i in 0..3 { step; print nowhere }", "for i in 1..1 { reset; solve; bad }"]
+            {
+                assert!(failing.execute(wrong).is_err(), "{wrong}");
+            }
+            plain.run(next);
+            failing.run(next);
+            check_same(&failing.script(), &plain.script(), &format!("{next}, {scene}"));
+        }
+    }
+}
+
+#[test]
+fn a_motor_that_was_made_late_and_taken_back_begins_anew() {
+    let make = |speed: f64| format!("m: motor A B radius 1 phase {speed} speed {speed}");
+    let mut talking = Talking::after("point A = (0, 0) frozen, B = (1, 0); step 2");
+    let mut plain = Talking::after("point A = (0, 0) frozen, B = (1, 0); step 2");
+    talking.run(&make(1.0));
+    talking.run("step; undo 2");
+    for talking in [&mut talking, &mut plain] {
+        talking.run(&make(0.5));
+        talking.run("step 3; reset");
+    }
+    check_same(&talking.script(), &plain.script(), "the same motor at the start");
+}
+
+#[test]
+fn what_is_kept_counts_recordings_traces_and_ghosts() {
+    let mut talking = Talking::after("point A = (0, 0) frozen, B = (1, 0); motor A B speed 1rev");
+    talking.run("trace B; record \"a.csv\"; expose every 1");
+    talking.run("step 1000");
+    let n_rows = 1000;
+    // A place of a trace, a row of a table, a ghost of two points.
+    assert!(kept_by(&mut talking, "undo") > n_rows * (16 + 24 + 48));
+    assert!(kept_by(&mut talking, "redo") < -n_rows * (16 + 24 + 48));
+    assert!(kept_by(&mut talking, "record stop") > n_rows * 24);
+    assert!(kept_by(&mut talking, "clear") > n_rows * (16 + 48));
+}
+
+#[test]
+fn a_motion_is_studied_from_where_it_began_after_it_was_taken_back_and_done_again() {
+    let mut talking = Talking::after("point A = (0, 0) frozen, B = (1, 0), C = (3, 0)");
+    talking.run("motor A B speed 1rev; length B C = 2; let r = 1");
+    talking.run("step 7; drag C to (2, 2) over 20; print 1; let r = 3");
+    let before = talking.script();
+    for way in ["undo 2; redo 2", "undo 2"] {
+        talking.run(way);
+        let now = talking.script();
+        let Talking { session, talk } = &mut talking;
+        session.study_accuracy(Some(1), Telling::Json, talk).expect("there is a motion");
+        check_same(&talking.script(), &now, "looking changes nothing");
+    }
+    talking.run("redo 2");
+    check_same(&talking.script(), &before, "nor what is done again");
+}
