@@ -273,7 +273,7 @@ fn a_study_changes_nothing() {
 
 #[test]
 fn one_receipt_a_command() {
-    let (_, told, _) = said(&format!("{FOUR_BAR} for k in 1..6 {{ step 6 }}"));
+    let (_, told, _) = said(&format!("{FOUR_BAR} set receipt long; for k in 1..6 {{ step 6 }}"));
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].starts_with("36 frames by auto: "), "{told:?}");
     for words in ["iterations and", "a frame, largest residual", "position error about"] {
@@ -284,7 +284,8 @@ fn one_receipt_a_command() {
 #[test]
 fn a_receipt_shows_changes_between_frames() {
     let (_, told, _) = said(&format!(
-        "{FOUR_BAR} for k in 1..2 {{ set method relaxation; set rho 1 / (4 * k); step 3 }}"
+        "{FOUR_BAR} set receipt long
+         for k in 1..2 {{ set method relaxation; set rho 1 / (4 * k); step 3 }}"
     ));
     let words = "6 frames by relaxation (rho 0.25, iterations 30) (3), \
                  then relaxation (rho 0.125, iterations 30) (3): ";
