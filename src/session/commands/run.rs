@@ -52,14 +52,14 @@ pub(super) struct Hands<'a> {
 
 /// So many frames, and the hands that are at work in them.
 #[derive(Clone, Copy)]
-struct Frames<'a> {
+pub(super) struct Frames<'a> {
     n: u64,
     hands: Hands<'a>,
 }
 
 /// What a user who wants to stop does to a frame on its way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stop {
+pub(super) enum Stop {
     /// Ends one that may take long.
     Allowed,
     /// Nothing.
@@ -68,8 +68,6 @@ enum Stop {
 
 /// Iterations of `relax` between two looks at whether the user wants to stop.
 const RELAX_CHUNK: u64 = 256;
-/// A frame with so many evaluations of constraints takes much longer than a copy of what it changes.
-const LONG_FRAME: u64 = 100_000;
 /// With more iterations than that a frame may take so long that its user wants to stop it.
 pub(super) const LONG: u32 = 10_000;
 
@@ -291,30 +289,8 @@ impl Execution<'_> {
             .help(format!("the smallest tolerance that can be promised: `within {least}`")))
     }
 
-    /// Lets frame `k` pass, unless the user stops it on its way: everything is then as it was at its
-    /// beginning. A frame that is not long is not stopped; whether it is, the one before tells.
-    fn frame_unless_stopped(
-        &mut self,
-        k: u64,
-        frames: Frames,
-        limits: &Limits,
-        n_evaluations: Option<u64>,
-    ) -> Result<Result<Report, Diagnostic>, Stopped> {
-        interrupt::rest();
-        let frame = |it: &mut Self| it.one_frame(k, frames, limits, Stop::Allowed);
-        match n_evaluations {
-            None => Ok(frame(self)),
-            Some(n) if n < LONG_FRAME => Ok(interrupt::undisturbed(|| frame(self))),
-            Some(_) => {
-                let way = self.way_back(k, k);
-                let report = interrupt::catch(|| frame(self));
-                report.inspect_err(|_| self.go_back(way))
-            }
-        }
-    }
-
     /// Lets frame `k` pass.
-    fn one_frame(
+    pub(super) fn one_frame(
         &mut self,
         k: u64,
         frames: Frames,

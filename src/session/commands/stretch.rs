@@ -1,14 +1,20 @@
-//! Frames that pass at once, where a command asks for nothing between them.
+//! Frames that pass at once, where a command asks for nothing between them, and long ones that the
+//! user may stop on their way.
 
-use super::run::{Hands, LONG, Limits};
+use super::run::{Frames, Hands, LONG, Limits, Stop};
+use crate::diag::Diagnostic;
+use crate::interrupt::{self, Stopped};
 use crate::session::execution::Execution;
 use crate::session::preferences::AtDeadPoint;
 use crate::session::quotas::Quota;
 use crate::session::state::State;
-use crate::solve::{Budget, Stretch};
+use crate::solve::{Budget, Report, Stretch};
 
 /// Frames between which it is told how far a run is.
 const MOST_AT_ONCE: u64 = 1000;
+
+/// A frame with so many evaluations of constraints takes much longer than a copy of what it changes.
+const LONG_FRAME: u64 = 100_000;
 
 impl Execution<'_> {
     /// Whether frames of a command may pass at once: nothing that it does asks for anything between
@@ -36,5 +42,27 @@ impl Execution<'_> {
         let budget = Budget { tolerance: limits.tolerance, stop: None, known_error };
         let goes_on = || !host.is_interrupted();
         solver.stretch(world, &preferences.solve, &budget, n, &goes_on)
+    }
+
+    /// Lets frame `k` pass, unless the user stops it on its way: everything is then as it was at its
+    /// beginning. A frame that is not long is not stopped; whether it is, the one before tells.
+    pub(super) fn frame_unless_stopped(
+        &mut self,
+        k: u64,
+        frames: Frames,
+        limits: &Limits,
+        n_evaluations: Option<u64>,
+    ) -> Result<Result<Report, Diagnostic>, Stopped> {
+        interrupt::rest();
+        let frame = |it: &mut Self| it.one_frame(k, frames, limits, Stop::Allowed);
+        match n_evaluations {
+            None => Ok(frame(self)),
+            Some(n) if n < LONG_FRAME => Ok(interrupt::undisturbed(|| frame(self))),
+            Some(_) => {
+                let way = self.way_back(k, k);
+                let report = interrupt::catch(|| frame(self));
+                report.inspect_err(|_| self.go_back(way))
+            }
+        }
     }
 }
