@@ -29,7 +29,7 @@ pub fn format_number(value: f64) -> String {
 /// use linkwork::diag::format_fraction;
 ///
 /// assert_eq!(format_fraction(1.0 / 60.0), "1/60");
-/// assert_eq!(format_fraction(0.25), "0.25");
+/// assert_eq!(format_fraction(0.5), "0.5");
 /// ```
 pub fn format_fraction(value: f64) -> String {
     let decimal = format_number(value);

@@ -66,7 +66,7 @@ impl Sketch {
     /// let mut session = Session::new();
     /// session.run("point A = (0, 0), B = (4, 0); length A B")?;
     /// let lines = Sketch::of(&Scene::new(session.world()), 40, 12).lines();
-    /// assert!(lines.len() <= 12 && lines.iter().any(|line| line.contains("\u{2580}\u{2580}")));
+    /// assert!(lines.len() <= 12 && lines.iter().any(|line| line.contains(['\u{2580}', '\u{2584}'])));
     /// # Ok::<(), linkwork::Diagnostic>(())
     /// ```
     pub fn of(scene: &Scene, n_columns: usize, n_rows: usize) -> Self {
