@@ -106,7 +106,7 @@ fn crank(begin: &str, limits: &[(Quota, u64)]) -> Talking {
 
 /// How many commands can be taken back.
 fn n_undoable(talking: &mut Talking) -> usize {
-    (0..).take_while(|_| talking.execute("undo").is_ok()).count()
+    (0..100).take_while(|_| talking.execute("undo").is_ok()).count()
 }
 
 #[test]
@@ -149,4 +149,14 @@ fn the_bytes_of_undo_are_those_of_traces_ghosts_and_recordings_too() {
             assert_eq!(talking.script(), before, "after `{begin}`");
         }
     }
+}
+
+#[test]
+fn a_line_on_a_pipe_has_an_end() {
+    let folder = folder(&[]);
+    let typed = format!("print 1\nprint {}", "1 + ".repeat(1000));
+    let out = run(folder.path(), &["--limit", "source-bytes=1000"], &typed);
+    let said = text(&out.stderr);
+    assert_eq!((out.status.code(), &*text(&out.stdout)), (Some(3), "1\n"), "{said}");
+    assert!(said.contains("standard input") && said.contains("`source-bytes`"), "{said}");
 }
