@@ -12,7 +12,7 @@ use crate::session::{Flow, Host, PROMPT, Session, Transcript, without_prompts};
 
 /// Says who is there, and what to type first.
 pub fn greet() {
-    output::answer(concat!(
+    output::answer_fitted(concat!(
         "linkwork ",
         env!("CARGO_PKG_VERSION"),
         "; `help` and `examples` show what there is, Ctrl-D leaves"

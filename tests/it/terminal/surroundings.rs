@@ -94,6 +94,7 @@ fn what_does_not_fit_is_broken_at_words() {
     assert!(screen.contains(row), "{screen}");
     let message = "  = help: to define a parameter, write\n          `let A = ...`";
     assert!(screen.contains(message), "{screen}");
+    assert!(screen.contains("`examples`\n    show what there is"), "{screen}");
     // What no terminal says has the same words: none was broken.
     let whole = Command::new(env!("CARGO_BIN_EXE_linkwork"))
         .args(["-e", "help; help motor; examples"])
