@@ -46,6 +46,9 @@
 //! shares out work to all cores. Without them the library needs no threads, files or clock:
 //! nothing that `wasm32-unknown-unknown` lacks.
 
+// These macros panic where the stream is closed.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 #[cfg(feature = "terminal")]
 #[doc(hidden)]
 pub mod cli;

@@ -19,7 +19,7 @@ pub fn check(arguments: &ExamineArguments) -> ExitStatus {
     if arguments.json {
         output::answer(&check.to_json());
     } else {
-        check.lines().iter().for_each(|line| output::answer(line));
+        check.lines().iter().for_each(|line| output::answer_fitted(line));
     }
     if check.is_sound() { ExitStatus::Fine } else { ExitStatus::BrokenPromise }
 }
@@ -34,7 +34,7 @@ pub fn effects(arguments: &ExamineArguments) -> ExitStatus {
     if arguments.json {
         output::answer(&effects.to_json());
     } else {
-        effects.lines().iter().for_each(|line| output::answer(line));
+        effects.lines().iter().for_each(|line| output::answer_fitted(line));
     }
     ExitStatus::Fine
 }

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufRead, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -25,6 +25,17 @@ static MOST_BYTES: AtomicU64 = AtomicU64::new(Quota::SourceBytes.usual());
 /// From here on no text of more bytes is read.
 pub fn limit_bytes(most: u64) {
     MOST_BYTES.store(most, Ordering::Relaxed);
+}
+
+/// Reads a line with its end, as long as a text may be; nothing at the end.
+pub fn read_line(source: impl BufRead) -> io::Result<Vec<u8>> {
+    let mut line = Vec::new();
+    let most = MOST_BYTES.load(Ordering::Relaxed);
+    source.take(most.saturating_add(1)).read_until(b'\n', &mut line)?;
+    if line.len() as u64 > most {
+        return Err(io::ErrorKind::FileTooLarge.into());
+    }
+    Ok(line)
 }
 
 /// Reads a text in UTF-8 from a file, or from a pipe by the name of one.

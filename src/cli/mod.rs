@@ -17,6 +17,7 @@ mod progress;
 mod run;
 mod spool;
 mod watch;
+mod wrap;
 
 use std::process::ExitCode;
 

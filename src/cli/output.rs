@@ -5,8 +5,10 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clap::ValueEnum;
+use terminal_size::{Height, Width, terminal_size_of};
 
 use super::progress;
+use super::wrap::wrapped;
 use crate::diag::{Diagnostic, Paint, Sources, render_within, short, visible};
 use crate::render::{Cell, Ink, Sketch};
 
@@ -69,6 +71,14 @@ pub fn answer(line: &str) {
     answers.write(|out| out.write_all(line.as_bytes()).and_then(|()| out.write_all(b"\n")));
 }
 
+/// Writes a line of the answer for readers: on a terminal it is broken at words.
+pub fn answer_fitted(line: &str) {
+    match columns(terminal_size_of(io::stdout())) {
+        Some(n_columns) => wrapped(line, n_columns).lines().for_each(answer),
+        None => answer(line),
+    }
+}
+
 /// Writes what is still held back: before anything else is said, before waiting for input,
 /// and at the end.
 pub fn flush() {
@@ -114,14 +124,28 @@ pub fn clear_page() {
 /// Says something beside the answer, on standard error.
 pub fn remark(line: &str) {
     flush();
-    complain(&format!("{line}\n"));
+    complain(&format!("{}\n", fitted(line)));
 }
 
 /// Columns for what is said: those of the terminal, or of a wide page.
 fn n_columns() -> usize {
-    match terminal_size::terminal_size_of(io::stderr()) {
-        Some((terminal_size::Width(n), _)) if n > 0 => n.into(),
-        _ => WIDE,
+    columns(terminal_size_of(io::stderr())).unwrap_or(WIDE)
+}
+
+/// Columns of a terminal, if there is one.
+fn columns(size: Option<(Width, Height)>) -> Option<usize> {
+    let (Width(n), _) = size?;
+    (n > 0).then_some(n.into())
+}
+
+/// What is said, its lines broken at words where it goes to a terminal.
+fn fitted(text: &str) -> String {
+    match columns(terminal_size_of(io::stderr())) {
+        Some(n_columns) => {
+            let lines: Vec<String> = text.lines().map(|line| wrapped(line, n_columns)).collect();
+            lines.join("\n")
+        }
+        None => text.to_owned(),
     }
 }
 
@@ -133,7 +157,7 @@ pub fn show(problem: &Diagnostic, sources: &Sources) {
     flush();
     let mut text = match FORMAT.get() {
         Some(MessageFormat::Short) => short(problem, sources),
-        _ => render_within(problem, sources, paint(), n_columns()),
+        _ => fitted(&render_within(problem, sources, paint(), n_columns())),
     };
     if !text.ends_with('\n') {
         text.push('\n');
@@ -143,18 +167,20 @@ pub fn show(problem: &Diagnostic, sources: &Sources) {
 
 /// Writes the lines of a long answer: page by page where they are more than a terminal shows.
 pub fn page(lines: &[String]) {
-    let fits = match terminal_size::terminal_size_of(io::stdout()) {
-        Some((_, height)) => lines.len() < usize::from(height.0),
-        None => true,
+    let Some((width, height)) = terminal_size_of(io::stdout()) else {
+        return lines.iter().for_each(|line| answer(line));
     };
-    if fits || !is_capable() || show_pages(lines).is_err() {
+    let text: Vec<String> = lines.iter().map(|line| wrapped(line, width.0.into())).collect();
+    let lines: Vec<&str> = text.iter().flat_map(|line| line.split('\n')).collect();
+    let fits = lines.len() < usize::from(height.0);
+    if fits || !is_capable() || show_pages(&lines).is_err() {
         lines.iter().for_each(|line| answer(line));
     }
 }
 
 /// Columns and rows of what is drawn in characters: most of the terminal, and less than two pages.
 pub fn page_size() -> (usize, usize) {
-    match terminal_size::terminal_size_of(io::stdout()) {
+    match terminal_size_of(io::stdout()) {
         Some((width, height)) => {
             let rows = usize::from(height.0).saturating_sub(3);
             (usize::from(width.0).clamp(20, 120), rows.clamp(8, 40))
@@ -210,7 +236,7 @@ const fn colour(ink: Ink) -> u8 {
 ///
 /// # Errors
 /// Where there is none.
-fn show_pages(lines: &[String]) -> io::Result<()> {
+fn show_pages(lines: &[&str]) -> io::Result<()> {
     flush();
     let pager = std::env::var("PAGER").unwrap_or_else(|_| "less".to_owned());
     let mut words = pager.split_whitespace();

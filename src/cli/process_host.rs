@@ -77,14 +77,14 @@ impl ProcessHost {
 
 impl Host for ProcessHost {
     fn print(&mut self, line: &str) {
-        output::answer(line);
+        output::answer_fitted(line);
     }
 
     fn print_all(&mut self, lines: &[String]) {
         if self.has_pager {
             output::page(lines);
         } else {
-            lines.iter().for_each(|line| output::answer(line));
+            lines.iter().for_each(|line| output::answer_fitted(line));
         }
     }
 

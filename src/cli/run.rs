@@ -1,7 +1,7 @@
 //! Running scripts in batch, and the session.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, IsTerminal};
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -238,10 +238,10 @@ fn lines_of_stdin() -> Receiver<io::Result<Vec<u8>>> {
     let (to, lines) = sync_channel(LINES_AHEAD);
     std::thread::spawn(move || {
         loop {
-            let mut line = Vec::new();
-            let result = io::stdin().lock().read_until(b'\n', &mut line);
-            let is_last = !matches!(result, Ok(1..));
-            if matches!(result, Ok(0)) || to.send(result.map(|_| line)).is_err() || is_last {
+            let line = files::read_line(io::stdin().lock());
+            let is_end = line.as_ref().is_ok_and(Vec::is_empty);
+            let is_last = is_end || line.is_err();
+            if is_end || to.send(line).is_err() || is_last {
                 return;
             }
         }
@@ -324,7 +324,7 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
             Err(e) => {
                 let problem = Diagnostic::error(
                     errors::CANNOT_READ,
-                    format!("cannot read standard input: {e}"),
+                    format!("cannot read standard input: {}", reason(&e)),
                 );
                 output::show(&problem, session.sources());
                 return ExitStatus::Unreadable;

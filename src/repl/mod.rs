@@ -12,10 +12,12 @@ use crate::session::{Flow, Host, PROMPT, Session, Transcript, without_prompts};
 
 /// Says who is there, and what to type first.
 pub fn greet() {
-    println!(
-        "linkwork {}; `help` and `examples` show what there is, Ctrl-D leaves",
-        env!("CARGO_PKG_VERSION")
-    );
+    output::answer(concat!(
+        "linkwork ",
+        env!("CARGO_PKG_VERSION"),
+        "; `help` and `examples` show what there is, Ctrl-D leaves"
+    ));
+    output::flush();
 }
 
 /// Talks with the user until they leave.
@@ -23,7 +25,7 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut editor = match editor::open() {
         Ok(editor) => editor,
         Err(e) => {
-            eprintln!("error: no line editor on this terminal: {e}");
+            output::remark(&format!("error: no line editor on this terminal: {e}"));
             return;
         }
     };
@@ -48,12 +50,13 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
             // Ctrl-C clears the line; where there is nothing to clear, its user wants more.
             Err(ReadlineError::Interrupted) => {
                 if editor::was_blank(&editor) {
-                    println!("`quit` or Ctrl-D leaves");
+                    output::answer("`quit` or Ctrl-D leaves");
+                    output::flush();
                 }
             }
             Err(ReadlineError::Eof) => return,
             Err(e) => {
-                eprintln!("error: the terminal is gone: {e}");
+                output::remark(&format!("error: the terminal is gone: {e}"));
                 return;
             }
         }

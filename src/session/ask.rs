@@ -1,5 +1,7 @@
 //! Questions without a statement of their own: what an expression is worth, what `r=90deg` says.
 
+use super::input::Input;
+use super::quotas::Quotas;
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
 use crate::diag::{Diagnostic, SourceId, Sources};
@@ -9,7 +11,8 @@ use crate::lang::parse;
 use crate::world::Value;
 
 /// The value now of the expression that the text `source` prints.
-pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<Value, Diagnostic> {
+pub fn value(source: SourceId, input: &Input, state: &mut State) -> Result<Value, Diagnostic> {
+    let Input { sources, quotas, .. } = input;
     let text = sources.get(source).map(|source| source.text.clone()).unwrap_or_default();
     let mut statements = parse(source, &text);
     let (statement, next) = (statements.next().transpose()?, statements.next());
@@ -21,7 +24,9 @@ pub fn value(source: SourceId, sources: &Sources, state: &mut State) -> Result<V
         _ => None,
     };
     match (expr, next) {
-        (Some(expr), None) => Resolver::new(state, &mut Scopes::default(), sources).value(expr),
+        (Some(expr), None) => {
+            Resolver::new(state, &mut Scopes::default(), sources, quotas).value(expr)
+        }
         _ => Err(Diagnostic::error(errors::UNEXPECTED, "expected one expression")),
     }
 }
@@ -51,6 +56,7 @@ pub fn evaluate_binding(text: &str) -> Result<(String, f64), Diagnostic> {
     let Command::Making(Making::Let(bindings)) = &statement.command else { return Err(expected()) };
     let [binding] = &bindings[..] else { return Err(expected()) };
     let (mut state, mut scopes) = (State::new(), Scopes::default());
-    let mut resolver = Resolver::new(&mut state, &mut scopes, &sources);
+    let quotas = Quotas::default();
+    let mut resolver = Resolver::new(&mut state, &mut scopes, &sources, &quotas);
     Ok((resolver.declared(&binding.name)?, resolver.number(&binding.value)?))
 }

@@ -1,7 +1,7 @@
 //! Which command does what.
 
 use super::execution::{Execution, Flow};
-use super::quotas::Quota;
+use super::quotas::{Quota, Quotas};
 use super::state::State;
 use super::undo::history::History;
 use crate::diag::{Diagnostic, Span};
@@ -162,7 +162,7 @@ impl Execution<'_> {
         let n = n.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e6, "commands"))?;
         let mut n_done = 0;
         while n_done < n
-            && let Some(label) = (way.step)(self.history, self.state)
+            && let Some(label) = (way.step)(self.history, self.state, &self.input.quotas)
         {
             self.note((way.told)(&label));
             n_done += 1;
@@ -194,7 +194,7 @@ impl Execution<'_> {
 /// A way through the history, and how it is told.
 struct Walk {
     word: &'static str,
-    step: fn(&mut History, &mut State) -> Option<String>,
+    step: fn(&mut History, &mut State, &Quotas) -> Option<String>,
     told: fn(&str) -> String,
     done: &'static str,
 }

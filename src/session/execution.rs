@@ -109,7 +109,7 @@ impl<'a> Execution<'a> {
                 self.history.last_motion.end(self.state.world.revision());
                 self.report_run();
                 let label = self.input.label(statement.span);
-                self.history.commit(self.state, &label);
+                self.history.commit(self.state, &label, &self.input.quotas);
                 Ok(flow)
             }
             Err(problem) => {
@@ -123,13 +123,13 @@ impl<'a> Execution<'a> {
     pub fn finish(mut self) -> Result<(), Diagnostic> {
         self.stop_recording();
         self.flush_outbox()?;
-        self.history.commit(self.state, "");
+        self.history.commit(self.state, "", &self.input.quotas);
         Ok(())
     }
 
     /// What names and expressions mean where the statement stands.
     pub fn resolve(&mut self) -> Resolver<'_> {
-        Resolver::new(self.state, &mut self.scopes, &self.input.sources)
+        Resolver::new(self.state, &mut self.scopes, &self.input.sources, &self.input.quotas)
     }
 
     /// Makes a change that belongs to the command.

@@ -135,7 +135,7 @@ impl Session {
     /// ```
     pub fn evaluate(&mut self, expression: &str) -> Result<Value, Diagnostic> {
         let source = self.input.add_piece("<expression>", &format!("print {expression}"), 1, None);
-        let value = ask::value(source, &self.input.sources, &mut self.state)?;
+        let value = ask::value(source, &self.input, &mut self.state)?;
         // Nobody holds a place in what had a value.
         self.input.sources.forget_last();
         Ok(value)

@@ -3,7 +3,6 @@
 
 use crate::diag::{Diagnostic, Span, format_count, format_number, suggest};
 use crate::errors;
-use crate::world::Extent;
 
 /// Something of which there is a most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +35,12 @@ pub enum Quota {
     Files,
     /// What was written to them.
     FileBytes,
+    /// Terms of an expression.
+    Terms,
+    /// Commands kept for `undo`.
+    UndoCommands,
+    /// What these hold.
+    UndoBytes,
 }
 
 /// A line of the table.
@@ -57,7 +62,7 @@ const fn row(quota: Quota, word: &'static str, what: &'static str, usual: u64) -
 
 /// All of them, in the order of [`Quota`]. The usual bounds keep a session below some four gigabytes
 /// of memory; a slip of the pen is found in seconds.
-const ROWS: [Row; 14] = [
+const ROWS: [Row; 17] = [
     row(Quota::SourceBytes, "source-bytes", "bytes of a script", 64 << 20),
     // Each level takes some kilobytes of a stack that cannot grow.
     Row {
@@ -77,17 +82,19 @@ const ROWS: [Row; 14] = [
     row(Quota::PrintedBytes, "printed-bytes", "bytes printed", 4 << 30),
     row(Quota::Files, "files", "files written", 100_000),
     row(Quota::FileBytes, "file-bytes", "bytes written to files", 16 << 30),
+    // Each is worked out many times a frame.
+    Row {
+        highest: u32::MAX as u64,
+        ..row(Quota::Terms, "terms", "terms in one expression", 100_000)
+    },
+    // Beyond these nothing is refused: the oldest commands are forgotten.
+    row(Quota::UndoCommands, "undo-commands", "commands kept for `undo`", 10_000),
+    row(Quota::UndoBytes, "undo-bytes", "bytes kept for `undo`", 256 << 20),
 ];
 
-/// Bytes of history kept for `undo`, roughly; the oldest commands are forgotten beyond it.
-pub const UNDO_BYTES: usize = 256 << 20;
-
-/// Commands kept for `undo`.
-pub const UNDO_COMMANDS: usize = 10_000;
-
-/// Terms of one expression with all that the members in it stand for, and how deep they may stand
-/// within each other: each is worked out many times a frame, by calls within calls.
-pub const LONGEST_EXPRESSION: Extent = Extent { n_terms: 100_000, depth: 500 };
+/// How deep the terms of one expression may stand within each other, with all that the members in it
+/// stand for: they are worked out by calls within calls.
+pub const DEEPEST_EXPRESSION: u32 = 500;
 
 /// An argument of a definition that has more terms becomes a parameter of the instance: what it is
 /// handed on to mentions it, and does not hold it again.
@@ -95,8 +102,8 @@ pub const LONGEST_ARGUMENT: u32 = 64;
 
 impl Quota {
     /// All of them.
-    pub const ALL: [Self; 14] = {
-        let mut all = [Self::SourceBytes; 14];
+    pub const ALL: [Self; 17] = {
+        let mut all = [Self::SourceBytes; 17];
         let mut k = 0;
         while k < all.len() {
             all[k] = ROWS[k].quota;
@@ -119,7 +126,7 @@ impl Quota {
 /// How much is allowed.
 #[derive(Debug, Clone)]
 pub struct Quotas {
-    most: [u64; 14],
+    most: [u64; 17],
 }
 
 impl Default for Quotas {
@@ -132,6 +139,11 @@ impl Quotas {
     /// The most of something.
     pub const fn of(&self, quota: Quota) -> u64 {
         self.most[quota as usize]
+    }
+
+    /// The most terms of one expression.
+    pub fn n_terms(&self) -> u32 {
+        self.of(Quota::Terms).try_into().unwrap_or(u32::MAX)
     }
 
     /// Sets the most of something.

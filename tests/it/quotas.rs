@@ -3,9 +3,10 @@
 use linkwork::session::Quota;
 
 use crate::support::program::{folder, run, text};
+use crate::support::talk::Talking;
 
 /// A script that goes on for as long as it may, and the limit that ends it.
-const ENDLESS: [(&str, &str); 14] = [
+const ENDLESS: [(&str, &str); 15] = [
     ("source-bytes=1000", "include \"long.link\""),
     ("nesting=3", "define d(x) { use d(x) }\nuse d(1)"),
     ("statements=1000", "for i in 1..999 { let a = i; let b = i }"),
@@ -23,6 +24,7 @@ const ENDLESS: [(&str, &str); 14] = [
         "for i in 1..4 { sample \"a\" = i }\nsvg \"1.svg\"; svg \"2.svg\"; svg \"3.svg\"; svg \"4.svg\"",
     ),
     ("file-bytes=100", "point A = (0, 0)\nsvg \"a.svg\""),
+    ("terms=5", "point A = (0, 0) frozen, B = (1, 0)\nhold B.x + B.y + B.x = 2"),
 ];
 
 #[test]
@@ -89,4 +91,72 @@ fn the_documentation_lists_all_limits() {
         let usual = line.and_then(|line| line.split('|').nth(3)).map(|cell| cell.replace(' ', ""));
         assert_eq!(usual, Some(quota.usual().to_string()), "of `{}`", quota.word());
     }
+}
+
+/// A crank, and ten commands before what a test does.
+fn crank(begin: &str, limits: &[(Quota, u64)]) -> Talking {
+    let mut talking = Talking::after("point A = (0, 0) frozen, B = (1, 0); motor A B speed 1rev");
+    for &(quota, most) in limits {
+        talking.session.limit(quota, most);
+    }
+    talking.run(begin);
+    (0..10).for_each(|k| talking.run(&format!("let k{k} = {k}")));
+    talking
+}
+
+/// How many commands can be taken back.
+fn n_undoable(talking: &mut Talking) -> usize {
+    (0..100).take_while(|_| talking.execute("undo").is_ok()).count()
+}
+
+#[test]
+fn beyond_the_limits_of_undo_the_oldest_commands_are_forgotten() {
+    let all = n_undoable(&mut crank("let k = 0", &[]));
+    assert!(all > 10);
+    let mut few = crank("let k = 0", &[(Quota::UndoCommands, 4)]);
+    assert_eq!(n_undoable(&mut few), 4);
+    few.run("assert k5 = 5; redo 4; assert k9 = 9");
+    assert_eq!(n_undoable(&mut crank("let k = 0", &[(Quota::UndoCommands, 0)])), 0);
+
+    let most = crank("let k = 0", &[]).session.undo_bytes() / 2;
+    let mut half = crank("let k = 0", &[(Quota::UndoBytes, most as u64)]);
+    let n_bytes = half.session.undo_bytes();
+    assert!(n_bytes <= most && n_bytes > most / 2, "{n_bytes} of {most}");
+    let n = n_undoable(&mut half);
+    assert!((3..all - 3).contains(&n), "{n} of {all}");
+    half.run("assert k0 = 0");
+}
+
+#[test]
+fn the_bytes_of_undo_are_those_of_traces_ghosts_and_recordings_too() {
+    let limits = [(Quota::UndoBytes, 8000)];
+    for (begin, is_more) in [
+        ("let k = 0", false),
+        ("trace B", true),
+        ("expose every 1", true),
+        ("record \"a.csv\"", true),
+    ] {
+        let mut talking = crank(begin, &limits);
+        talking.run("step 1000");
+        let before = talking.script();
+        talking.run("undo");
+        // What was undone holds what was made, and is all that is kept.
+        let n_bytes = talking.session.undo_bytes();
+        assert_eq!(n_bytes > 8000, is_more, "after `{begin}`: {n_bytes} bytes");
+        assert_eq!(talking.execute("undo").is_err(), is_more, "after `{begin}`");
+        if is_more {
+            talking.run("redo");
+            assert_eq!(talking.script(), before, "after `{begin}`");
+        }
+    }
+}
+
+#[test]
+fn a_line_on_a_pipe_has_an_end() {
+    let folder = folder(&[]);
+    let typed = format!("print 1\nprint {}", "1 + ".repeat(1000));
+    let out = run(folder.path(), &["--limit", "source-bytes=1000"], &typed);
+    let said = text(&out.stderr);
+    assert_eq!((out.status.code(), &*text(&out.stdout)), (Some(3), "1\n"), "{said}");
+    assert!(said.contains("standard input") && said.contains("`source-bytes`"), "{said}");
 }

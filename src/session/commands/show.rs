@@ -70,8 +70,12 @@ impl Execution<'_> {
             Ok((Meaning::Entity(Entity::Constraint(_)), None)) => self.show(name),
             _ => self.print(items).map_err(|problem| {
                 let word = name.as_simple().map_or("", |word| &*word.text);
+                let is_free = self.state.world.names().is_free(word);
+                if is_free && let Some(Trade { says, example, .. }) = catalogue::trade(word) {
+                    return problem.help(format!("`{word}` {says}: `{example}`"));
+                }
                 match nearest_command(word) {
-                    Some(near) if self.state.world.names().is_free(word) => {
+                    Some(near) if is_free => {
                         problem.help(format!("did you mean the command `{near}`?"))
                     }
                     None if problem.helps.is_empty() => problem.help("`help` lists the commands"),

@@ -3,7 +3,7 @@
 use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::session::quotas::LONGEST_EXPRESSION;
+use crate::session::quotas::{DEEPEST_EXPRESSION, Quota};
 use crate::terms::Member;
 use crate::world::{ConstraintId, Entity, Extent, Formula};
 
@@ -48,11 +48,14 @@ impl Resolver<'_> {
     /// Refuses an expression that is too long, or too deep, with all that it mentions: every level of
     /// members of members, each mentioned twice, doubles it.
     pub(super) fn refuse_too_long(&self, formula: &Formula, span: Span) -> Result<(), Diagnostic> {
-        if self.state.world.extent_within(formula, LONGEST_EXPRESSION).is_some() {
+        let (n_terms, depth) = (self.quotas.n_terms(), DEEPEST_EXPRESSION);
+        let most = Extent { n_terms, depth };
+        if self.state.world.extent_within(formula, most).is_some() {
             return Ok(());
         }
-        let Extent { n_terms, depth } = LONGEST_EXPRESSION;
-        let label = format!("more than {n_terms} terms, or {depth} within each other");
+        let word = Quota::Terms.word();
+        let label =
+            format!("more than {n_terms} terms, the limit `{word}`, or {depth} within each other");
         Err(Diagnostic::error(errors::TOO_MUCH, "this is too long with all that it mentions")
             .at(span, label)
             .help("`let name = ...` gives a part a name, and its value is then worked out once"))

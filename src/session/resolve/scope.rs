@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
 use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
+use crate::session::quotas::Quotas;
 use crate::session::state::State;
 use crate::terms::Member;
 use crate::world::{ConstraintId, Entity, Formula, NameText, PointId, Turning};
@@ -81,6 +82,8 @@ pub struct Resolver<'a> {
     pub state: &'a mut State,
     scopes: &'a mut Scopes,
     sources: &'a Sources,
+    /// How much an expression may be.
+    pub(super) quotas: &'a Quotas,
 }
 
 /// The names that a block or an instance adds.
@@ -116,8 +119,13 @@ pub enum Meaning {
 
 impl<'a> Resolver<'a> {
     /// Names as they are in `scopes`; `sources` holds the text they stand in.
-    pub fn new(state: &'a mut State, scopes: &'a mut Scopes, sources: &'a Sources) -> Self {
-        Self { state, scopes, sources }
+    pub fn new(
+        state: &'a mut State,
+        scopes: &'a mut Scopes,
+        sources: &'a Sources,
+        quotas: &'a Quotas,
+    ) -> Self {
+        Self { state, scopes, sources, quotas }
     }
 
     /// Wants counted how far something turns, from this statement on.

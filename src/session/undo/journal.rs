@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
 use crate::session::preferences::Preferences;
-use crate::session::quotas::{UNDO_BYTES, UNDO_COMMANDS};
+use crate::session::quotas::{Quota, Quotas};
 use crate::session::series::{SeriesList, n_bytes};
 use crate::solve::Recall;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
@@ -116,7 +116,7 @@ pub struct Journal {
 
 impl Journal {
     /// Ends the command under way; what was undone before can no longer be redone.
-    pub fn commit(&mut self, label: &str) {
+    pub fn commit(&mut self, label: &str, quotas: &Quotas) {
         let mut changes = self.take_current();
         if !changes.is_empty() {
             self.n_bytes -= self.undone.drain(..).map(|(_, n_bytes)| n_bytes).sum::<usize>();
@@ -124,7 +124,7 @@ impl Journal {
             let number = self.n_commands;
             self.n_commands += 1;
             self.keep(Entry { number, label: label.to_owned(), changes });
-            self.forget_oldest();
+            self.forget_oldest(quotas);
         }
     }
 
@@ -157,9 +157,11 @@ impl Journal {
     }
 
     /// Forgets what is farthest from now, where there is more than is kept.
-    pub fn forget_oldest(&mut self) {
-        while self.done.len() > UNDO_COMMANDS
-            || self.n_bytes > UNDO_BYTES && self.done.len() + self.undone.len() > 1
+    pub fn forget_oldest(&mut self, quotas: &Quotas) {
+        let most_commands = quotas.of(Quota::UndoCommands);
+        let most_bytes = quotas.of(Quota::UndoBytes);
+        while self.done.len() as u64 > most_commands
+            || self.n_bytes as u64 > most_bytes && self.done.len() + self.undone.len() > 1
         {
             let farthest = if self.done.len() >= self.undone.len() {
                 self.done.pop_front()

@@ -4,6 +4,7 @@ use super::history::History;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
 use crate::interrupt;
+use crate::session::quotas::Quotas;
 use crate::session::series::swap_sample;
 use crate::session::state::State;
 use crate::solve::{Memory, Settings, Solver};
@@ -212,12 +213,12 @@ impl History {
     }
 
     /// Ends the command under way. One that left everything as it was is none to be taken back.
-    pub fn commit(&mut self, state: &mut State, label: &str) {
+    pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) {
         self.gather(state);
         if self.journal.current.iter().all(|change| state.is_at(change)) {
             self.journal.take_current();
         } else {
-            self.journal.commit(label);
+            self.journal.commit(label, quotas);
         }
     }
 
@@ -234,16 +235,16 @@ impl History {
     }
 
     /// Takes back the last command; gives its text, if there was one.
-    pub fn undo(&mut self, state: &mut State) -> Option<String> {
+    pub fn undo(&mut self, state: &mut State, quotas: &Quotas) -> Option<String> {
         let label = self.step_back(state);
-        self.journal.forget_oldest();
+        self.journal.forget_oldest(quotas);
         label
     }
 
     /// Does the command that was taken back last again; gives its text, if there was one.
-    pub fn redo(&mut self, state: &mut State) -> Option<String> {
+    pub fn redo(&mut self, state: &mut State, quotas: &Quotas) -> Option<String> {
         let label = self.step_forth(state);
-        self.journal.forget_oldest();
+        self.journal.forget_oldest(quotas);
         label
     }
 

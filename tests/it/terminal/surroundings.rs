@@ -1,7 +1,9 @@
 //! What the program makes of the terminal it finds: none, a dumb one, a narrow one, one without
 //! colours; of the user's pager and first file.
 
+use std::collections::HashSet;
 use std::fs;
+use std::process::Command;
 
 use tempfile::tempdir;
 
@@ -60,6 +62,52 @@ fn a_narrow_terminal_shows_all_of_it() {
     terminal.clear();
     terminal.enter("1 + 2");
     terminal.wait_for("\n3\n");
+}
+
+#[test]
+fn what_does_not_fit_is_broken_at_words() {
+    let home = tempdir().expect("a folder");
+    let narrow = Start { size: (500, 40), ..Start::default() };
+    let terminal = Terminal::start(home.path(), &narrow);
+    terminal.wait_for_prompt();
+    let statements = [
+        "point Aaaaaaaa = (0, 0) frozen, Bbbbbbbb = (1, 0)",
+        "length Aaaaaaaa Bbbbbbbb = 1",
+        "ponit A",
+        "A = 3",
+        "list",
+        "show Aaaaaaaa",
+        "help",
+        "help motor",
+        "examples",
+        "effects",
+        "history",
+        "check",
+    ];
+    for statement in statements {
+        terminal.press(&format!("{statement}\r"));
+        terminal.wait_for_prompt();
+    }
+    terminal.enter("\"the end\"");
+    let screen = terminal.screen();
+    let row = "  drag          draw points along\n                straight lines,";
+    assert!(screen.contains(row), "{screen}");
+    let message = "  = help: to define a parameter, write\n          `let A = ...`";
+    assert!(screen.contains(message), "{screen}");
+    // What no terminal says has the same words: none was broken.
+    let whole = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(["-e", "help; help motor; examples"])
+        .output()
+        .expect("it runs");
+    let whole = String::from_utf8_lossy(&whole.stdout);
+    let words: HashSet<&str> = whole.split_whitespace().collect();
+    let said = &screen[screen.find("> help\n").expect("the list")..];
+    let said = &said[..said.find("> effects\n").expect("what follows")];
+    let broken: Vec<&str> = said
+        .split_whitespace()
+        .filter(|word| !words.contains(word) && !["help", "examples", ">"].contains(word))
+        .collect();
+    assert!(broken.is_empty(), "{broken:?} in\n{screen}");
 }
 
 #[test]
