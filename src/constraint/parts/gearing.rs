@@ -69,7 +69,6 @@ impl Gearing {
     /// See [`crate::constraint::ConstraintKind::set`]; another ratio puts teeth aside.
     pub fn set(&mut self, field: Field, value: f64) -> bool {
         match (field, &mut self.teeth) {
-            (Field::Ratio, _) if value == self.ratio => return true,
             (Field::Ratio, _) => *self = Self::of(value),
             (Field::FirstTeeth, Some(teeth)) => teeth.first = value,
             (Field::SecondTeeth, Some(teeth)) => teeth.second = value,

@@ -3,7 +3,7 @@
 use super::Island;
 use super::snapshot::Fingerprint;
 use super::structure::Structure;
-use crate::constraint::ConstraintKind;
+use crate::constraint::{Constraint, ConstraintKind};
 
 /// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
 struct Hasher(u64);
@@ -20,6 +20,13 @@ impl Hasher {
         // Words differ most in their upper bits, which the product alone never moves down.
         self.0 ^= self.0 >> 29;
     }
+}
+
+/// What the residuals of a constraint depend on besides its points.
+pub(crate) fn of_content(constraint: &Constraint) -> u64 {
+    let mut content = Hasher::default();
+    constraint.content(&mut |word| content.add(word));
+    content.0
 }
 
 impl Island {

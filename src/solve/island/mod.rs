@@ -273,6 +273,11 @@ impl Island {
             // Deleted and brought back, or set to what it was.
             return false;
         }
+        if fingerprint::of_content(&new) == fingerprint::of_content(&self.constraints[c]) {
+            // It is said in another way, a ratio by teeth, and asks for the same.
+            self.constraints[c] = new;
+            return false;
+        }
         self.remembered.take();
         if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;

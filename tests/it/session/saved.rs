@@ -207,3 +207,31 @@ fn what_ran_away_to_where_there_are_no_numbers_is_where_the_world_has_it() {
     talking.assert_goes_on_from_its_file("step 3");
     assert!(talking.ask("check").iter().any(|line| line.contains("stalled")));
 }
+
+#[test]
+fn what_is_said_in_another_way_goes_on_from_a_file_as_it_would_have() {
+    let mut talking = Talking::after(
+        "point O = (9, 0) frozen, G = (10, 0), Q = (12, 0) frozen, H = (11, 0)
+         wheels: cog O G, Q H ratio 2
+         spin: motor O G speed 90deg
+         set dt 1/30; step
+         change wheels teeth 10, 20",
+    );
+    let mut loaded = Talking::after(&talking.script());
+    for it in [&mut talking, &mut loaded] {
+        it.run("step 2");
+    }
+    assert_eq!(loaded.script(), talking.script());
+}
+
+#[test]
+fn a_ratio_takes_the_place_of_teeth_that_come_to_the_same() {
+    let mut talking = Talking::after(
+        "point O = (9, 0) frozen, G = (10, 0), Q = (12, 0) frozen, H = (11, 0)
+         wheels: cog O G, Q H teeth 10, 20 + floor(time)
+         change wheels ratio 2 + time",
+    );
+    assert!(talking.ask("list")[4].contains("ratio 2 + time"), "{:?}", talking.ask("list"));
+    let loaded = Talking::after(&talking.script());
+    assert_eq!(loaded.script(), talking.script());
+}
