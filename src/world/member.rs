@@ -1,6 +1,6 @@
 //! What the members of things are worth: `crank.angle`, `coupler.value`, `coupler.residual`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 
 use super::environments::Here;
 use super::{ConstraintId, Depends, Environment, Extent, Formula, Mention, Node, PointId, World};
@@ -11,22 +11,11 @@ use crate::diag::Diagnostic;
 use crate::terms::{Function, Member, Operator, Shape};
 
 impl World {
-    /// The first member that a formula mentions, at any depth, and that follows from the
-    /// constraints.
+    /// A member that a formula mentions, at any depth, and that follows from the constraints.
     pub fn following_member(&self, formula: &Formula) -> Option<(ConstraintId, Member)> {
-        let mut found = None;
-        if self.depends(formula).on_constraints {
-            formula.mentions(&mut |mention| {
-                found = found.or(match mention {
-                    Mention::Member(id, member) => member.follows().then_some((id, member)),
-                    Mention::Parameter(id) => {
-                        self.parameter(id).and_then(|p| self.following_member(&p.formula))
-                    }
-                    Mention::Point(_) => None,
-                });
-            });
-        }
-        found
+        // Few do, and that is known without a walk.
+        let may_be = self.depends(formula).on_constraints;
+        if may_be { self.find_member(formula, Member::follows) } else { None }
     }
 
     /// Whether a constraint has a member.
@@ -94,19 +83,32 @@ impl World {
 
     /// Whether a formula mentions a member of a constraint, at any depth.
     pub fn mentions_members(&self, formula: &Formula) -> bool {
+        self.find_member(formula, |_| true).is_some()
+    }
+
+    /// A member of the kind that is looked for that a formula mentions, at any depth; of several the
+    /// first by the fewest parameters on the way.
+    fn find_member(
+        &self,
+        formula: &Formula,
+        is_one: impl Fn(Member) -> bool,
+    ) -> Option<(ConstraintId, Member)> {
+        // Each parameter is looked at once: those that mention others twice would double.
         let mut seen = BTreeSet::new();
-        let mut open = vec![formula.clone()];
-        let mut is_found = false;
-        while let Some(formula) = open.pop().filter(|_| !is_found) {
+        let mut open = VecDeque::from([formula.clone()]);
+        let mut found = None;
+        while let Some(formula) = open.pop_front().filter(|_| found.is_none()) {
             formula.mentions(&mut |mention| match mention {
-                Mention::Member(..) => is_found = true,
+                Mention::Member(id, member) if is_one(member) => {
+                    found = found.or(Some((id, member)));
+                }
                 Mention::Parameter(id) if seen.insert(id) => {
                     open.extend(self.parameter(id).map(|parameter| parameter.formula.clone()));
                 }
-                Mention::Parameter(_) | Mention::Point(_) => {}
+                Mention::Member(..) | Mention::Parameter(_) | Mention::Point(_) => {}
             });
         }
-        is_found
+        found
     }
 
     /// How long and how deep a formula is with all that the members in it stand for; none where that

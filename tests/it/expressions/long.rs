@@ -45,6 +45,16 @@ fn parameters_that_double_are_worked_out_once() {
     talking.assert_goes_on_from_its_file("step; delete rod; delete a0 cascade");
 }
 
+#[test]
+fn parameters_that_double_what_is_missed_are_refused_at_once() {
+    let levels: String = (1..=40).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1)).collect();
+    let mut talking = Talking::after(&format!(
+        "point A = (0, 0) frozen, B = (1, 0)\nrod: length A B = 1\nlet a0 = rod.residual\n{levels}"
+    ));
+    let problem = talking.execute("length A B = 1 + a40").expect_err("it follows from the rod");
+    assert_eq!(&*problem.message, "`rod.residual` cannot drive a constraint");
+}
+
 const TOO_LONG: &str = "this is too long with all that it mentions";
 
 /// Makes things that each mention the one before, up to the first that is refused; gives how many
