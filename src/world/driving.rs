@@ -92,17 +92,11 @@ impl Environment<Jet> for WithParameter<'_> {
         if let Some(value) = self.values.get(&id) {
             return Ok(*value);
         }
-        Ok(match Here::new(self.world, None).parameter(id)? {
-            Value::Number(n) => Value::Number(Jet::constant(n)),
-            Value::Vector(v) => {
-                Value::Vector(Vec2 { x: Jet::constant(v.x), y: Jet::constant(v.y) })
-            }
-        })
+        Here::new(self.world, None).parameter(id).map(Value::constant)
     }
 
     fn position(&self, id: PointId) -> Vec2<Jet> {
-        let p = self.world.points().at(id);
-        Vec2 { x: Jet::constant(p.x), y: Jet::constant(p.y) }
+        Vec2::constant(self.world.points().at(id).to_vector())
     }
 
     fn time(&self) -> Jet {

@@ -206,12 +206,7 @@ impl Environment<Jet> for Moving<'_> {
         if let Some(value) = self.values.get(&id) {
             return value.clone();
         }
-        Ok(match Here::new(self.world, None).parameter(id)? {
-            Value::Number(n) => Value::Number(Jet::constant(n)),
-            Value::Vector(v) => {
-                Value::Vector(Vec2 { x: Jet::constant(v.x), y: Jet::constant(v.y) })
-            }
-        })
+        Here::new(self.world, None).parameter(id).map(Value::constant)
     }
 
     fn position(&self, id: PointId) -> Vec2<Jet> {

@@ -22,6 +22,14 @@ impl<T: Real> Value<T> {
         }
     }
 
+    /// A value that does not change.
+    pub fn constant(value: Value) -> Self {
+        match value {
+            Value::Number(n) => Self::Number(T::constant(n)),
+            Value::Vector(v) => Self::Vector(Vec2 { x: T::constant(v.x), y: T::constant(v.y) }),
+        }
+    }
+
     /// What it is.
     pub const fn shape(&self) -> Shape {
         match self {
