@@ -90,13 +90,12 @@ impl Island {
 
     /// The pose was reached by the list of steps, from one at which the island was of this size.
     pub fn note_closed_form(&mut self, found: &Found, size: f64, known_error: f64) {
+        self.are_sides_old = true;
         if found.is_sensitive() {
             let least_side = found.least_side_squared.sqrt();
-            self.are_sides_old = true;
             self.position_error =
                 predict::position_error(self, found.worst, least_side, size, known_error);
         }
-        self.are_sides_old = true;
     }
 
     /// Frames were passed by the list of steps, the last of which left this.
@@ -128,7 +127,8 @@ impl Island {
         }
     }
 
-    /// The same at the pose that the last frame that counts began with.
+    /// How large it was at the pose that the last frame that counts began with, as
+    /// [`size`](Self::size) says.
     pub fn size_before(&self) -> f64 {
         let still = &self.x[self.n_free..];
         self.size_between(corners(self.history.past(1).iter().chain(still)))

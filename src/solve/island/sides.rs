@@ -5,7 +5,6 @@ use super::known_sides::{KnownSides, WatchedSides};
 use crate::constraint::PointIdx;
 use crate::solve::frame::branch::{FLAT, PartSide};
 use crate::solve::frame::decomposition::Side;
-
 use crate::solve::method::Pose;
 use crate::solve::report::Counters;
 

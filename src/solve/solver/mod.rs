@@ -241,8 +241,8 @@ impl Solver {
         let mut now =
             Recall { islands: Vec::with_capacity(then.islands.len()), settings: self.settings };
         for (first, snapshot) in then.islands {
-            now.islands.push((first, self.remembered(first)));
-            self.pending.insert(first, snapshot);
+            let pending = self.pending.insert(first, snapshot);
+            now.islands.push((first, pending.unwrap_or_else(|| self.remembered_by_island(first))));
         }
         self.settings = then.settings;
         self.missed.clear();
@@ -259,9 +259,12 @@ impl Solver {
 
     /// What is remembered of the island that begins with a point.
     fn remembered(&self, first: PointId) -> Option<Arc<Snapshot>> {
-        if let Some(snapshot) = self.pending.get(&first) {
-            return snapshot.clone();
-        }
+        let pending = self.pending.get(&first).cloned();
+        pending.unwrap_or_else(|| self.remembered_by_island(first))
+    }
+
+    /// The same, where nothing is pending for it.
+    fn remembered_by_island(&self, first: PointId) -> Option<Arc<Snapshot>> {
         if self.is_stale {
             return None;
         }

@@ -121,8 +121,8 @@ impl Solver {
         for (k, pulled) in by_island {
             let Some(island) = self.partition.get_mut(k) else { continue };
             if island.status == Status::Converged {
-                island.leave_closed_form();
                 self.notes.note(island);
+                island.leave_closed_form();
                 let limits = island.limits(settings, budget);
                 pull(island, &pulled, &limits, &mut report.counters);
                 report.include(island.status, 0, island.residual);
