@@ -54,7 +54,7 @@ const COMMANDS: [&str; 20] = [
     "set method relaxation; step; set method auto",
     "change it = 1e200",
     "off it; step; on it; step",
-    "trace C; step; plot \"t.svg\" C",
+    "trace C; step; sample \"x\" = A.x; sample \"x\" = A.x; plot \"t.svg\"; plot",
     "undo; redo",
 ];
 
