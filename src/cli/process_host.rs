@@ -132,6 +132,10 @@ impl Host for ProcessHost {
         Some(Rc::new(interrupt::is_asked))
     }
 
+    fn forget_stop(&mut self) {
+        interrupt::forget();
+    }
+
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
         if self.allows_any_path {
             return Ok(self.out.join(path));

@@ -1,10 +1,12 @@
 //! What to type instead, where only the world knows what a name is.
 
 use super::Session;
+use super::resolve::said::pattern_of;
 use super::state::State;
-use crate::constraint::{ConstraintKind as _, Field};
 use crate::diag::{Diagnostic, Sources};
 use crate::errors;
+use crate::lang::ast::Role;
+use crate::lang::catalogue::Slot;
 use crate::world::Entity;
 
 impl Session {
@@ -33,17 +35,31 @@ impl State {
                 ("to give the parameter another value", format!("let {name} = {value}"))
             }
             Entity::Constraint(id) => {
-                let constraint = &self.world.constraint(id).expect("it is named").constraint;
-                let part = match constraint.get(Field::Radius) {
-                    Some(_) if constraint.traits().bounds.is_none() => "radius",
-                    _ => "=",
+                let record = self.world.constraint(id).expect("it is named");
+                let pattern = pattern_of(&record.constraint);
+                let Some(word) = value_word(pattern.slots) else {
+                    problem.helps = vec![pattern.takes.to_owned()];
+                    return problem;
                 };
-                ("to give it another value", format!("change {name} {part} {value}"))
+                ("to give it another value", format!("change {name} {word} {value}"))
             }
         };
         problem.helps = vec![format!("{what}, write `{statement}`")];
         problem
     }
+}
+
+/// What stands before the value of a constraint; none where it has none, or several.
+fn value_word(slots: &[Slot]) -> Option<&'static str> {
+    if slots.iter().any(|slot| matches!(slot, Slot::Relation { .. })) {
+        return Some("=");
+    }
+    let mut words = slots.iter().filter_map(|slot| match slot {
+        Slot::Value(role) | Slot::Optional(role, _) | Slot::Place(role) => Some(role.word()),
+        Slot::Gearing => Some(Role::Ratio.word()),
+        _ => None,
+    });
+    words.next().filter(|_| words.next().is_none())
 }
 
 /// The value behind the `=` that a text begins with, up to the end of the statement.

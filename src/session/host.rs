@@ -71,6 +71,9 @@ pub trait Host {
         None
     }
 
+    /// The command that the user asked to stop has stopped: what follows was not asked to.
+    fn forget_stop(&mut self) {}
+
     /// Where a file that a script names is written, and found again; by default under its own
     /// name, as [`contained`] gives it.
     ///

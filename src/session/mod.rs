@@ -275,7 +275,11 @@ impl Session {
         if !host.is_keeping() || !transcript::leaves_a_mark(&statement.command) {
             return;
         }
-        if is_unrepeatable || flow == Flow::Stopped {
+        if flow == Flow::Stopped {
+            // Who stops once more must not lose what the stopped command did.
+            host.forget_stop();
+            self.keep_whole(host);
+        } else if is_unrepeatable {
             self.keep_whole(host);
         } else {
             host.keep(Kept::Statement(self.input.sources.slice(statement.span)));

@@ -3,7 +3,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::support::talk::Talking;
+use crate::support::talk::{Talking, is_read};
 
 /// Each is said with every value in the place of `V`.
 const STATEMENTS: [&str; 16] = [
@@ -54,7 +54,7 @@ const COMMANDS: [&str; 20] = [
     "set method relaxation; step; set method auto",
     "change it = 1e200",
     "off it; step; on it; step",
-    "trace C; step; plot \"t.svg\" C",
+    "trace C; step; sample \"x\" = A.x; sample \"x\" = A.x; plot \"t.svg\"; plot",
     "undo; redo",
 ];
 
@@ -83,6 +83,13 @@ fn check(pose: &str, statement: &str, n_before: usize) {
 fn check_all_in(pose: &str) {
     let said = STATEMENTS.iter().flat_map(|statement| VALUES.map(|v| statement.replace('V', v)));
     said.enumerate().for_each(|(n, statement)| check(pose, &statement, n % COMMANDS.len()));
+}
+
+#[test]
+fn what_is_said_are_statements() {
+    for said in STATEMENTS.map(|it| it.replace('V', "1")).iter().map(|it| &**it).chain(COMMANDS) {
+        assert!(is_read(said), "{said}");
+    }
 }
 
 #[test]

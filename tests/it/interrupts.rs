@@ -4,9 +4,14 @@
 //! a statement that takes twice as long has to ask twice as often, and once the answer is yes it
 //! asks no more than a few times until it has ended.
 
+use std::cell::Cell;
+use std::io;
+use std::path::Path;
+
 use crate::support::compare::check_same;
 use crate::support::talk::Talking;
-use linkwork::session::Flow;
+use linkwork::diag::{Diagnostic, Sources};
+use linkwork::session::{Flow, Host, Kept, Session, Transcript};
 
 /// How often a statement may go on asking after it was told to stop.
 const MOST_AFTER: u64 = 8;
@@ -153,4 +158,68 @@ fn a_loop_counts_as_far_as_numbers_do() {
     }
     let last = talking.ask("for i in 9007199254740989..9007199254740991 { print i }");
     assert_eq!(last, ["9007199254740989", "9007199254740990", "9007199254740991"]);
+}
+
+/// Somebody who stops a long run, and presses Ctrl-C once more while the journal is told of it.
+#[derive(Default)]
+struct Hasty {
+    n_polls: Cell<u64>,
+    /// Whether Ctrl-C was pressed; the program ends where it is pressed again.
+    is_asked: Cell<bool>,
+    is_ended: bool,
+    kept: String,
+}
+
+impl Host for Hasty {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn is_keeping(&self) -> bool {
+        true
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        if let Kept::Whole(script) = kept {
+            self.is_ended |= self.is_asked.replace(true);
+            script.clone_into(&mut self.kept);
+        }
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.n_polls.update(|n| n + 1);
+        if self.n_polls.get() == 100 {
+            self.is_asked.set(true);
+        }
+        self.is_asked.get()
+    }
+
+    fn forget_stop(&mut self) {
+        self.is_asked.set(false);
+    }
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        Err(io::ErrorKind::NotFound.into())
+    }
+
+    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn seconds(&self) -> Option<f64> {
+        None
+    }
+}
+
+#[test]
+fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
+    let (mut session, mut hasty) = (Session::new(), Hasty::default());
+    let mut typed = Transcript::new("typed");
+    typed.enter("point A = (0, 0) frozen, B = (1, 0)", &mut session, &mut hasty);
+    typed.enter("motor A B speed 1rev", &mut session, &mut hasty);
+    let outcome = typed.enter("for i in 1..1e6 { step }", &mut session, &mut hasty);
+    assert_eq!(outcome.flow, Flow::Stopped);
+    assert!(session.world().clock().frame > 0);
+    assert_eq!(hasty.kept, session.to_script());
+    assert!(!hasty.is_ended, "the run had stopped when it was pressed again");
 }

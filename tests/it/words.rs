@@ -95,6 +95,32 @@ fn a_value_that_no_such_number_gives_is_shown_without_unit() {
 }
 
 #[test]
+fn who_assigns_to_a_constraint_is_told_a_change_that_it_takes() {
+    for (stated, typed, advised) in [
+        ("it: length A B = 3", "it = 2", "write `change it = 2`"),
+        ("it: orientation A B, A C", "it = 2deg", "write `change it = 2deg`"),
+        ("it: hold A.x + B.y", "it = 2", "write `change it = 2`"),
+        ("it: hinge C on A B at 0.5", "it = 0.3", "write `change it at 0.3`"),
+        ("it: coordinate D at (3, 3)", "it = (2, 2)", "write `change it at (2, 2)`"),
+        ("circle it = A radius 2", "it = 3", "write `change it radius 3`"),
+        ("it: rack A B on C D radius 1", "it = 2", "write `change it radius 2`"),
+        ("it: cog A B, D C ratio 2", "it = 3", "write `change it ratio 3`"),
+        ("it: motor A B speed 1rev", "it = 3", "a motor takes"),
+        ("it: parallel A B, C D", "it = 3", "no part that can be changed"),
+    ] {
+        let mut talking = Talking::after("point A = (0, 0), B = (1, 0), C = (0.4, 1), D = (3, 3)");
+        talking.run(stated);
+        let source = talking.add("typed", typed, "");
+        let problem = talking.execute_all(source).expect_err(typed);
+        let help = problem.helps.concat();
+        assert!(help.contains(advised), "after {stated}: {help}");
+        if let Some((_, statement)) = help.split_once("write `") {
+            talking.run(statement.trim_end_matches('`'));
+        }
+    }
+}
+
+#[test]
 fn with_live_on_each_edit_is_solved() {
     let mut talking = Talking::after("point A = (0, 0) frozen, B = (1, 0)\nset live on");
     talking.run("rod: length A B = 3");

@@ -42,19 +42,28 @@ pub struct Scale {
 /// Numbers on a linear axis, about.
 const N_TICKS: f64 = 7.0;
 
+/// Beyond this numbers have no place on a linear axis: their differences are no numbers.
+const LARGEST: f64 = 1e300;
+
+fn has_place(is_log: bool, value: f64) -> bool {
+    if is_log { value.is_finite() && value > 0.0 } else { value.abs() <= LARGEST }
+}
+
 impl Scale {
     /// The scale that shows all of the data between two places on the page.
     pub fn new(axis: &ChartAxis, data: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
         let is_log = axis.is_log;
-        let has_place = |v: &f64| v.is_finite() && (!is_log || *v > 0.0);
-        let data = data.filter(has_place).map(|v| if is_log { libm::log10(v) } else { v });
+        let data = data.filter(|&v| has_place(is_log, v));
+        let data = data.map(|v| if is_log { libm::log10(v) } else { v });
         let (mut lo, mut hi) =
             data.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
         if lo > hi {
             (lo, hi) = (0.0, 1.0);
         }
         if hi - lo < 1e-9 * hi.abs().max(1e-300) {
-            (lo, hi) = (lo - 0.5, hi + 0.5);
+            // Half a unit more or less is no other number where numbers are large.
+            let more = f64::max(0.5, 1e-9 * hi.abs());
+            (lo, hi) = (lo - more, hi + more);
         }
         if is_log && hi - lo < 1.0 {
             // A decade at least, so that a number is written.
@@ -72,10 +81,8 @@ impl Scale {
 
     /// Where a number lies, if it has a place.
     pub fn place(&self, value: f64) -> Option<f64> {
-        if !value.is_finite() || (self.is_log && value <= 0.0) {
-            return None;
-        }
-        Some(self.at(if self.is_log { libm::log10(value) } else { value }))
+        has_place(self.is_log, value)
+            .then(|| self.at(if self.is_log { libm::log10(value) } else { value }))
     }
 
     fn at(&self, value: f64) -> f64 {
@@ -164,10 +171,13 @@ impl AxisUnit {
 mod tests {
     use super::*;
 
-    fn labels(is_log: bool, unit: AxisUnit, data: &[f64]) -> Vec<String> {
+    fn scale(is_log: bool, unit: AxisUnit, data: &[f64]) -> Scale {
         let axis = ChartAxis { label: String::new(), is_log, unit };
-        let scale = Scale::new(&axis, data.iter().copied(), 0.0, 600.0);
-        scale.ticks().into_iter().filter_map(|tick| tick.label).collect()
+        Scale::new(&axis, data.iter().copied(), 0.0, 600.0)
+    }
+
+    fn labels(is_log: bool, unit: AxisUnit, data: &[f64]) -> Vec<String> {
+        scale(is_log, unit, data).ticks().into_iter().filter_map(|tick| tick.label).collect()
     }
 
     #[test]
@@ -187,9 +197,23 @@ mod tests {
 
     #[test]
     fn odd_data_still_make_an_axis() {
-        for data in [&[][..], &[0.0], &[-1.0, f64::NAN], &[1e-300, 1e300], &[3.0, 3.0]] {
+        for data in [
+            &[][..],
+            &[0.0],
+            &[-1.0, f64::NAN],
+            &[1e-300, 1e300],
+            &[3.0, 3.0],
+            &[1e17, 1e17],
+            &[-1e300, -1e300],
+            &[-1e300, 1e300],
+            &[-1e308, 1e308],
+        ] {
             for is_log in [false, true] {
                 assert!(labels(is_log, AxisUnit::None, data).len() < 60, "of {data:?}");
+                let scale = scale(is_log, AxisUnit::None, data);
+                let on_the_page = |at: f64| (-1e-6..600.000_001).contains(&at);
+                assert!(data.iter().filter_map(|&v| scale.place(v)).all(on_the_page), "{data:?}");
+                assert!(scale.ticks().iter().all(|tick| on_the_page(tick.at)), "{data:?}");
             }
         }
     }

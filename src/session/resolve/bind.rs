@@ -479,7 +479,7 @@ fn binary(
     Ok(Term::Live(Formula::new(node, shape, depends, expr.span)))
 }
 
-/// The error for an expression of the other shape.
+/// The error for a value that poses cannot be worked out with.
 fn too_large(expr: &Expr, value: Value) -> Diagnostic {
     let size = match value {
         Value::Number(n) => n.abs(),
@@ -489,6 +489,7 @@ fn too_large(expr: &Expr, value: Value) -> Diagnostic {
         .at(expr.span, format!("{}, no more than {}", format_number(size), format_number(LARGEST)))
 }
 
+/// The error for an expression of the other shape.
 fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(errors::MIXED_SORTS, format!("expected a {}", shape.noun()))

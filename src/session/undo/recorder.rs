@@ -139,9 +139,9 @@ impl Recorder {
             Format::Table => {
                 let traces = world.traces();
                 let mut numbers = Vec::with_capacity(3 * traces.len());
-                for trace in traces {
+                for (k, trace) in traces.iter().enumerate() {
                     let at = world.points().at(trace.point);
-                    let name = self.column(world.points().name(trace.point));
+                    let name = self.column(world.points().name(trace.point), k);
                     numbers.extend([name as f64, at.x, at.y]);
                 }
                 (numbers, traces.len(), None)
@@ -152,8 +152,11 @@ impl Recorder {
         Ok(())
     }
 
-    /// The number of a point's name.
-    fn column(&mut self, name: &str) -> usize {
+    /// The number of a point's name, most often `likely`.
+    fn column(&mut self, name: &str, likely: usize) -> usize {
+        if self.names.get(likely).is_some_and(|known| **known == *name) {
+            return likely;
+        }
         self.names.iter().position(|known| **known == *name).unwrap_or_else(|| {
             self.names.push(name.into());
             self.names.len() - 1
@@ -259,8 +262,11 @@ impl Recorder {
             line.push_str(&format_number(shot.time));
             let row = self.row(shot)?;
             let (cells, _) = row.as_chunks::<3>();
-            for &column in &columns {
-                match cells.iter().find(|cell| cell[0] as usize == column) {
+            for (k, &column) in columns.iter().enumerate() {
+                let is_there = |cell: &&[f64; 3]| cell[0] as usize == column;
+                // Most often the points of a row are those of all rows.
+                let likely = cells.get(k).filter(is_there);
+                match likely.or_else(|| cells.iter().find(is_there)) {
                     Some([_, x, y]) => {
                         line.extend([",", &format_number(*x), ",", &format_number(*y)]);
                     }

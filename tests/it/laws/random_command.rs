@@ -2,6 +2,7 @@
 //! both generators, questions, blocks, and now and then a number at the ends of what numbers hold.
 
 use super::{random_scene, random_session};
+use crate::support::talk::is_read;
 use proptest::prelude::*;
 
 /// Numbers whose squares, sums or neighbours are not what they look like.
@@ -52,8 +53,8 @@ const OTHERS: [&str; 36] = [
     "record \"c.csv\"",
     "record stop",
     "record \"d.svg\"",
-    "sample s = B.x",
-    "plot \"p.svg\" s",
+    "sample \"s\" = B.x",
+    "plot \"p.svg\"",
     "accuracy",
     "undo",
     "undo 3",
@@ -113,6 +114,13 @@ pub fn beginning() -> impl Strategy<Value = Vec<String>> {
 /// A beginning, and fewer than `most` statements after it.
 pub fn session(most: usize) -> impl Strategy<Value = (Vec<String>, Vec<String>)> {
     (beginning(), prop::collection::vec(command(), 1..most))
+}
+
+#[test]
+fn what_is_asked_is_a_statement() {
+    for statement in OTHERS {
+        assert!(is_read(statement), "{statement}");
+    }
 }
 
 #[test]

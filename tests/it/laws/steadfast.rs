@@ -13,7 +13,7 @@ use proptest::prelude::*;
 const PATIENCE: u64 = 60;
 
 /// What comes after everything else.
-const AFTER: [&str; 3] = ["step 2", "solve", "print velocity(B), time, list"];
+const AFTER: [&str; 3] = ["step 2", "solve", "print velocity(B), time; list"];
 
 /// How a statement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -217,11 +217,7 @@ fn what_is_said_in_another_way_goes_on_from_a_file_as_it_would_have() {
          set dt 1/30; step
          change wheels teeth 10, 20",
     );
-    let mut loaded = Talking::after(&talking.script());
-    for it in [&mut talking, &mut loaded] {
-        it.run("step 2");
-    }
-    assert_eq!(loaded.script(), talking.script());
+    talking.assert_goes_on_from_its_file("step 2");
 }
 
 #[test]

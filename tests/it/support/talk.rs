@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use linkwork::diag::{Diagnostic, Paint, SourceId, render};
+use linkwork::diag::{Diagnostic, Paint, SourceId, Sources, render};
 use linkwork::lang::ast::Statement;
 use linkwork::lang::parse;
 use linkwork::session::{Flow, Session};
@@ -106,4 +106,11 @@ impl Talking {
     pub fn script(&self) -> String {
         self.session.to_script()
     }
+}
+
+/// Whether a text is made of statements, whatever they do.
+pub fn is_read(text: &str) -> bool {
+    let mut sources = Sources::new();
+    let source = sources.add("test", text);
+    parse(source, text).all(|statement| statement.is_ok())
 }

@@ -137,6 +137,13 @@ impl Reader<'_> {
             }
             "`+`" if expected.has("a value") => "leave the `+` out".to_owned(),
             _ if expected.terms == ["`..`"] => "a range is written `a..b`".to_owned(),
+            _ if verb == "plot"
+                && expected.has(PATH)
+                && !self.text[found.span.range().start..end].contains(".svg") =>
+            {
+                "`plot` draws what `sample` collects: `sample \"error\" = distance(A, B)`"
+                    .to_owned()
+            }
             _ if expected.has(PATH) && !word.is_empty() => {
                 format!(
                     "a path stands in quotes: `{verb} \"{}\"`",
