@@ -1,7 +1,7 @@
 //! A text that comes line by line: when it is a whole, without reading all of it at each line.
 
 use super::is_incomplete;
-use super::layout::MAX_NESTING;
+use super::layout::{MAX_NESTING, closing, string_end};
 
 /// A text this short is read anew with each line: what is wrong in it is said at once.
 const LINES_WATCHED: usize = 64;
@@ -73,19 +73,14 @@ impl Growing {
             match byte {
                 b' ' | b'\t'..=b'\r' => continue,
                 b'#' => break,
-                b'"' => match string_end(bytes, at) {
-                    Some(end) => at = end,
-                    None => return Line::MayEnd,
+                b'"' => match string_end(bytes, at - 1) {
+                    Ok(behind) => at = behind,
+                    Err(_) => return Line::MayEnd,
                 },
                 b'(' | b'[' | b'{' if self.open.len() < MAX_NESTING => self.open.push(byte),
                 b'(' | b'[' | b'{' => return Line::MayEnd,
                 b')' | b']' | b'}' => {
-                    let opening = match byte {
-                        b')' => b'(',
-                        b']' => b'[',
-                        _ => b'{',
-                    };
-                    if self.open.pop() != Some(opening) {
+                    if self.open.pop().map(closing) != Some(byte) {
                         return Line::MayEnd;
                     }
                 }
@@ -99,18 +94,6 @@ impl Growing {
             (false, _) => Line::Opens,
             (true, b',' | b'\\') => Line::GoesOn,
             (true, _) => Line::MayEnd,
-        }
-    }
-}
-
-/// The offset behind the closing quote of the string whose inside begins at `at`.
-fn string_end(bytes: &[u8], mut at: usize) -> Option<usize> {
-    loop {
-        match bytes.get(at)? {
-            b'"' => return Some(at + 1),
-            b'\\' => at += 2,
-            b'\n' => return None,
-            _ => at += 1,
         }
     }
 }

@@ -130,7 +130,10 @@ impl<'a> Layout<'a> {
                     return Err(Flaw::Unopened { closer: at });
                 }
                 _ if block_is_closed => return Err(Flaw::AfterBlock { at }),
-                b'"' => self.at = string_end(bytes, at)?,
+                b'"' => match string_end(bytes, at) {
+                    Ok(behind) => self.at = behind,
+                    Err(end) => return Err(Flaw::OpenString { quote: at, end }),
+                },
                 b'(' | b'[' | b'{' => {
                     if self.open.len() == MAX_NESTING {
                         return Err(Flaw::TooDeep { opener: at });
@@ -166,7 +169,7 @@ impl<'a> Layout<'a> {
     }
 }
 
-fn closing(opening: u8) -> u8 {
+pub(super) fn closing(opening: u8) -> u8 {
     match opening {
         b'(' => b')',
         b'[' => b']',
@@ -189,14 +192,15 @@ fn continuation(bytes: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// The offset behind the closing quote of the string that begins at `quote`.
-fn string_end(bytes: &[u8], quote: usize) -> Result<usize, Flaw> {
+/// The offset behind the closing quote of the string that begins at `quote`; where its line ends, if
+/// it is not closed there.
+pub(super) fn string_end(bytes: &[u8], quote: usize) -> Result<usize, usize> {
     let mut at = quote + 1;
     loop {
         match bytes.get(at) {
             Some(b'"') => return Ok(at + 1),
             Some(b'\\') if bytes.get(at + 1).is_some_and(|&byte| byte != b'\n') => at += 2,
-            Some(b'\n') | None => return Err(Flaw::OpenString { quote, end: at.min(bytes.len()) }),
+            Some(b'\n') | None => return Err(at),
             Some(_) => at += 1,
         }
     }

@@ -1,6 +1,7 @@
 //! The rest of a statement's shape: what of its usage is still to be typed.
 
 use super::catalogue;
+use super::lower::split_prefix;
 
 /// A part of a usage.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +29,7 @@ enum Part<'a> {
 /// assert_eq!(rest_of_usage("solve within 1e-9 in 2ms"), None);
 /// ```
 pub fn rest_of_usage(statement: &str) -> Option<String> {
-    let statement = without_prefix(statement);
+    let (_, statement) = split_prefix(statement.trim_start())?;
     let verb = statement.split(|c: char| !c.is_alphanumeric()).next()?;
     let is_being_typed = verb.len() == statement.len();
     let entry = catalogue::commands().find(|entry| entry.keyword == verb);
@@ -50,19 +51,6 @@ fn rest_of_word(word: &str) -> Option<String> {
     match (fitting.next(), fitting.next()) {
         (Some(entry), None) if !word.is_empty() => Some(entry.usage[word.len()..].to_owned()),
         _ => None,
-    }
-}
-
-/// A statement without its label and `add`.
-fn without_prefix(statement: &str) -> &str {
-    let statement = statement.trim_start();
-    let statement = match statement.split_once(':') {
-        Some((label, rest)) if !label.contains(['"', '(', ' ']) => rest.trim_start(),
-        _ => statement,
-    };
-    match statement.strip_prefix("add") {
-        Some(rest) if rest.starts_with(' ') => rest.trim_start(),
-        _ => statement,
     }
 }
 
@@ -307,6 +295,7 @@ mod tests {
         check("mot", "or O P [radius R] [speed W] [phase PHI] [from A B]");
         check("motor ", "O P [radius R] [speed W] [phase PHI] [from A B]");
         check("crank: motor A", " P [radius R] [speed W] [phase PHI] [from A B]");
+        check("p[1] : add motor A", " P [radius R] [speed W] [phase PHI] [from A B]");
         check("motor A B ", "[radius R] [speed W] [phase PHI] [from A B]");
         check("motor A B speed 1rev ", "[radius R] [phase PHI] [from A B]");
         check("motor A B speed ", "W [radius R] [phase PHI] [from A B]");

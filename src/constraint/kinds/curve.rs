@@ -63,7 +63,10 @@ impl Declared for Curve {
                 message: "a circle needs a size",
                 at: Culprit::Group(group),
                 label: "this is its centre",
-                help: Some("name a point that is apart from the centre, or say `radius 1`"),
+                help: Some(match rim(2) {
+                    Some(_) => "name a point that is apart from the centre",
+                    None => "name a point that is apart from the centre, or say `radius 1`",
+                }),
             };
             if is_one { Err(refusal) } else { Ok(()) }
         };

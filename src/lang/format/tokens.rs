@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::lang::layout::string_end;
 use crate::lang::lower::{Signs, is_word_char};
 
 /// A line of a statement.
@@ -157,7 +158,7 @@ fn token_len(rest: &str) -> usize {
     match first {
         '\n' => 1,
         '#' => rest.find('\n').unwrap_or(rest.len()),
-        '"' => string_len(rest),
+        '"' => string_end(rest.as_bytes(), 0).unwrap_or_else(|end| end),
         _ if first.is_whitespace() => while_(|c| c.is_whitespace() && c != '\n'),
         _ if ["..", "<=", ">="].iter().any(|sign| rest.starts_with(sign)) => 2,
         _ if is_word_char(first) || first == '.' => word_len(rest),
@@ -176,15 +177,4 @@ fn word_len(rest: &str) -> usize {
         len += char.len_utf8();
     }
     len
-}
-
-fn string_len(rest: &str) -> usize {
-    let mut is_escaped = false;
-    for (at, char) in rest.char_indices().skip(1) {
-        match char {
-            '"' if !is_escaped => return at + 1,
-            _ => is_escaped = char == '\\' && !is_escaped,
-        }
-    }
-    rest.len()
 }

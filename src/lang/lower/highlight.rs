@@ -14,7 +14,7 @@ use super::prefix::{first_word, is_word_char};
 use crate::lang::catalogue::{self, ConstraintWord, Slot};
 use crate::lang::expr::Unit;
 use crate::lang::grammar::{LinkworkParser, Rule};
-use crate::lang::layout::{Flaw, Layout};
+use crate::lang::layout::{Flaw, Layout, string_end};
 use crate::terms::Function;
 
 /// What a piece of a text is.
@@ -158,13 +158,11 @@ fn read_pair(
             let is_new = matches!(parent.as_rule(), Rule::for_ | Rule::define | Rule::parameters);
             told.entry(start).or_insert(if is_new { Class::NewName } else { Class::Clause });
         }
-        Rule::reference if pair.as_str().ends_with(')') || pair.as_str().contains('(') => {
+        Rule::reference if pair.clone().into_inner().any(|it| it.as_rule() == Rule::arguments) => {
             for inner in pair.clone().into_inner() {
                 read_pair(&inner, pair, base, told);
             }
-            if pair.clone().into_inner().any(|inner| inner.as_rule() == Rule::arguments) {
-                told.insert(start, Class::Function);
-            }
+            told.insert(start, Class::Function);
             return;
         }
         _ if is_leaf(pair) && pair.as_str().starts_with(char::is_alphabetic) => {
@@ -241,7 +239,7 @@ fn lexed(text: &str) -> Vec<Token> {
                 continue;
             }
             '#' => (Class::Comment, rest.find('\n').unwrap_or(rest.len())),
-            '"' => (Class::Text, string_len(rest)),
+            '"' => (Class::Text, string_end(rest.as_bytes(), 0).unwrap_or_else(|end| end)),
             _ if first.is_ascii_digit() || is_fraction => (Class::Number, number_len(rest)),
             _ if is_word_char(first) => (Class::Name, name_len(rest)),
             _ => (Class::Sign, first.len_utf8()),
@@ -250,19 +248,6 @@ fn lexed(text: &str) -> Vec<Token> {
         at += len;
     }
     tokens
-}
-
-fn string_len(text: &str) -> usize {
-    let mut chars = text.char_indices().skip(1);
-    while let Some((at, char)) = chars.next() {
-        match char {
-            '\\' => drop(chars.next()),
-            '"' => return at + 1,
-            '\n' => return at,
-            _ => {}
-        }
-    }
-    text.len()
 }
 
 fn number_len(text: &str) -> usize {
@@ -343,6 +328,7 @@ mod tests {
         check("point A = (0, ", "Cpoint NA .= .( 10 .,");
         check("define d(A) {\n  length A B = ", "Cdefine Nd .( NA .) .{ Clength nA nB .=");
         check("print \"open", "Cprint t\"open");
+        check("print \"open\\\nstep", "Cprint t\"open\\ Cstep");
     }
 
     #[test]

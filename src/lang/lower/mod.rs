@@ -30,6 +30,7 @@ pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
 pub use highlight::{Class, Token, tokens};
+pub(super) use next::split_prefix;
 pub use next::{NameOf, Next, next};
 pub use prefix::nearest_command;
 pub(super) use prefix::{is_bare, is_word_char};

@@ -104,7 +104,7 @@ pub fn next(statement: &str) -> Vec<Next> {
 }
 
 /// The label and `add` in front of a statement, and the rest; none where no verb has begun.
-fn split_prefix(statement: &str) -> Option<(&str, &str)> {
+pub(in crate::lang) fn split_prefix(statement: &str) -> Option<(&str, &str)> {
     let mut rest = statement;
     loop {
         let word = super::prefix::name_end(rest);

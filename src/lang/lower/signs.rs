@@ -1,5 +1,6 @@
 //! Which signs of a statement compute: for who sets the blanks around them.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use pest::Parser;
@@ -13,11 +14,11 @@ use crate::lang::grammar::{LinkworkParser, Rule};
 #[derive(Debug, Default)]
 pub struct Signs {
     /// Operators between two operands.
-    binary: Vec<usize>,
+    binary: HashSet<usize>,
     /// Signs in front of one.
-    unary: Vec<usize>,
+    unary: HashSet<usize>,
     /// Where numbers begin.
-    numbers: Vec<usize>,
+    numbers: HashSet<usize>,
 }
 
 impl Signs {
@@ -40,9 +41,9 @@ impl Signs {
         for pair in pairs.flatten() {
             let at = start + pair.as_span().start();
             match pair.as_rule() {
-                Rule::operator => self.binary.push(at),
-                Rule::minus => self.unary.push(at),
-                Rule::number => self.numbers.push(at),
+                Rule::operator => drop(self.binary.insert(at)),
+                Rule::minus => drop(self.unary.insert(at)),
+                Rule::number => drop(self.numbers.insert(at)),
                 _ => {}
             }
         }

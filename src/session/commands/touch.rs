@@ -111,6 +111,13 @@ impl Resolver<'_> {
         said.curves.push(c.0);
         let p = said.groups[0][0];
         let o = self.centre(c)[0];
+        if !self.state.is_restoring {
+            let place = parts.iter().find_map(|part| match part {
+                Part::Points(names) => Some(names[0].span),
+                _ => None,
+            });
+            self.refuse_own_point(p, c, place.unwrap_or(build.span))?;
+        }
         let mut measured = vec![
             (Field::Value, build.call(Function::Distance, &[o, p])),
             (Field::Wanted, build.radius(c)),
@@ -158,6 +165,9 @@ impl Resolver<'_> {
         said.curves = curves.iter().map(|c| c.0).collect();
         said.groups = line.iter().map(|ends| ends.to_vec()).collect();
         let centres: Vec<PointIdx> = curves.iter().map(|&c| self.centre(c)[0]).collect();
+        if !self.state.is_restoring {
+            refuse_one_centre(line, &centres, build.span)?;
+        }
         if let Some((p, name)) = at {
             if !self.state.is_restoring {
                 self.refuse_apart(p, name, line, &curves)?;
@@ -219,12 +229,16 @@ impl Resolver<'_> {
             _ => {
                 let text = self.text(name.span);
                 let label = format!("this is a {}", entity.noun());
-                Err(Diagnostic::error(
+                let problem = Diagnostic::error(
                     errors::WRONG_SORT,
                     format!("`{text}` is no circle and no arc"),
                 )
-                .at(name.span, label)
-                .help(format!("`circle c = {text} radius 1` makes a circle round a point")))
+                .at(name.span, label);
+                Err(match entity {
+                    Entity::Point(_) => problem
+                        .help(format!("`circle c = {text} radius 1` makes a circle round a point")),
+                    _ => problem,
+                })
             }
         }
     }
@@ -233,6 +247,26 @@ impl Resolver<'_> {
     fn centre(&self, c: ConstraintId) -> Vec<PointIdx> {
         let curve = self.state.world.curve(c).expect("it was looked up as one");
         curve.points().to_vec()
+    }
+
+    /// Refuses a glider that the circle or arc is made of: it is on it anyway, or never.
+    fn refuse_own_point(&self, p: PointIdx, c: ConstraintId, span: Span) -> Result<(), Diagnostic> {
+        let points = self.centre(c);
+        if !points.contains(&p) {
+            return Ok(());
+        }
+        let curve = self.state.world.name_of(Entity::Constraint(c));
+        let (message, label) = if p == points[0] {
+            ("a centre is nowhere on its circle", format!("this is the centre of `{curve}`"))
+        } else {
+            (
+                "a point that a circle or an arc goes through lies on it anyway",
+                format!("`{curve}` goes through it"),
+            )
+        };
+        Err(Diagnostic::error(errors::DEGENERATE, message)
+            .at(span, label)
+            .help("name another point"))
     }
 
     /// Refuses a point at which a direction is asked for and that is not on both.
@@ -279,6 +313,22 @@ impl Resolver<'_> {
         .at(name.span, "a common direction is one at a common point")
         .help(format!("`glider {text} on {a} {b} unbounded` puts it there")))
     }
+}
+
+/// Refuses a line through the centre of a circle, and circles round one centre.
+fn refuse_one_centre(
+    line: Option<[PointIdx; 2]>,
+    centres: &[PointIdx],
+    span: Span,
+) -> Result<(), Diagnostic> {
+    let message = match (line, centres) {
+        (Some(ends), [o]) if ends.contains(o) => {
+            "a line through the centre of a circle does not touch it"
+        }
+        (None, [o, p]) if o == p => "circles round one centre do not touch",
+        _ => return Ok(()),
+    };
+    Err(Diagnostic::error(errors::NO_TOUCH, message).at(span, "the same point is in both"))
 }
 
 impl Execution<'_> {
