@@ -5,12 +5,13 @@
     python3 benches/commands.py [PROGRAM ...]
 
 Several programs are measured by turns in one run, so that their ratios hold on a machine that others use.
-A command is typed many times; its time is that of the processor, a long session less one half as long.
+A command is typed many times; its time is that of the processor, a long session less one a third as long.
 """
 
 import os
 import subprocess
 import sys
+import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROGRAMS = sys.argv[1:] or [os.path.join(ROOT, "target/release/linkwork")]
@@ -59,40 +60,25 @@ SCENES += [
 
 
 def run(program, text):
-    """Seconds of the processor, and the most memory in MiB."""
-    with open("/tmp/commands.link", "w") as file:
-        file.write(text)
-    child = subprocess.Popen(
-        [program, "run", "--quiet", "--threads", "1", "/tmp/commands.link"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    _, _, usage = os.wait4(child.pid, 0)
+    """Types a text into a session: seconds of the processor, and the most memory in MiB."""
+    with tempfile.TemporaryFile() as file:
+        file.write(text.encode())
+        file.seek(0)
+        child = subprocess.Popen(
+            [program, "--quiet", "--threads", "1"],
+            stdin=file,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        _, _, usage = os.wait4(child.pid, 0)
     return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def measure(program, scene, commands, n):
     """Microseconds and KiB a command: the difference between 3 n rounds and n rounds."""
-    def text(rounds):
-        return scene + "\n".join(commands * rounds) + "\n"
-
-    def once(rounds):
-        # What fails ends a script: it is typed into a session instead.
-        if not any("nowhere" in command for command in commands):
-            return run(program, text(rounds))
-        child = subprocess.Popen(
-            [program, "--threads", "1"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        child.stdin.write(text(rounds).encode())
-        child.stdin.close()
-        _, _, usage = os.wait4(child.pid, 0)
-        return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
-
     (few, little), (many, much) = (
-        min(once(rounds) for _ in range(2)) for rounds in (n, 3 * n)
+        min(run(program, scene + "\n".join(commands * rounds) + "\n") for _ in range(2))
+        for rounds in (n, 3 * n)
     )
     n_commands = 2 * n * len(commands)
     return 1e6 * (many - few) / n_commands, 1024 * (much - little) / n_commands

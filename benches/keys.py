@@ -16,6 +16,8 @@ import time
 
 N_KEYS = 200
 QUIET = 0.02
+# Bytes at a time: a pseudo-terminal holds 4096.
+PIECE = 1024
 
 
 def start(program, folder, *arguments):
@@ -38,6 +40,16 @@ def read(fd, quiet):
             break
         last = time.perf_counter()
     return last
+
+
+def paste(fd, text):
+    """Pastes as a terminal does: it takes what is shown while it sends."""
+    rest = b"\x1b[200~" + text.replace("\n", "\r").encode() + b"\x1b[201~"
+    while rest:
+        sent = os.write(fd, rest[:PIECE])
+        rest = rest[sent:]
+        read(fd, QUIET)
+    read(fd, 5.0)
 
 
 def keys(fd, name):
@@ -69,8 +81,9 @@ def main():
             read(fd, 0.5)
             keys(fd, name)
             if arguments:
-                os.write(fd, b"\x03\x1b[200~" + block.replace("\n", "\r").encode() + b"\x1b[201~")
-                read(fd, 5.0)
+                os.write(fd, b"\x03")
+                read(fd, 0.5)
+                paste(fd, block)
                 keys(fd, "10,000 points, a block of 300 lines")
             os.close(fd)
             os.kill(pid, 9)

@@ -34,7 +34,7 @@ def lines():
 
 
 def session(program, folder, seconds):
-    """Types until the time is up; gives how many answers to `let` were seen."""
+    """Types until the time is up; gives the lines behind which the next prompt was seen."""
     pid, fd = pty.fork()
     if pid == 0:
         environment = {"HOME": folder, "PATH": os.environ["PATH"], "TERM": "dumb"}

@@ -24,8 +24,7 @@ fn session(home: &std::path::Path) -> Terminal {
 fn what_is_typed_is_coloured_by_the_grammar() {
     let home = tempdir().expect("a folder");
     let terminal = session(home.path());
-    terminal.press("length A X = 35 # why");
-    terminal.wait_for_line("> length A X = 35 # why");
+    terminal.type_in("length A X = 35 # why");
     let (plain, colour) = (Color::Default, Color::Idx);
     terminal.wait("the end of the line", |it| it.look("# why").0 == colour(8));
     assert_eq!(terminal.look("length"), (plain, true, false));
@@ -34,8 +33,7 @@ fn what_is_typed_is_coloured_by_the_grammar() {
     assert_eq!(terminal.look("35"), (colour(3), false, false));
     // A letter more makes a function of a name; a word that is being typed is not marked.
     terminal.clear();
-    terminal.press("print si");
-    terminal.wait_for_line("> print si");
+    terminal.type_in("print si");
     assert_eq!(terminal.look("si"), (plain, false, false));
     terminal.press("n(B.x), \"a # b\"");
     terminal.wait_for_line("> print sin(B.x), \"a # b\"");
@@ -94,8 +92,7 @@ fn every_position_is_completed_by_what_fits_it() {
         ("step 3; und", "step 3; undo "),
         ("dista", "distance"),
     ] {
-        terminal.press(typed);
-        terminal.wait_for_line(&format!("> {typed}"));
+        terminal.type_in(typed);
         terminal.press("\t");
         terminal.wait_for_line(&format!("> {completed}"));
         terminal.clear();
@@ -150,8 +147,7 @@ fn a_pasted_transcript_is_typed_without_its_prompts_and_answers() {
 fn ctrl_c_clears_says_how_to_leave_and_stops_what_runs() {
     let home = tempdir().expect("a folder");
     let terminal = session(home.path());
-    terminal.press("length A");
-    terminal.wait_for_line("> length A");
+    terminal.type_in("length A");
     terminal.press(CTRL_C);
     terminal.wait_for_prompt();
     assert!(!terminal.screen().contains("or Ctrl-D leaves"), "{}", terminal.screen());
@@ -200,8 +196,7 @@ fn a_terminal_that_changes_its_size_shows_the_line_anew() {
     let home = tempdir().expect("a folder");
     let terminal = session(home.path());
     let line = "length A B = 1 + 2 + 3 + 4 + 5 + 6";
-    terminal.press(line);
-    terminal.wait_for_line(&format!("> {line}"));
+    terminal.type_in(line);
     terminal.resize(24, 30);
     terminal.press(" + 7");
     terminal.wait_for("+ 5 + 6 + 7");
@@ -216,8 +211,7 @@ fn keys_are_those_of_vi_where_the_user_has_them_so() {
     std::fs::write(home.path().join(".inputrc"), "set editing-mode vi\n").expect("a file");
     let terminal = Terminal::start(home.path(), &Start::default());
     terminal.wait_for_prompt();
-    terminal.press("1 + 3");
-    terminal.wait_for_line("> 1 + 3");
+    terminal.type_in("1 + 3");
     // Back to the first letter, which is deleted.
     terminal.press("\x1b");
     std::thread::sleep(std::time::Duration::from_millis(700));

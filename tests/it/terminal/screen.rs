@@ -90,10 +90,17 @@ impl Terminal {
         (&*self.pty).write_all(keys.as_bytes()).expect("it takes keys");
     }
 
+    /// Types at an empty prompt, and waits until it is there.
+    #[track_caller]
+    pub fn type_in(&self, text: &str) {
+        self.press(text);
+        self.wait_for_line(&format!("> {text}"));
+    }
+
     /// Types a line and waits for the next prompt.
+    #[track_caller]
     pub fn enter(&self, line: &str) {
-        self.press(line);
-        self.wait_for_line(&format!("> {line}"));
+        self.type_in(line);
         self.press("\r");
         self.wait_for_prompt();
     }

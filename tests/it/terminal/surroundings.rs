@@ -24,8 +24,7 @@ fn without_colours_nothing_is_coloured_and_nothing_hinted() {
     let start = Start { env: &[("NO_COLOR", "1")], ..Start::default() };
     let terminal = Terminal::start(home.path(), &start);
     terminal.wait_for_prompt();
-    terminal.press("motor A ");
-    terminal.wait_for_line("> motor A ");
+    terminal.type_in("motor A ");
     terminal.press("\r");
     terminal.wait_for("expected");
     terminal.wait_for_prompt();
