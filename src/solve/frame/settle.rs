@@ -156,8 +156,8 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     best
 }
 
-/// Looks for a nearer solution by small steps from the start, where the present one is much farther
-/// away than what was off there: long steps may lead past the nearest of several.
+/// Looks for a nearer solution by small steps from the start, and from around it, where the present
+/// one is much farther away than what was off there: long steps may lead past the nearest of several.
 fn by_small_steps(
     island: &mut Island,
     workspace: &mut Workspace,
@@ -169,17 +169,15 @@ fn by_small_steps(
     let here: Box<[Point]> = island.x[..start.len()].into();
     let way = nearest::distance(workspace, start, &island.x);
     island.x[..start.len()].copy_from_slice(start);
-    let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    let pose = Pose { constraints: &island.constraints, x: &mut island.x };
     workspace.evaluate(&pose, work);
     let off = (2.0 * workspace.rows.energy).sqrt();
     let mut nearest = Nearest(Some((way, found, here)));
     if way > DETOUR * off {
-        let size = SMALL_STEPS * limits.size;
-        let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
-        let small = Limits { size, n_iterations, ..*limits };
-        let outcome = newton::solve_near(workspace, &mut pose, &small, work);
-        if outcome.is_converged() {
-            nearest.add(island, workspace, start, outcome, limits, work);
+        let small = Limits { size: SMALL_STEPS * limits.size, ..*limits };
+        nearest.look_around(island, workspace, start, &[0.0], &small, work);
+        if island.constraints.len() <= MOST_PUSHED {
+            nearest.look_around(island, workspace, start, &FAR_PUSHES, limits, work);
         }
     }
     if let Some((_, _, x)) = nearest.0 {
@@ -357,21 +355,7 @@ fn from_elsewhere(
 ) -> Outcome {
     let here: Box<[Point]> = island.x[..start.len()].into();
     let mut nearest = Nearest::default();
-    // What does not end in a solution is not asked where it ends.
-    let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
-    let many = Limits { n_iterations, ..*limits };
-    for far in FAR_PUSHES {
-        if limits.budget.is_spent() {
-            break;
-        }
-        island.x[..start.len()].copy_from_slice(start);
-        push(&mut island.x[..start.len()], far * limits.size);
-        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-        let after = newton::solve_near(workspace, &mut pose, &many, work);
-        if after.is_converged() {
-            nearest.add(island, workspace, start, after, limits, work);
-        }
-    }
+    nearest.look_around(island, workspace, start, &FAR_PUSHES, limits, work);
     let Some((_, outcome, x)) = nearest.0 else {
         island.x[..start.len()].copy_from_slice(&here);
         return before;
@@ -387,6 +371,33 @@ fn from_elsewhere(
 struct Nearest(Option<(f64, Outcome, Box<[Point]>)>);
 
 impl Nearest {
+    /// Takes in the solutions near the start and near where pushes of these parts of the size lead.
+    fn look_around(
+        &mut self,
+        island: &mut Island,
+        workspace: &mut Workspace,
+        start: &[Point],
+        pushes: &[f64],
+        limits: &Limits,
+        work: &mut Counters,
+    ) {
+        // What does not end in a solution is not asked where it ends.
+        let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
+        let many = Limits { n_iterations, ..*limits };
+        for far in pushes {
+            if limits.budget.is_spent() {
+                return;
+            }
+            island.x[..start.len()].copy_from_slice(start);
+            push(&mut island.x[..start.len()], far * limits.size);
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            let after = newton::solve_near(workspace, &mut pose, &many, work);
+            if after.is_converged() {
+                self.add(island, workspace, start, after, &many, work);
+            }
+        }
+    }
+
     /// Takes in the solution that is the present pose.
     fn add(
         &mut self,

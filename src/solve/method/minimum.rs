@@ -28,7 +28,7 @@ const NEARLY_LEVEL: f64 = 1e-9;
 /// slope alone is small on any slope that is only long, as where two lines nearly are one.
 const FLAT: f64 = 1e-8;
 /// A curvature that is negative by less than this part of what the rows can have is 0.
-const ROUND: f64 = 1e-3;
+const ROUND: f64 = 1e-6;
 /// The same in absolute terms: rounding.
 const ROUNDING: f64 = 1e-13;
 /// What is added to a curvature that is 0 where there is freedom left.
