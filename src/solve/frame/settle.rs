@@ -23,7 +23,7 @@ const FIRST_ORDER_STEPS: u32 = 300;
 const PUSH: f64 = 1e-4;
 /// The same where a solution is looked for before it is said that none is found: off a stop, and
 /// over to another branch.
-const FAR_PUSHES: [f64; 4] = [1e-2, -1e-2, 0.3, -0.3];
+const FAR_PUSHES: [f64; 6] = [1e-2, -1e-2, 0.1, -0.1, 0.3, -0.3];
 /// So many constraints that hang together at most: each push takes a way down.
 const MOST_PUSHED: usize = 200;
 /// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
@@ -47,7 +47,7 @@ const MUCH_LESS: f64 = 1e-2;
 const SMALL_PART: f64 = 1e-3;
 /// A way of more than this many times what the start was off is looked at again, in steps that are
 /// this part as long, and so many times as many.
-const DETOUR: f64 = 2.0;
+const DETOUR: f64 = 1.25;
 const SMALL_STEPS: f64 = 0.1;
 const MORE_STEPS: u32 = 4;
 /// Ways whose lengths differ by no more than this part are as long.
@@ -391,7 +391,7 @@ impl Nearest {
             island.x[..start.len()].copy_from_slice(start);
             push(&mut island.x[..start.len()], far * limits.size);
             let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-            let after = newton::solve_near(workspace, &mut pose, &many, work);
+            let after = newton::solve(workspace, &mut pose, &many, work);
             if after.is_converged() {
                 self.add(island, workspace, start, after, &many, work);
             }
