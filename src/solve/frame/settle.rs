@@ -252,12 +252,17 @@ fn first_descent(
     Outcome { n_iterations: on_stops.n_iterations + outcome.n_iterations, ..outcome }
 }
 
-/// Whether one ending is better than another, by more than rounding.
+/// Whether one ending is better than another, by more than rounding: of two that are as good the one
+/// that is known to be a best fit.
 fn is_better(one: &Outcome, other: &Outcome) -> bool {
     match (one.is_converged(), other.is_converged()) {
         (true, other) => !other,
         (false, true) => false,
-        (false, false) => one.energy < other.energy * (1.0 - WORTHWHILE),
+        (false, false) => {
+            let is_known = one.status == Status::BestFit && other.status != Status::BestFit;
+            let margin = if is_known { WORTHWHILE } else { -WORTHWHILE };
+            one.energy < other.energy * (1.0 + margin)
+        }
     }
 }
 
