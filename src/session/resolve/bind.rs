@@ -5,8 +5,10 @@ use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Member, Operator, Shape, Unit};
-use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, call, operate};
+use crate::terms::{Function, Member, Operator, Shape, Statistic, Unit};
+use crate::world::{
+    ConstraintId, Depends, Entity, Formula, MeasureId, Node, Rates, Value, call, operate,
+};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -246,6 +248,9 @@ impl Resolver<'_> {
                 };
             }
             Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
+            Meaning::Statistic(id, which) => {
+                return self.bind_statistic(id, which, span, mode);
+            }
             Meaning::Bound(Bound::Point(id)) => Entity::Point(id),
             Meaning::Entity(entity) => entity,
         };
@@ -270,13 +275,15 @@ impl Resolver<'_> {
                 let depends = Depends { on_parameters: true, ..Depends::default() };
                 (Node::Parameter(id), shape, depends)
             }
-            Entity::Constraint(_) => {
-                let name = self.state.world.name_of(entity);
-                return Err(Diagnostic::error(
-                    errors::WRONG_SORT,
-                    format!("`{name}` is a constraint"),
-                )
-                .at(span, "expected a point, a parameter or a number"));
+            Entity::Constraint(_) | Entity::Measure(_) => {
+                let (name, noun) = (self.state.world.name_of(entity), entity.noun());
+                let problem =
+                    Diagnostic::error(errors::WRONG_SORT, format!("`{name}` is a {noun}"))
+                        .at(span, "expected a point, a parameter or a number");
+                let is_measure = matches!(entity, Entity::Measure(_));
+                let statistics =
+                    format!("`{name}.last` is its last value, `{name}.max` its greatest");
+                return Err(if is_measure { problem.help(statistics) } else { problem });
             }
         };
         let formula = Formula::new(node, shape, depends, span);
@@ -303,6 +310,21 @@ impl Resolver<'_> {
             ..Depends::default()
         };
         let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+
+    fn bind_statistic(
+        &mut self,
+        id: MeasureId,
+        which: Statistic,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let depends = Depends { on_measures: true, ..Depends::default() };
+        let formula = Formula::new(Node::Statistic(id, which), Shape::Number, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),

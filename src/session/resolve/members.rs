@@ -4,7 +4,7 @@ use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::session::quotas::{DEEPEST_EXPRESSION, Quota};
-use crate::terms::Member;
+use crate::terms::{Member, Statistic};
 use crate::world::{ConstraintId, Entity, Extent, Formula};
 
 impl Resolver<'_> {
@@ -12,6 +12,15 @@ impl Resolver<'_> {
     pub(super) fn members(&self, id: ConstraintId) -> impl Iterator<Item = Member> {
         let world = &self.state.world;
         Member::ALL.into_iter().filter(move |&member| world.has_member(id, member))
+    }
+
+    /// The words of the members of a thing that has some.
+    pub(super) fn member_words(&self, of: Entity) -> Option<Vec<&'static str>> {
+        match of {
+            Entity::Constraint(id) => Some(self.members(id).map(Member::word).collect()),
+            Entity::Measure(_) => Some(Statistic::ALL.map(Statistic::word).to_vec()),
+            Entity::Point(_) | Entity::Parameter(_) => None,
+        }
     }
 
     /// A member of something with a name.
@@ -74,6 +83,14 @@ impl Resolver<'_> {
                 "a velocity cannot drive a constraint",
             )
             .at(span, "velocities follow from the constraints"));
+        }
+        if depends.on_measures {
+            return Err(Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                "a measure cannot drive a constraint",
+            )
+            .at(span, "what is measured follows from the motion")
+            .help("use it in `print`, `assert`, `result`, or a parameter that these use"));
         }
         let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
         let name =
