@@ -66,15 +66,15 @@ async function page({ data = "", scripts = "", rest = "connect-src 'self'" } = {
 /** The page with the engine in it, which works from any folder and any static host. */
 async function playground(wasm, gallery) {
   const worker = await bundled("engine/worker.ts");
-  const packed = gzipSync(await readFile(wasm), { level: 9 }).toString("base64");
-  const element = (id, text) => `<script type="text/plain" id="${id}">${text}</script>`;
-  // Read as text, whatever is in it; only its own end would end it.
-  const safe = (text) => text.replaceAll("</script", "<\\/script");
+  const element = (id, bytes) => {
+    const packed = gzipSync(bytes, { level: 9 }).toString("base64");
+    return `<script type="text/plain" id="${id}">${packed}</script>`;
+  };
   return page({
     data: [
-      element("engine-wasm", packed),
-      element("engine-worker", safe(worker)),
-      element("gallery", safe(await readFile(gallery, "utf8"))),
+      element("engine-wasm", await readFile(wasm)),
+      element("engine-worker", worker),
+      element("gallery", await readFile(gallery)),
     ].join("\n"),
     scripts: " 'wasm-unsafe-eval'",
     rest: "worker-src blob:",

@@ -27,18 +27,21 @@ const TABS = [
   ["files", "Files"],
 ] as const;
 
+/** What the build put into an element. */
+function textOf(id: string): string {
+  return byId(id).textContent ?? "";
+}
+
 /** The engine that this page has; or a sentence why it has none. */
 function carrier(): Carrier | string {
-  const wasm = document.getElementById("engine-wasm");
-  const worker = document.getElementById("engine-worker");
-  if (wasm !== null && worker !== null) {
+  if (document.getElementById("engine-wasm") !== null) {
     if (typeof WebAssembly === "undefined" || typeof Worker === "undefined") {
       return "This page runs its engine as WebAssembly in a worker, and this browser has not both. A current Firefox, Chrome, Edge or Safari has.";
     }
     if (typeof DecompressionStream === "undefined") {
       return "This browser cannot unpack the engine. A current Firefox, Chrome, Edge or Safari can.";
     }
-    return new InWorker(worker.textContent ?? "", wasm.textContent ?? "");
+    return new InWorker(textOf("engine-worker"), textOf("engine-wasm"));
   }
   if (typeof WebSocket === "undefined") {
     return "This page speaks with the session over a WebSocket, and this browser has none. A current Firefox, Chrome, Edge or Safari has.";
@@ -48,11 +51,6 @@ function carrier(): Carrier | string {
   address.hash = "";
   address.search = "";
   return new Socket(address.href);
-}
-
-function pictures(): Readonly<Record<string, string>> {
-  const text = document.getElementById("gallery")?.textContent ?? "{}";
-  return JSON.parse(text) as Record<string, string>;
 }
 
 function toolbar(hand: Hand, tools: readonly Tool[]): void {
@@ -141,7 +139,7 @@ function begin(engine: Carrier): void {
   const tools = [select, ...drawingTools()];
   const hand = new Hand(page, select);
   const transport = new Transport(page, byId("transport"), byId("zoom"));
-  const playground = client.canRestart ? new Playground(page, pictures()) : undefined;
+  const playground = client.canRestart ? new Playground(page, textOf("gallery")) : undefined;
   const text = new TextPanel(page, byId("dock"), playground?.beside() ?? []);
   const help = keysDialog(tools);
   toolbar(hand, tools);

@@ -2,6 +2,7 @@
 
 import { h } from "./dom.ts";
 import type { Example } from "./engine/protocol.ts";
+import { unpacked } from "./pack.ts";
 import type { Page } from "./page.ts";
 import { galleryDialog } from "./panels/dialogs.ts";
 import type { TextPanel } from "./panels/text.ts";
@@ -21,7 +22,8 @@ export class Playground {
 
   constructor(
     private readonly page: Page,
-    private readonly pictures: Readonly<Record<string, string>>,
+    /** The pictures of the examples, packed. */
+    private readonly packedPictures: string,
   ) {
     this.started = this.greeting();
     this.examples = this.started.then(() => page.client.examples());
@@ -91,12 +93,18 @@ export class Playground {
   }
 
   private async showGallery(): Promise<void> {
-    this.gallery ??= galleryDialog(await this.examples, this.pictures, ({ name, text }) => {
-      this.own = `#example=${encodeURIComponent(name)}`;
-      location.hash = this.own;
-      void this.start(text);
-    });
+    this.gallery ??= await this.makeGallery();
     this.gallery.showModal();
+  }
+
+  private async makeGallery(): Promise<HTMLDialogElement> {
+    const text = new TextDecoder().decode(await unpacked(this.packedPictures));
+    const pictures = JSON.parse(text) as Record<string, string>;
+    return galleryDialog(await this.examples, pictures, (example) => {
+      this.own = `#example=${encodeURIComponent(example.name)}`;
+      location.hash = this.own;
+      void this.start(example.text);
+    });
   }
 
   /** Puts all that was carried out into the address. */

@@ -161,6 +161,14 @@ export class Stage {
       drawOverlay(context, camera, client, this.overlay, this.theme);
       client.seen(frame.seq);
       this.painted.tell(frame);
+      this.report(frame);
     }
+  }
+
+  /** Tells who measures the page what the canvas shows now. */
+  private report({ seq, time, at }: Frame): void {
+    const { scale, centre, width, height } = this.camera;
+    const detail = { seq, time, at, scale, centre, width, height };
+    this.canvas.dispatchEvent(new CustomEvent("linkwork-painted", { detail }));
   }
 }

@@ -140,8 +140,10 @@ export class Client {
     this.tell({ do: "pause" });
   }
 
+  /** Stops what runs: where the engine cannot be asked while it works, it begins anew. */
   stop(): void {
-    this.tell({ do: "stop" });
+    if (this.canRestart) this.restart();
+    else this.tell({ do: "stop" });
   }
 
   view(scale: number): void {

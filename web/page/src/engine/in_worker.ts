@@ -1,20 +1,15 @@
 //! An engine in a worker: the library as WebAssembly, which lies in the page.
 
+import { unpacked } from "../pack.ts";
 import type { Carrier, Listener } from "./carrier.ts";
-
-/** Unpacks what the build packed. */
-async function unpacked(text: string): Promise<ArrayBuffer> {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return await new Response(stream).arrayBuffer();
-}
 
 export class InWorker implements Carrier {
   private worker: Worker | undefined;
   private module: WebAssembly.Module | undefined;
+  private address: string | undefined;
   private listener: Listener | undefined;
 
-  /** `source` is the worker's script, `wasm` the packed library. */
+  /** The worker's script and the library, both packed. */
   constructor(
     private readonly source: string,
     private readonly wasm: string,
@@ -44,9 +39,10 @@ export class InWorker implements Carrier {
 
   private async begin(listener: Listener): Promise<void> {
     this.module ??= await WebAssembly.compile(await unpacked(this.wasm));
-    const address = URL.createObjectURL(new Blob([this.source], { type: "text/javascript" }));
-    const worker = new Worker(address);
-    URL.revokeObjectURL(address);
+    this.address ??= URL.createObjectURL(
+      new Blob([await unpacked(this.source)], { type: "text/javascript" }),
+    );
+    const worker = new Worker(this.address);
     this.worker = worker;
     worker.onmessage = ({ data }: MessageEvent<string | ArrayBuffer | { fault: string }>) => {
       if (worker !== this.worker) return;

@@ -7,11 +7,18 @@ import { Offers } from "./offers.ts";
 
 /** The journal shows so many of its last lines. */
 const MOST_LINES = 1000;
+/** A statement that takes longer than this may be stopped, ms. */
+const LONG = 400;
 
 export class TextPanel {
   readonly box: HTMLTextAreaElement;
   private readonly answer = h("pre", { id: "answer", role: "status", tabindex: "0" });
   private readonly journal = h("ol", { id: "journal", role: "log", "aria-label": "Journal" });
+  private readonly runs = h(
+    "button",
+    { class: "main", type: "button", id: "run", onclick: () => this.press() },
+    "Run",
+  );
   private readonly offers: Offers;
   /** What was typed, the last at the end; and how far back the arrows have gone. */
   private readonly typed: string[] = [];
@@ -34,16 +41,11 @@ export class TextPanel {
       onkeydown: (event) => this.key(event as KeyboardEvent),
     });
     this.offers = new Offers(page, this.box);
-    const run = h(
-      "button",
-      { class: "main", type: "button", id: "run", onclick: () => void this.run() },
-      "Run",
-    );
     const writing = h("div", { class: "writing" }, this.box);
     const left = h(
       "div",
       {},
-      h("h2", {}, "Text", h("span", { class: "gap" }), ...buttons, run),
+      h("h2", {}, "Text", h("span", { class: "gap" }), ...buttons, this.runs),
       writing,
       this.answer,
     );
@@ -69,7 +71,7 @@ export class TextPanel {
     this.offers.close();
     const text = this.box.value;
     if (text.trim() === "") return undefined;
-    const answer = await this.page.client.exec(text);
+    const answer = await this.waited(this.page.client.exec(text));
     this.say(answer.said ?? []);
     this.typed.push(text);
     this.back = 0;
@@ -81,6 +83,24 @@ export class TextPanel {
     }
     this.box.setAttribute("aria-invalid", String(!answer.ok));
     return answer;
+  }
+
+  /** Waits for an answer; one that takes long can be stopped. */
+  private async waited(asked: Promise<Answer>): Promise<Answer> {
+    this.box.setAttribute("aria-busy", "true");
+    const timer = setTimeout(() => {
+      this.runs.textContent = "Stop";
+    }, LONG);
+    const answer = await asked;
+    clearTimeout(timer);
+    this.runs.textContent = "Run";
+    this.box.removeAttribute("aria-busy");
+    return answer;
+  }
+
+  private press(): void {
+    if (this.box.getAttribute("aria-busy") !== "true") void this.run();
+    else this.page.client.stop();
   }
 
   private say(said: readonly Said[]): void {
