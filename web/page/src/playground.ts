@@ -78,18 +78,19 @@ export class Playground {
 
   private async open(name: string): Promise<void> {
     const example = (await this.examples).find((example) => example.name === name);
-    if (example !== undefined) await this.start(example.text);
+    if (example !== undefined) await this.start(example.text, name);
     else this.page.hinted.tell({ text: `No example is called ${name}.`, isWrong: true });
   }
 
   /** Carries out a script in an empty session; it stays in the box. */
-  private async start(script: string): Promise<void> {
+  private async start(script: string, name?: string): Promise<void> {
     const greeted = this.greeting();
     this.page.client.restart();
     await greeted;
     if (this.text === undefined) return;
     this.text.box.value = script;
     await this.text.run(true);
+    document.title = name === undefined ? "linkwork" : `${name} – linkwork`;
   }
 
   private async showGallery(): Promise<void> {
@@ -103,7 +104,7 @@ export class Playground {
     return galleryDialog(await this.examples, pictures, (example) => {
       this.own = `#example=${encodeURIComponent(example.name)}`;
       location.hash = this.own;
-      void this.start(example.text);
+      void this.start(example.text, example.name);
     });
   }
 

@@ -91,7 +91,7 @@ test("both engines make the same bytes of every example", { skip, timeout: 600_0
   const different = [];
   for (const name of names) {
     await page.goto(`${address}#example=${name}`);
-    await page.waitForFunction((name) => document.documentElement.dataset.script === name, name, {
+    await page.waitForFunction((name) => document.title === `${name} – linkwork`, name, {
       timeout: s.PATIENCE,
     });
     const there = (await s.download(page, "script")).bytes.toString();
