@@ -34,7 +34,8 @@ const HALVINGS: u32 = 60;
 pub(super) fn between(from: &Knot, to: &Knot) -> Option<Extremum> {
     let h = to.time - from.time;
     let [d0, d1] = [h * from.rates[0], h * to.rates[0]];
-    if !(d0 * d1 < 0.0) {
+    let turns = d0 * d1 < 0.0;
+    if !turns {
         return None;
     }
     let [dd0, dd1] = [h * h * from.rates[1], h * h * to.rates[1]];

@@ -115,9 +115,8 @@ impl Tally {
             Statistic::AtMin => min.time,
             Statistic::AtMax => max.time,
             Statistic::First => first.value,
-            Statistic::Last => last.value,
             Statistic::Mean if last.time > first.time => area / (last.time - first.time),
-            Statistic::Mean => last.value,
+            Statistic::Last | Statistic::Mean => last.value,
             Statistic::Count => unreachable!("it is counted above"),
         })
     }

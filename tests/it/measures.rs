@@ -14,7 +14,8 @@ const FOUR_BAR: &str = "
     coupler: length B C = 3.5
     length C D = 3
     point E = (2, 3)
-    rigid B C E
+    length B E = 2
+    length C E = 2.2
     set dt 1/360
     solve
 ";
@@ -261,7 +262,8 @@ fn what_is_saved_goes_on_to_the_same_bits() {
 fn reset_empties_and_a_run_from_there_measures_the_same() {
     let mut talking = Talking::after(FOUR_BAR);
     talking.run(MEASURES);
-    talking.run("step 200");
+    // What the solver remembers of the solution before is of no run from the start.
+    talking.run("step; reset; step 200");
     let first = ["x", "turned", "w", "off", "t"].map(|name| kept(&talking, name));
     talking.run("reset; assert x.count = 0");
     let problem = talking.execute("print x.max").expect_err("there is none");
@@ -290,7 +292,7 @@ fn members_stand_in_all_expressions_that_drive_nothing() {
          let top = y.max, later = top * 2
          step 90
          assert later = 2 within 1e-12
-         assert y.max - y.min in 1..2
+         assert y.max - y.min in 0.8..0.9
          point Q = (y.max, 0)
          for i in 1..2 { measure p[i] = i * B.x; step }
          print p[2].last",

@@ -216,6 +216,10 @@ impl Execution<'_> {
     fn prefer(&mut self, change: impl FnOnce(&mut Preferences)) {
         let mut new = self.state.preferences.clone();
         change(&mut new);
+        if new.solve == self.state.preferences.solve {
+            // The solver asks for nothing of it.
+            return self.change(Change::Preferences(Box::new(new)));
+        }
         // What was edited before is taken in as it was set then; what counted as solved may not
         // any more, and that is part of this command.
         self.sync();

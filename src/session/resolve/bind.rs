@@ -5,10 +5,8 @@ use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Member, Operator, Shape, Statistic, Unit};
-use crate::world::{
-    ConstraintId, Depends, Entity, Formula, MeasureId, Node, Rates, Value, call, operate,
-};
+use crate::terms::{Function, Operator, Shape, Unit};
+use crate::world::{Depends, Entity, Formula, Node, Rates, Value, call, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -22,7 +20,7 @@ pub enum Term {
 
 /// What names in an expression become.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mode {
+pub(super) enum Mode {
     /// Their values now.
     Now,
     /// Themselves: the expression stays live.
@@ -287,44 +285,6 @@ impl Resolver<'_> {
             }
         };
         let formula = Formula::new(node, shape, depends, span);
-        match mode {
-            Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
-        }
-    }
-
-    fn bind_member(
-        &mut self,
-        id: ConstraintId,
-        member: Member,
-        span: Span,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let follows = member.follows();
-        let depends = Depends {
-            on_angles: member == Member::Angle,
-            // What it depends on is known where it is looked up, as of a parameter.
-            on_parameters: matches!(member, Member::Radius | Member::Value),
-            on_constraints: follows,
-            on_points: follows || member == Member::Value,
-            ..Depends::default()
-        };
-        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
-        match mode {
-            Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
-        }
-    }
-
-    fn bind_statistic(
-        &mut self,
-        id: MeasureId,
-        which: Statistic,
-        span: Span,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let depends = Depends { on_measures: true, ..Depends::default() };
-        let formula = Formula::new(Node::Statistic(id, which), Shape::Number, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::Constant),

@@ -1,11 +1,12 @@
 //! Members of things: which there are, and what they cannot be used for.
 
+use super::bind::{Mode, Term};
 use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::session::quotas::{DEEPEST_EXPRESSION, Quota};
-use crate::terms::{Member, Statistic};
-use crate::world::{ConstraintId, Entity, Extent, Formula};
+use crate::terms::{Member, Shape, Statistic};
+use crate::world::{ConstraintId, Depends, Entity, Extent, Formula, MeasureId, Node};
 
 impl Resolver<'_> {
     /// The members that a constraint has.
@@ -52,6 +53,46 @@ impl Resolver<'_> {
         Err(Diagnostic::error(errors::NO_MEMBER, format!("`{name}` has no `.{word}`"))
             .at(span, label)
             .help(format!("there is {}", others.join(" and "))))
+    }
+
+    /// The term that a member of a constraint becomes.
+    pub(super) fn bind_member(
+        &mut self,
+        id: ConstraintId,
+        member: Member,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let follows = member.follows();
+        let depends = Depends {
+            on_angles: member == Member::Angle,
+            // What it depends on is known where it is looked up, as of a parameter.
+            on_parameters: matches!(member, Member::Radius | Member::Value),
+            on_constraints: follows,
+            on_points: follows || member == Member::Value,
+            ..Depends::default()
+        };
+        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
+    }
+
+    /// The term that a statistic of a measure becomes.
+    pub(super) fn bind_statistic(
+        &mut self,
+        id: MeasureId,
+        which: Statistic,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let depends = Depends { on_measures: true, ..Depends::default() };
+        let formula = Formula::new(Node::Statistic(id, which), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+        }
     }
 
     /// Refuses an expression that is too long, or too deep, with all that it mentions: every level of
