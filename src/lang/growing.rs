@@ -57,6 +57,11 @@ impl Growing {
         !is_incomplete(&self.text)
     }
 
+    /// How long it is so far.
+    pub const fn n_bytes(&self) -> usize {
+        self.text.len()
+    }
+
     /// The text, which is empty from here on.
     pub fn take(&mut self) -> String {
         std::mem::take(self).text
