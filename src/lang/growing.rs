@@ -85,7 +85,8 @@ impl Growing {
                 b'(' | b'[' | b'{' if self.open.len() < MAX_NESTING => self.open.push(byte),
                 b'(' | b'[' | b'{' => return Line::MayEnd,
                 b')' | b']' | b'}' => {
-                    if self.open.pop().map(closing) != Some(byte) {
+                    let opened = self.open.pop();
+                    if opened.map(closing) != Some(byte) {
                         return Line::MayEnd;
                     }
                 }
