@@ -219,7 +219,7 @@ fn what_is_measured_moves_as_what_is_not() {
         let lines = script.lines();
         let others =
             lines.filter(|it| !it.starts_with("measure") && !it.contains("restore measure"));
-        let others: String = others.map(|it| format!("{it}\n")).collect();
+        let others = others.collect::<Vec<_>>().join("\n") + "\n";
         check_same(&others, &plain.script(), motion);
     }
 }

@@ -42,7 +42,7 @@ impl Execution<'_> {
     ) -> Result<Stretch, Diagnostic> {
         let most = self.input.quotas.of(Quota::TraceSamples);
         let most_readings = self.input.quotas.of(Quota::MeasureSamples);
-        let Self { state, host, .. } = &mut *self;
+        let Self { state, host, deadline, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         // No more than traces may keep: the frame that exceeds that is told of by itself.
         let n_kept = world.traces().iter().map(|trace| trace.samples.len() as u64).sum();
@@ -52,7 +52,7 @@ impl Execution<'_> {
         let n_readings = n_readings.checked_div(n_measures).unwrap_or(n);
         let n = n.min(n_left.unwrap_or(n)).min(n_readings).min(MOST_AT_ONCE);
         let budget = Budget { tolerance: limits.tolerance, stop: None, known_error };
-        let goes_on = || !host.is_interrupted();
+        let goes_on = || !host.is_interrupted() && !deadline.has_passed(&**host);
         let on = Along { n, extremes: preferences.measures, goes_on: &goes_on };
         let stretch = solver.stretch(world, &preferences.solve, &budget, &on);
         stretch.map_err(|why| self.in_frame(why))
