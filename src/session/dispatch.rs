@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::interrupt;
 use crate::lang::ast::{
-    Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
+    Building, Changing, Command, Drawing, Expr, Looking, Making, Measuring, Running, Statement,
 };
 
 impl Execution<'_> {
@@ -28,8 +28,8 @@ impl Execution<'_> {
         })?;
         self.begin_counts();
         self.hold_quotas(statement.span)?;
-        if flow == Flow::On && self.host.is_interrupted() {
-            self.note("stopped");
+        if flow == Flow::On && self.is_to_stop() {
+            self.note_stop("stopped");
             return Ok(Flow::Stopped);
         }
         Ok(flow)
@@ -42,7 +42,8 @@ impl Execution<'_> {
         quotas.check(Quota::Points, n_points, span)?;
         quotas.check(Quota::Constraints, world.n_constraints() as u64, span)?;
         quotas.check(Quota::GhostPoints, world.ghosts().len() as u64 * n_points, span)?;
-        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)
+        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)?;
+        self.hold_time(span)
     }
 
     fn perform(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
@@ -53,6 +54,7 @@ impl Execution<'_> {
             Command::Changing(it) => return self.changing(it, span),
             Command::Running(it) => return self.running(it, span),
             Command::Looking(it) => return self.looking(it, span),
+            Command::Measuring(it) => self.measuring(it, span)?,
             Command::Drawing(it) => return self.drawing(it, span),
             Command::Building(it) => return self.building(it, span),
         }
@@ -119,6 +121,13 @@ impl Execution<'_> {
             Looking::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)
+    }
+
+    fn measuring(&mut self, it: &Measuring, span: Span) -> Result<(), Diagnostic> {
+        match it {
+            Measuring::Measure { name, value, unit } => self.measure(name, value, *unit, span),
+            Measuring::Result(items) => self.say_results(items),
+        }
     }
 
     fn drawing(&mut self, it: &Drawing, span: Span) -> Result<Flow, Diagnostic> {
