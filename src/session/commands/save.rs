@@ -58,6 +58,7 @@ impl State {
         let late = Late::of(self);
         self.save_parameters(&late, &mut script);
         self.save_constraints(&late, &mut script);
+        self.save_measures(&mut script);
         self.save_late_parameters(&late, &mut script);
         self.save_late_values(&late, &mut script);
         self.save_start_states(&mut script);
@@ -192,6 +193,19 @@ impl State {
         }
     }
 
+    /// Begins the measures, and gives them what they have kept.
+    fn save_measures(&self, script: &mut String) {
+        for (_, measure) in self.world.measures() {
+            line(script, Unbind::of(&self.world).measure_statement(measure));
+        }
+        for (_, measure) in self.world.measures() {
+            let kept = measure.tally.to_numbers();
+            if !kept.is_empty() {
+                restore(script, Restorable::Measure, Some(&measure.name), numbers(&kept));
+            }
+        }
+    }
+
     /// Makes parameters live that had to wait.
     fn save_late_parameters(&self, late: &Late, script: &mut String) {
         for &id in &late.in_order {
@@ -316,6 +330,7 @@ impl Late {
                     is_late |= used > id;
                     is_following |= late.following.contains(&used);
                 }
+                Mention::Measure(_) => is_late = true,
                 Mention::Point(_) => {}
             });
             if has_members {
@@ -339,7 +354,7 @@ impl Late {
             formula.mentions(&mut |mention| match mention {
                 Mention::Member(..) => is_followed = true,
                 Mention::Parameter(used) => is_followed |= self.following.contains(&used),
-                Mention::Point(_) => {}
+                Mention::Point(_) | Mention::Measure(_) => {}
             });
         }
         is_followed
