@@ -44,6 +44,7 @@ pub use ask::evaluate_binding;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, FromHere, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
+pub use commands::ongoing::Ongoing;
 pub use completion::{Candidate, Completion, Offer, Piece};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;

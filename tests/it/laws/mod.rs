@@ -4,6 +4,7 @@ mod claims;
 mod constraint;
 mod lang;
 mod linalg;
+mod ongoing;
 mod random_command;
 mod random_constraint;
 mod random_measure;
