@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, sync_channel};
 
-use super::args::{HostArguments, Scripts, command_names};
+use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output};
+use super::{files, init, interrupt, journal, output, view};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
@@ -272,7 +272,35 @@ pub fn session(host: &HostArguments) -> ExitStatus {
     converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
 }
 
+/// A session that a page looks at, after a script if there is one.
+pub fn view(arguments: &ViewArguments) -> ExitStatus {
+    let host = &arguments.host;
+    let mut session = begin(host);
+    let folder = arguments.file.as_deref().map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    if let Some(file) = &arguments.file {
+        match add(file, &mut session) {
+            Ok(source) if session.run_text(source, &mut process).flow == Flow::Quit => {
+                return end(&mut session, &mut process);
+            }
+            Ok(_) => {}
+            Err(status) => return status,
+        }
+    }
+    match process.open_view(arguments.port) {
+        Ok(address) => output::answer(&address),
+        Err(e) => {
+            let why = format!("no page can be shown: {}", reason(&e));
+            output::show(&Diagnostic::error(errors::NO_PAGE, why), session.sources());
+            return ExitStatus::Unreadable;
+        }
+    }
+    output::flush();
+    converse(&mut session, &mut process, host)
+}
+
 fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {
+    process.may_view = true;
     let status = if io::stdin().is_terminal() {
         prompt(session, process, host);
         ExitStatus::Fine
@@ -312,14 +340,15 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
-fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
+fn typed_ahead(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
     let mut status = ExitStatus::Fine;
     let mut piece = Growing::default();
     let mut is_first = true;
     let lines = lines_of_stdin();
     loop {
-        let line = match interrupt::next_from(&lines).unwrap_or_else(|| Ok(Vec::new())) {
+        let line = view::meanwhile(session, host, || interrupt::next_from(&lines));
+        let line = match line.unwrap_or_else(|| Ok(Vec::new())) {
             Ok(line) => line,
             Err(e) => {
                 let problem = Diagnostic::error(

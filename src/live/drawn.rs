@@ -3,26 +3,32 @@
 use serde_json::{Map, Value, json};
 
 use crate::constraint::Point;
-use crate::render::{Drawing, Figure, FigureShape, Key, Outline, Scene, px, trace_colour};
+use crate::render::{
+    Drawing, Figure, FigureShape, Key, Outline, PAPER, Scene, looks, px, trace_colour,
+};
 use crate::world::{Trace, World};
 
-/// All of a drawing.
-pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize) -> Value {
+/// How the classes of a drawing look, and all of the drawing.
+pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize) -> [Value; 2] {
     let ghosts = drawing.ghosts(scene);
     let shapes = drawing.figures().iter().chain(ghosts.iter().flat_map(|(_, figures)| figures));
-    let looks = drawing.looks(shapes.flat_map(|figure| &figure.shapes));
+    let looks = looks(shapes.flat_map(|figure| &figure.shapes));
     let classes: Map<String, Value> = looks
         .into_iter()
         .map(|look| {
-            let value = json!({
+            let mut value = json!({
                 "fill": look.fill,
                 "stroke": look.stroke,
                 "width": look.width,
                 "dash": look.dash,
                 "opacity": look.opacity,
-                "size": look.letters,
-                "evenodd": look.is_even_odd,
             });
+            if let Some(size) = look.letters {
+                value["size"] = json!(size);
+            }
+            if look.is_even_odd {
+                value["evenodd"] = json!(true);
+            }
             (look.name, value)
         })
         .collect();
@@ -40,24 +46,26 @@ pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize)
         .collect();
     let corners = drawing.bounds().map(|(lo, hi)| [lo.x, lo.y, hi.x, hi.y]);
     let centre = drawing.centre();
-    json!({ "drawing": {
+    let drawing = json!({ "drawing": {
         "topology": topology,
         "scale": drawing.scale(),
         "centre": [centre.x, centre.y],
         "mark": drawing.mark(),
         "bounds": corners,
         "points": n_points,
-        "classes": classes,
         "figures": drawing.figures().iter().map(figure_value).collect::<Vec<_>>(),
         "ghosts": ghosts,
-    } })
+    } });
+    [json!({ "classes": classes, "paper": PAPER }), drawing]
 }
 
 /// The shapes of some figures.
 pub fn shapes(drawing: &Drawing, topology: u32, changed: &[usize]) -> Value {
     let figures: Vec<Value> = changed
         .iter()
-        .map(|&k| json!([k, drawing.figures()[k].shapes.iter().map(shape_value).collect::<Vec<_>>()]))
+        .map(|&k| {
+            json!([k, drawing.figures()[k].shapes.iter().map(shape_value).collect::<Vec<_>>()])
+        })
         .collect();
     json!({ "shapes": { "topology": topology, "figures": figures } })
 }

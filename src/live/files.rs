@@ -18,13 +18,13 @@ pub fn file(wish: &FileWish, session: &Session, host: &mut dyn Host) -> Result<V
     Ok(match wish {
         FileWish::Still => {
             let picture = svg(&Scene::new(session.world()), &Options::default());
-            text_file("mechanism.svg", "image/svg+xml", picture)
+            text_file("mechanism.svg", "image/svg+xml", &picture)
         }
-        FileWish::Script => text_file("mechanism.link", "text/plain", session.to_script()),
+        FileWish::Script => text_file("mechanism.link", "text/plain", &session.to_script()),
         FileWish::Moving(n) => {
             let name = "motion.svg";
             let text = recorded(session, host, name, &[], *n).map_err(|why| why.to_string())?;
-            text_file(name, "image/svg+xml", text)
+            text_file(name, "image/svg+xml", &text)
         }
         FileWish::Table(n) => {
             let name = "paths.csv";
@@ -34,7 +34,7 @@ pub fn file(wish: &FileWish, session: &Session, host: &mut dyn Host) -> Result<V
                 Vec::new()
             };
             let text = recorded(session, host, name, &traces, *n).map_err(|why| why.to_string())?;
-            text_file(name, "text/csv", text)
+            text_file(name, "text/csv", &text)
         }
         FileWish::Written(name) => {
             let path = Path::new(name);
@@ -45,12 +45,12 @@ pub fn file(wish: &FileWish, session: &Session, host: &mut dyn Host) -> Result<V
                 Some("csv") => "text/csv",
                 _ => "text/plain",
             };
-            text_file(&name, mime, text)
+            text_file(&name, mime, &text)
         }
     })
 }
 
-fn text_file(name: &str, mime: &str, text: String) -> Value {
+fn text_file(name: &str, mime: &str, text: &str) -> Value {
     json!({ "name": name, "mime": mime, "text": text })
 }
 

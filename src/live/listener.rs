@@ -64,7 +64,8 @@ impl Host for Listener<'_> {
         if self.n_bytes <= MOST_BYTES {
             self.said.push(json!({ "kind": "line", "text": line }));
         } else if before <= MOST_BYTES {
-            self.said.push(json!({ "kind": "warning", "text": "the rest is too long to be shown" }));
+            self.said
+                .push(json!({ "kind": "warning", "text": "the rest is too long to be shown" }));
         }
     }
 

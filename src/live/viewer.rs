@@ -3,8 +3,6 @@
 //! A page says which frames it has shown. It is told no more than a few ahead, each time of the
 //! newest there is, so that one that is slow misses frames and nothing piles up.
 
-use std::collections::BTreeMap;
-
 use serde_json::{Map, Value, json};
 
 use super::Message;
@@ -33,8 +31,6 @@ pub struct Viewer {
     /// The numbers of what it was told last.
     pose: u64,
     state: u64,
-    /// How each part of the state was told.
-    parts: BTreeMap<String, String>,
     off: String,
     traces: Vec<drawn::Told>,
     /// How many statements of the journal it was told.
@@ -91,7 +87,7 @@ impl Viewer {
     pub fn tell(&mut self, news: &News, say: &mut impl FnMut(Message)) {
         if self.state != news.state_number {
             self.state = news.state_number;
-            self.tell_state(news.state, say);
+            say(Message::Text(json!({ "state": news.state }).to_string()));
         }
         if self.pose == news.pose_number {
             return;
@@ -111,20 +107,6 @@ impl Viewer {
         say(Message::Frame(news.pose.frame(self.seq, self.topology, drawing)));
     }
 
-    fn tell_state(&mut self, state: &Map<String, Value>, say: &mut impl FnMut(Message)) {
-        let mut changed = Map::new();
-        for (name, part) in state {
-            let text = part.to_string();
-            if self.parts.get(name) != Some(&text) {
-                changed.insert(name.clone(), part.clone());
-                self.parts.insert(name.clone(), text);
-            }
-        }
-        if !changed.is_empty() {
-            say(Message::Text(json!({ "state": changed }).to_string()));
-        }
-    }
-
     /// Follows the mechanism, or draws it anew.
     fn draw(&mut self, news: &News, say: &mut impl FnMut(Message)) {
         let followed =
@@ -139,8 +121,9 @@ impl Viewer {
                 let drawing = Drawing::new(news.scene, self.scale);
                 self.topology += 1;
                 let n_points = news.pose.at.len();
-                let text = drawn::drawing(&drawing, news.scene, self.topology, n_points);
-                say(Message::Text(text.to_string()));
+                for text in drawn::drawing(&drawing, news.scene, self.topology, n_points) {
+                    say(Message::Text(text.to_string()));
+                }
                 self.drawing = Some(drawing);
             }
         }

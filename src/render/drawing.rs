@@ -20,8 +20,6 @@ use crate::diag::format_decimals;
 
 /// How much a shape may differ from how it was told before it is told anew, px.
 const TOLERANCE: f64 = 0.06;
-/// The narrowest line: below half a pixel it is a shade of grey.
-const NARROWEST: f64 = 0.5;
 
 /// The figures of a mechanism at some scale.
 #[derive(Debug)]
@@ -42,7 +40,7 @@ pub enum Followed {
     Another,
 }
 
-/// How shapes of a class look on this drawing, px.
+/// How shapes of a class look, px.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeLook {
     /// The class.
@@ -54,7 +52,7 @@ pub struct ShapeLook {
     /// How wide the line is.
     pub width: f64,
     /// How long its dashes and gaps are in turn.
-    pub dash: Vec<f64>,
+    pub dash: &'static [f64],
     /// From 0, not there, to 1.
     pub opacity: f64,
     /// How large letters are, where the shape is a text.
@@ -75,7 +73,7 @@ impl Drawing {
         let mut lettering: Lettering = lettering::place(&[scene], &whole);
         // Names keep as far away from marks as those are large.
         let growth = page.mark() / whole.mark();
-        lettering.values_mut().for_each(|offset| *offset = *offset * growth);
+        lettering.values_mut().for_each(|offset| *offset *= growth);
         let view = View::new(page, lettering);
         let figures = view.figures(&scene.pose);
         let symbols = scene.pose.symbols.clone();
@@ -84,8 +82,8 @@ impl Drawing {
 
     /// Follows a scene of the same world somewhat later.
     pub fn follow(&mut self, scene: &Scene) -> Followed {
-        let is_same = Arc::ptr_eq(&self.symbols, &scene.pose.symbols)
-            || self.symbols == scene.pose.symbols;
+        let is_same =
+            Arc::ptr_eq(&self.symbols, &scene.pose.symbols) || self.symbols == scene.pose.symbols;
         if !is_same || self.n_ghosts != scene.ghosts.len() {
             return Followed::Another;
         }
@@ -96,9 +94,7 @@ impl Drawing {
                 && a.shapes.len() == b.shapes.len()
                 && a.shapes.iter().zip(&b.shapes).all(|(a, b)| a.class == b.class)
         };
-        if figures.len() != self.figures.len()
-            || !self.figures.iter().zip(&figures).all(is_like)
-        {
+        if figures.len() != self.figures.len() || !self.figures.iter().zip(&figures).all(is_like) {
             return Followed::Another;
         }
         let mut changed = Vec::new();
@@ -143,12 +139,12 @@ impl Drawing {
     pub fn mark(&self) -> f64 {
         self.view.page().mark()
     }
+}
 
-    /// How shapes of these classes look.
-    pub fn looks<'a>(&self, shapes: impl Iterator<Item = &'a FigureShape>) -> Vec<ShapeLook> {
-        let classes: BTreeSet<Class> = shapes.map(|shape| shape.class).collect();
-        classes.into_iter().map(|class| class.sized(self.mark())).collect()
-    }
+/// How shapes of these classes look where marks are of full size.
+pub fn looks<'a>(shapes: impl Iterator<Item = &'a FigureShape>) -> Vec<ShapeLook> {
+    let classes: BTreeSet<Class> = shapes.map(|shape| shape.class).collect();
+    classes.into_iter().map(Class::at_full_size).collect()
 }
 
 impl FigureShape {
@@ -165,19 +161,19 @@ impl FigureShape {
 }
 
 impl Class {
-    /// How it looks among marks of this size.
-    fn sized(self, mark: f64) -> ShapeLook {
+    /// How it looks where marks are of full size.
+    fn at_full_size(self) -> ShapeLook {
         let look = self.look();
         let colour = |name: &'static str| (name != "none").then_some(name);
         ShapeLook {
             name: self.name(),
             fill: colour(look.fill),
             stroke: colour(look.stroke),
-            width: (look.width * mark).max(NARROWEST),
-            dash: look.dash.iter().map(|length| length * mark).collect(),
+            width: look.width,
+            dash: look.dash,
             opacity: look.opacity,
             letters: match self {
-                Self::Name => Some(letter(mark)),
+                Self::Name => Some(letter(1.0)),
                 Self::Caption => Some(CAPTION),
                 _ => None,
             },

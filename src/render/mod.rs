@@ -54,10 +54,11 @@ mod keyframes;
 mod trace_animation;
 
 pub use animation::{Animation, is_shown};
-pub(crate) use drawing::{Drawing, Followed, px, trace_colour};
 pub use document::{FIRST_WORDS, Options};
+pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
 pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
+pub(crate) use style::PAPER;
 pub use view::View;

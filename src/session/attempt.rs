@@ -6,7 +6,7 @@ use super::execution::Flow;
 use super::host::Host;
 use crate::diag::{Diagnostic, SourceId, Span};
 use crate::errors;
-use crate::lang::ast::{Changing, Command, Making, Statement};
+use crate::lang::ast::Statement;
 use crate::lang::parse;
 
 /// A statement that was tried, and is still the last that was carried out.
@@ -46,17 +46,7 @@ impl Session {
         let Some(statement) = statements.next().transpose()? else {
             return Err(refused(source, text));
         };
-        let may_be_tried = matches!(
-            &statement.command,
-            Command::Making(Making::Let(_) | Making::Move { .. })
-                | Command::Changing(
-                    Changing::Change { .. }
-                        | Changing::Set { .. }
-                        | Changing::On(_)
-                        | Changing::Off(_)
-                )
-        );
-        if !may_be_tried || statements.next().is_some() {
+        if !statement.command.is_adjustment() || statements.next().is_some() {
             return Err(refused(source, text));
         }
         let before = self.history.journal.next_number();
@@ -66,7 +56,7 @@ impl Session {
     }
 
     /// Takes back what was tried last, before anything else is done.
-    pub fn take_back(&mut self, attempt: Attempt) {
+    pub fn take_back(&mut self, attempt: &Attempt) {
         let source = attempt.statement.span.source;
         if attempt.has_changed {
             self.history.revoke(&mut self.state);
@@ -85,6 +75,8 @@ impl Session {
 }
 
 fn refused(source: SourceId, text: &str) -> Diagnostic {
-    Diagnostic::error(errors::ALONE, "this is not tried")
-        .at(Span::new(source, 0..text.len()), "only one `let`, `change`, `set`, `move`, `on` or `off` is")
+    Diagnostic::error(errors::ALONE, "this is not tried").at(
+        Span::new(source, 0..text.len()),
+        "only one `let`, `change`, `set`, `move`, `on` or `off` is",
+    )
 }

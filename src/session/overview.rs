@@ -6,7 +6,7 @@ use super::commands::setting_table::SETTINGS;
 use super::resolve::unbind::Unbind;
 use super::settled::miss;
 use super::summary::Summary;
-use crate::constraint::{Constraint, ConstraintKind as _, Field};
+use crate::constraint::{ConstraintKind as _, Field};
 use crate::diag::{Diagnostic, format_number};
 use crate::solve::{present, verdict};
 use crate::terms::Unit;
@@ -32,14 +32,14 @@ pub struct ConstraintView {
 }
 
 /// A parameter.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ParameterView {
     /// Its name.
     pub name: String,
     /// What stands behind its `=`.
     pub text: String,
-    /// What it is now, where it is a number.
-    pub value: Option<f64>,
+    /// What it is now, where that is known without looking at velocities.
+    pub value: Option<Value>,
     /// Whether it is an expression of other things.
     pub is_live: bool,
 }
@@ -73,8 +73,7 @@ impl Session {
         let unbind = Unbind::of(world);
         world.constraints().map(move |(id, record)| {
             let constraint = &record.constraint;
-            let is_motor = matches!(constraint.stated(), Constraint::Motor(_));
-            let speed = constraint.get(Field::Speed).filter(|_| is_motor).map(|speed| {
+            let speed = constraint.get(Field::Speed).map(|speed| {
                 let text = match record.driver(Field::Speed) {
                     Some(formula) => unbind.unbind(formula).to_string(),
                     None if record.unit(Field::Speed) == Unit::None => {
@@ -107,14 +106,10 @@ impl Session {
         let unbind = Unbind::of(world);
         self.state.parameters_in_order().into_iter().filter_map(move |id| {
             let parameter = world.parameter(id)?;
-            let value = match parameter.value {
-                Some(Value::Number(value)) => Some(value),
-                _ => None,
-            };
             Some(ParameterView {
                 name: world.name_of(Entity::Parameter(id)).to_owned(),
                 text: unbind.unbind(&parameter.formula).to_string(),
-                value,
+                value: parameter.value,
                 is_live: !parameter.depends.is_constant(),
             })
         })

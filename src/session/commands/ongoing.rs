@@ -31,13 +31,20 @@ pub struct Ongoing {
     /// Frames, where time passes.
     passage: Option<Passage>,
     is_timed: bool,
-    is_begun: bool,
+    stage: Stage,
     /// Whether the clock had not yet left 0.
     was_at_start: bool,
     /// How the pose was found where time stands still.
     status: Status,
-    /// Whether it was taken back on its way: what it did is then done again when it ends.
-    is_lost: bool,
+}
+
+/// How far it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    New,
+    Begun,
+    /// It was taken back on its way: what it did is done again when it ends.
+    Lost,
 }
 
 /// A point in a hand, and the way it was led.
@@ -67,10 +74,9 @@ impl Ongoing {
             held: None,
             passage: None,
             is_timed: true,
-            is_begun: false,
+            stage: Stage::New,
             was_at_start: false,
             status: Status::Converged,
-            is_lost: false,
         }
     }
 
@@ -157,7 +163,7 @@ impl Session {
         let text = ongoing.statement(self);
         let source = self.add_piece(name, &text, 1, Some(std::path::PathBuf::new()));
         let statement = parse(source, &text).next().expect("there is a statement")?;
-        if ongoing.is_lost {
+        if ongoing.stage == Stage::Lost {
             self.execute(&statement, host)?;
         } else {
             self.command(host).finish_ongoing(ongoing, &statement)?;
@@ -168,7 +174,7 @@ impl Session {
 
     /// Takes back what it did.
     pub fn give_up(&mut self, ongoing: &Ongoing) {
-        if ongoing.is_begun && !ongoing.is_lost {
+        if ongoing.stage == Stage::Begun {
             self.history.roll_back(&mut self.state);
         }
     }
@@ -177,7 +183,7 @@ impl Session {
 impl Ongoing {
     /// It was taken back: what it did up to here is to be done again.
     fn forget_since(&mut self, n_done: u64) {
-        self.is_lost = true;
+        self.stage = Stage::Lost;
         if let Some(held) = &mut self.held {
             held.places.truncate(n_done as usize);
         }
@@ -205,7 +211,7 @@ impl Ongoing {
 
 impl Execution<'_> {
     fn step_on(&mut self, ongoing: &mut Ongoing, to: Option<Point>) -> Result<Flow, Diagnostic> {
-        if !std::mem::replace(&mut ongoing.is_begun, true) {
+        if std::mem::replace(&mut ongoing.stage, Stage::Begun) == Stage::New {
             self.begin_ongoing(ongoing)?;
         }
         if let (Some(held), Some(to)) = (&mut ongoing.held, to) {
@@ -260,11 +266,7 @@ impl Execution<'_> {
     }
 
     /// What comes after the last step.
-    fn finish_ongoing(
-        mut self,
-        ongoing: Ongoing,
-        statement: &Statement,
-    ) -> Result<(), Diagnostic> {
+    fn finish_ongoing(mut self, ongoing: Ongoing, statement: &Statement) -> Result<(), Diagnostic> {
         let n = ongoing.len();
         let hands: Vec<Hand> = ongoing
             .held

@@ -172,12 +172,9 @@ impl Execution<'_> {
     }
 
     /// No more frames are to pass; gives how many did.
-    pub(super) fn end_frames(
-        &mut self,
-        passage: Passage,
-        hands: Hands,
-    ) -> Result<u64, Diagnostic> {
-        let Passage { span, limits, mut summary, n_before, n_missed_before, mut last, .. } = passage;
+    pub(super) fn end_frames(&mut self, passage: Passage, hands: Hands) -> Result<u64, Diagnostic> {
+        let Passage { span, limits, mut summary, n_before, n_missed_before, mut last, .. } =
+            passage;
         if let Some(tolerance) = limits.tolerance
             && last == Status::Converged
             && summary.n_frames > n_before

@@ -9,7 +9,7 @@ mod random_command;
 mod random_constraint;
 mod random_measure;
 mod random_scene;
-mod random_session;
+pub mod random_session;
 mod random_touch;
 mod scenes;
 mod session;
