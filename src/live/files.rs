@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::request::FileWish;
 use crate::diag::Diagnostic;
 use crate::render::{Options, Scene, svg};
-use crate::session::{Answer, Flow, Host, Session};
+use crate::session::{Answer, Clock, Flow, Host, Session};
 use crate::world::{Entity, World};
 
 /// Points whose paths a table has where none is traced.
@@ -121,6 +121,10 @@ impl Host for Interruptible<'_> {
     }
 
     fn seconds(&self) -> Option<f64> {
-        self.answer.seconds()
+        self.host.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.host.clock()
     }
 }

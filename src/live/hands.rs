@@ -56,7 +56,12 @@ impl Live {
     }
 
     /// One step of what goes on; whether another may follow.
-    pub(super) fn go_on(&mut self, to: Option<Point>, session: &mut Session, host: &mut dyn Host) -> bool {
+    pub(super) fn go_on(
+        &mut self,
+        to: Option<Point>,
+        session: &mut Session,
+        host: &mut dyn Host,
+    ) -> bool {
         if self.ongoing.as_ref().is_some_and(|it| it.point().is_some() && it.len() >= MOST_PLACES) {
             self.close(session, host);
         }

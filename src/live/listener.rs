@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::units::to_utf16;
 use crate::diag::{Diagnostic, Paint, Severity, SourceId, Sources, render};
-use crate::session::{Host, Kept, Spool, Wish};
+use crate::session::{Clock, Host, Kept, Spool, Wish};
 
 /// A host that keeps what is said, and hands on the rest.
 pub struct Listener<'a> {
@@ -135,5 +135,9 @@ impl Host for Listener<'_> {
 
     fn seconds(&self) -> Option<f64> {
         self.inner.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.inner.clock()
     }
 }

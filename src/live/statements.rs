@@ -9,7 +9,12 @@ use crate::lang::is_incomplete;
 use crate::session::{Completion, Flow, Host, Outcome, Session};
 
 impl Live {
-    pub(super) fn execute(&mut self, text: &str, session: &mut Session, host: &mut dyn Host) -> Value {
+    pub(super) fn execute(
+        &mut self,
+        text: &str,
+        session: &mut Session,
+        host: &mut dyn Host,
+    ) -> Value {
         self.close(session, host);
         self.keep(session, host);
         let mut listener = Listener::new(host);
@@ -27,7 +32,12 @@ impl Live {
         answer
     }
 
-    pub(super) fn attempt(&mut self, text: &str, session: &mut Session, host: &mut dyn Host) -> Value {
+    pub(super) fn attempt(
+        &mut self,
+        text: &str,
+        session: &mut Session,
+        host: &mut dyn Host,
+    ) -> Value {
         self.close(session, host);
         if let Some(attempt) = self.attempt.take() {
             session.take_back(&attempt);

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::pose::Pose;
-use super::viewer::{News, Viewer};
+use super::viewer::News;
 use super::{ClientId, Live, Message, PROTOCOL, state};
 use crate::render::Scene;
 use crate::session::Session;

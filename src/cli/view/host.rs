@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::server::Shared;
 use crate::cli::process_host::ProcessHost;
 use crate::diag::{Diagnostic, Sources};
-use crate::session::{Host, Kept, Spool, Wish};
+use crate::session::{Clock, Host, Kept, Spool, Wish};
 
 /// Files, clock and journal are those of the process; a page may stop what it asked for.
 pub struct PageHost<'a> {
@@ -83,5 +83,9 @@ impl Host for PageHost<'_> {
 
     fn seconds(&self) -> Option<f64> {
         self.process.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.process.clock()
     }
 }

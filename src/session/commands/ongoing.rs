@@ -131,8 +131,8 @@ impl Session {
         to: Option<Point>,
         host: &mut dyn Host,
     ) -> Result<Flow, Diagnostic> {
-        let wish = host.wish_to_stop();
         let mut command = self.command(host);
+        let wish = command.deadline.wish(command.host);
         let before = ongoing.len();
         let step = interrupt::listening(wish, || command.step_on(ongoing, to));
         if !matches!(step, Ok(Ok(_))) {
@@ -141,6 +141,7 @@ impl Session {
         }
         step.unwrap_or_else(|_| {
             command.state.solver.begin_anew();
+            command.hold_time(NOWHERE)?;
             Ok(Flow::Stopped)
         })
     }

@@ -59,7 +59,7 @@ impl Execution<'_> {
             if is_told {
                 self.host.progress(passage.n_passed as f64 / n as f64);
             }
-            if self.host.is_interrupted() {
+            if self.is_to_stop() {
                 flow = Flow::Stopped;
             } else if pace.is_due() && n - passage.n_passed > 1 {
                 let n_at_once = self.pass_at_once(&mut passage, n);
@@ -75,7 +75,7 @@ impl Execution<'_> {
                     Passed::Stopped => flow = Flow::Stopped,
                 }
             }
-            self.note(format!("stopped after {} of {n} frames", passage.n_passed));
+            self.note_stop(format!("stopped after {} of {n} frames", passage.n_passed));
             break;
         }
         if is_told {
