@@ -88,7 +88,7 @@ export class Playground {
     this.page.client.restart();
     await greeted;
     if (this.text === undefined) return;
-    this.text.box.value = script;
+    this.text.hold(script);
     await this.text.run(true);
     document.title = name === undefined ? "linkwork" : `${name} – linkwork`;
   }

@@ -117,9 +117,9 @@ export class Stage {
   }
 
   private takeDrawing(): void {
-    const { drawing, classes } = this.client;
+    const { drawing } = this.client;
     if (drawing === undefined) return;
-    this.painter = new Painter(drawing, classes, this.theme.alarm, this.theme.isDark);
+    this.painter = new Painter(drawing, this.theme.alarm, this.theme.isDark);
     if (!this.isFitted && drawing.bounds !== null) {
       this.isFitted = true;
       this.fit();
@@ -137,7 +137,7 @@ export class Stage {
 
   private paint(): void {
     const { context, camera, client, painter } = this;
-    const { frame, classes } = client;
+    const { frame } = client;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.globalAlpha = 1;
     context.fillStyle = this.theme.paper;
@@ -149,7 +149,7 @@ export class Stage {
       context.lineJoin = "round";
       if (painter.hasGhosts) painter.paintGhosts(context, camera);
       painter.paintBelow(context, camera, frame, this.red);
-      const paths = this.traces.draw(client.traces, camera, classes, this.theme.isDark);
+      const paths = this.traces.draw(client.traces, camera, this.theme.isDark);
       if (paths !== undefined) {
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.globalAlpha = 1;

@@ -5,9 +5,6 @@ import { onPaper } from "./dark.ts";
 
 /** The least size of letters, px. */
 const LEAST_LETTER = 12;
-/** Below half a px a line is a shade of grey. */
-const LEAST_WIDTH = 0.5;
-
 /** What is set before a shape is drawn. */
 export interface Brush {
   readonly fill: string | undefined;
@@ -17,6 +14,7 @@ export interface Brush {
   readonly opacity: number;
   /** Of letters, px. */
   readonly size: number;
+  readonly rule: CanvasFillRule;
 }
 
 /** Colours of what does not hold: its edges, and what lies within. */
@@ -25,16 +23,17 @@ export interface Alarm {
   readonly inside: string;
 }
 
-export function brush(look: Look, mark: number, isDark: boolean): Brush {
+export function brush(look: Look, isDark: boolean): Brush {
   const colour = (name: string | null): string | undefined =>
     name === null || name === "none" ? undefined : onPaper(name, isDark);
   return {
     fill: colour(look.fill),
     stroke: colour(look.stroke),
-    width: look.size === undefined ? Math.max(look.width * mark, LEAST_WIDTH) : look.width,
-    dash: look.dash.map((length) => length * mark),
+    width: look.width,
+    dash: look.dash,
     opacity: look.opacity,
-    size: Math.max((look.size ?? 0) * mark, LEAST_LETTER),
+    size: Math.max(look.size ?? 0, LEAST_LETTER),
+    rule: look.evenodd ? "evenodd" : "nonzero",
   };
 }
 

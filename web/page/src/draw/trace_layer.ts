@@ -1,12 +1,17 @@
 //! A layer for paths: what is there stays, and what is new is added.
 
 import type { Camera } from "../camera.ts";
-import type { Look } from "../engine/protocol.ts";
 import type { Trace, Traces } from "../engine/traces.ts";
-import { brush } from "./brush.ts";
+import { onPaper } from "./dark.ts";
 
 /** Samples closer than this on the canvas are one, px. */
 const CLOSE = 0.4;
+
+interface Look {
+  readonly stroke: string;
+  readonly width: number;
+  readonly opacity: number;
+}
 
 /** How far a path has been drawn. */
 interface Progress {
@@ -22,12 +27,7 @@ export class TraceLayer {
   private progress: Progress[] = [];
 
   /** The layer with all paths on it; none if there are none. */
-  draw(
-    traces: Traces,
-    camera: Camera,
-    classes: Readonly<Record<string, Look>>,
-    isDark: boolean,
-  ): HTMLCanvasElement | undefined {
+  draw(traces: Traces, camera: Camera, isDark: boolean): HTMLCanvasElement | undefined {
     const { context } = this;
     if (context === null || traces.list.length === 0) {
       this.progress = [];
@@ -35,11 +35,8 @@ export class TraceLayer {
     }
     if (!this.isContinued(traces, camera, isDark)) this.begin(context, camera, isDark);
     for (const [k, trace] of traces.list.entries()) {
-      const look = classes[trace.class];
-      const plain = look ?? { fill: null, stroke: "", width: 1.7, dash: [], opacity: 1 };
-      const colour = { ...plain, stroke: trace.colour };
-      const { stroke, width, opacity } = brush(colour, 1, isDark);
-      context.strokeStyle = stroke ?? "";
+      const { stroke, width, opacity } = lookOf(trace, isDark);
+      context.strokeStyle = stroke;
       context.lineWidth = width;
       context.globalAlpha = opacity;
       const nDrawn = this.progress[k]?.nSamples ?? 0;
@@ -71,6 +68,13 @@ export class TraceLayer {
     context.lineJoin = "round";
     context.lineCap = "round";
   }
+}
+
+/** Paths that cover much of the page are fine, those that are drawn over are faint. */
+function lookOf({ class: name, colour }: Trace, isDark: boolean): Look {
+  const stroke = onPaper(colour, isDark);
+  if (name.startsWith("fine")) return { stroke, width: 0.9, opacity: 0.85 };
+  return { stroke, width: 1.7, opacity: name.startsWith("faint") ? 0.25 : 1 };
 }
 
 /** Draws a path from a sample on; dotted where frames missed their tolerance. */

@@ -11,7 +11,6 @@ import {
   type FileAnswer,
   type Frame,
   type Hello,
-  type Look,
   type Message,
   type Off,
   PROTOCOL,
@@ -22,6 +21,29 @@ import {
   topologyOf,
 } from "./protocol.ts";
 import { Traces } from "./traces.ts";
+
+/** What is known of an engine that has said nothing. */
+const NOTHING: State = {
+  time: 0,
+  frame: 0,
+  dt: 0,
+  playing: false,
+  speed: 1,
+  held: null,
+  points: [],
+  constraints: [],
+  motors: [],
+  parameters: [],
+  settings: [],
+  freedoms: null,
+  sound: null,
+  check: null,
+  receipt: null,
+  unlisted: 0,
+  undo: null,
+  redo: null,
+  traced: [],
+};
 
 /** A message may have 4 KiB; so many letters fit whatever they are. */
 const PIECE = 600;
@@ -54,8 +76,6 @@ export class Client {
   hello: Hello | undefined;
   state: State | undefined;
   off: readonly Off[] = [];
-  classes: Readonly<Record<string, Look>> = {};
-  paper = "#ffffff";
   drawing: Drawing | undefined;
   frame: Frame | undefined;
   readonly traces = new Traces();
@@ -188,11 +208,14 @@ export class Client {
     this.hearPicture(message);
     if (message.hello !== undefined) {
       this.hello = message.hello;
+      this.state = undefined;
+      this.off = [];
+      this.traces.list.length = 0;
       this.greeted.tell(message.hello);
     }
     if (message.state !== undefined) {
-      this.state = message.state;
-      this.stated.tell(message.state);
+      this.state = { ...(this.state ?? NOTHING), ...message.state };
+      this.stated.tell(this.state);
     }
     if (message.off !== undefined) {
       this.off = message.off;
@@ -206,10 +229,6 @@ export class Client {
   }
 
   private hearPicture(message: Message): void {
-    if (message.classes !== undefined) {
-      this.classes = message.classes;
-      this.paper = message.paper ?? this.paper;
-    }
     if (message.drawing !== undefined) {
       this.drawing = message.drawing;
       this.frame = undefined;

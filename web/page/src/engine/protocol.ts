@@ -61,7 +61,6 @@ export interface PointState {
   readonly handle: number;
   readonly name: string;
   readonly frozen: boolean;
-  readonly used: readonly string[];
 }
 
 export interface ConstraintState {
@@ -93,6 +92,10 @@ export interface ParameterState {
 export interface SettingState {
   readonly name: string;
   readonly text: string;
+  /** The words that it takes, if it takes words. */
+  readonly words: readonly string[];
+  /** What it is, in a sentence. */
+  readonly what: string;
 }
 
 /** All that changes with statements and not with frames. */
@@ -109,9 +112,12 @@ export interface State {
   readonly parameters: readonly ParameterState[];
   readonly settings: readonly SettingState[];
   readonly freedoms: number | null;
-  readonly verdict: string | null;
+  /** Whether all is as it should be, where that is known. */
+  readonly sound: boolean | null;
   readonly check: readonly string[] | null;
-  readonly receipt: readonly string[] | null;
+  readonly receipt: string | null;
+  /** How many points and constraints are not listed because there are too many. */
+  readonly unlisted: number;
   /** The statements that `undo` and `redo` would take. */
   readonly undo: string | null;
   readonly redo: string | null;
@@ -127,14 +133,16 @@ export interface Off {
   readonly shown: string;
 }
 
-/** How a class of shapes is drawn; px at full size. */
+/** How a class of shapes is drawn; px. */
 export interface Look {
   readonly fill: string | null;
   readonly stroke: string | null;
   readonly width: number;
   readonly dash: readonly number[];
   readonly opacity: number;
-  readonly size?: number;
+  /** Of letters. */
+  readonly size: number | null;
+  readonly evenodd: boolean;
 }
 
 /** One outline in one style. */
@@ -164,6 +172,8 @@ export interface Drawing {
   readonly scale: number;
   readonly centre: readonly [number, number];
   readonly mark: number;
+  /** How its classes are drawn. */
+  readonly classes: Readonly<Record<string, Look>>;
   readonly bounds: readonly [number, number, number, number] | null;
   /** How many handles there are. */
   readonly points: number;
@@ -201,9 +211,8 @@ export interface Hello {
 export interface Message {
   readonly answer?: number;
   readonly hello?: Hello;
-  readonly classes?: Readonly<Record<string, Look>>;
-  readonly paper?: string;
-  readonly state?: State;
+  /** What of it has changed. */
+  readonly state?: Partial<State>;
   readonly off?: readonly Off[];
   readonly drawing?: Drawing;
   readonly shapes?: {
