@@ -335,6 +335,34 @@ test("all can be done by keys", async (t) => {
   await s.written(page, /^point K/);
 });
 
+test("fingers drag a point, two of them move the view", async (t) => {
+  const session = await s.session(t, ARM);
+  const page = await s.openAt(t, session.address);
+  const touch = await page.context().newCDPSession(page);
+  const fingers = (type, ...touchPoints) =>
+    touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+  const { x, y } = await s.screen(page, { x: 3, y: 1 });
+  // Beside the point, as fingers are.
+  await fingers("touchStart", { x: x + 14, y: y + 10, id: 1 });
+  for (let k = 1; k <= 6; k++) await fingers("touchMove", { x: x - 10 * k, y: y - 5 * k, id: 1 });
+  await fingers("touchEnd");
+  await s.written(page, /^pull C/);
+  const before = await page.evaluate(() => window.painted.scale);
+  await fingers("touchStart", { x: 300, y: 500, id: 1 }, { x: 400, y: 500, id: 2 });
+  for (let k = 1; k <= 5; k++) {
+    await fingers(
+      "touchMove",
+      { x: 300 - 10 * k, y: 500, id: 1 },
+      { x: 400 + 10 * k, y: 500, id: 2 },
+    );
+  }
+  await fingers("touchEnd");
+  await s.until(async () => {
+    const ratio = (await page.evaluate(() => window.painted.scale)) / before;
+    return Math.abs(ratio - 2) < 0.05;
+  }, "fingers twice as far apart make it twice as large");
+});
+
 test("the box completes", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);

@@ -2,6 +2,7 @@
 
 import { Signal } from "../signal.ts";
 import type { Carrier, Standing } from "./carrier.ts";
+import { pieces } from "./pieces.ts";
 import {
   type Answer,
   type Completion,
@@ -44,22 +45,6 @@ const NOTHING: State = {
   redo: null,
   traced: [],
 };
-
-/** A message may have 4 KiB; so many letters fit whatever they are. */
-const PIECE = 600;
-
-/** A text in pieces that fit into messages. */
-function pieces(text: string): string[] {
-  const parts: string[] = [];
-  for (let from = 0; from < text.length || parts.length === 0; ) {
-    let to = Math.min(from + PIECE, text.length);
-    // A letter of two units stays whole.
-    if (to < text.length && (text.charCodeAt(to - 1) & 0xfc00) === 0xd800) to -= 1;
-    parts.push(text.slice(from, to));
-    from = Math.max(to, from + 1);
-  }
-  return parts;
-}
 
 export class Client {
   readonly standing = new Signal<Standing>();

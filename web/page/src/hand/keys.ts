@@ -130,7 +130,7 @@ export class Keys {
   }
 
   private withChosen(act: (handle: number) => void): void {
-    if (this.chosen !== undefined && pointOf(this.page.client.state, this.chosen)) act(this.chosen);
+    if (this.chosen !== undefined && pointOf(this.page.client, this.chosen)) act(this.chosen);
     else this.reach.speak("No point is chosen: . and , go from one to the next.");
   }
 
@@ -167,12 +167,12 @@ export class Keys {
 
   private trace(handle: number): void {
     const { state } = this.page.client;
-    const name = pointOf(state, handle)?.name ?? "";
+    const name = pointOf(this.page.client, handle)?.name ?? "";
     void this.page.do(`${state?.traced.includes(handle) === true ? "untrace" : "trace"} ${name}`);
   }
 
   private remove(handle: number): void {
-    const name = pointOf(this.page.client.state, handle)?.name ?? "";
+    const name = pointOf(this.page.client, handle)?.name ?? "";
     this.chosen = undefined;
     this.page.stage.overlay = {};
     void this.page.do(`delete ${name} cascade`);
