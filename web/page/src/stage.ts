@@ -119,7 +119,7 @@ export class Stage {
   private takeDrawing(): void {
     const { drawing } = this.client;
     if (drawing === undefined) return;
-    this.painter = new Painter(drawing, this.theme.alarm, this.theme.isDark);
+    this.painter = new Painter(drawing, this.client.classes, this.theme.alarm, this.theme.isDark);
     if (!this.isFitted && drawing.bounds !== null) {
       this.isFitted = true;
       this.fit();
@@ -149,7 +149,12 @@ export class Stage {
       context.lineJoin = "round";
       if (painter.hasGhosts) painter.paintGhosts(context, camera);
       painter.paintBelow(context, camera, frame, this.red);
-      const paths = this.traces.draw(client.traces, camera, this.theme.isDark);
+      const paths = this.traces.draw(
+        client.traces,
+        camera,
+        client.drawing?.mark ?? 1,
+        this.theme.isDark,
+      );
       if (paths !== undefined) {
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.globalAlpha = 1;

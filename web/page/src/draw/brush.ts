@@ -5,6 +5,9 @@ import { onPaper } from "./dark.ts";
 
 /** The least size of letters, px. */
 const LEAST_LETTER = 12;
+/** Below half a px a line is a shade of grey. */
+const LEAST_WIDTH = 0.5;
+
 /** What is set before a shape is drawn. */
 export interface Brush {
   readonly fill: string | undefined;
@@ -23,17 +26,17 @@ export interface Alarm {
   readonly inside: string;
 }
 
-export function brush(look: Look, isDark: boolean): Brush {
+export function brush(look: Look, mark: number, isDark: boolean): Brush {
   const colour = (name: string | null): string | undefined =>
     name === null || name === "none" ? undefined : onPaper(name, isDark);
   return {
     fill: colour(look.fill),
     stroke: colour(look.stroke),
-    width: look.width,
-    dash: look.dash,
+    width: Math.max(look.width * mark, LEAST_WIDTH),
+    dash: look.dash.map((length) => length * mark),
     opacity: look.opacity,
-    size: Math.max(look.size ?? 0, LEAST_LETTER),
-    rule: look.evenodd ? "evenodd" : "nonzero",
+    size: Math.max((look.size ?? 0) * mark, LEAST_LETTER),
+    rule: look.evenodd === true ? "evenodd" : "nonzero",
   };
 }
 

@@ -43,6 +43,7 @@ export class Painter {
 
   constructor(
     private readonly drawing: Drawing,
+    private readonly classes: Readonly<Record<string, Look>>,
     private readonly alarm: Alarm,
     private readonly isDark: boolean,
   ) {
@@ -201,8 +202,8 @@ export class Painter {
   private brush(name: string): Brush {
     let found = this.brushes.get(name);
     if (found === undefined) {
-      const look = this.drawing.classes[name] ?? PLAIN;
-      found = brush(look, this.isDark);
+      const look = this.classes[name] ?? PLAIN;
+      found = brush(look, this.drawing.mark, this.isDark);
       this.brushes.set(name, found);
     }
     return found;
@@ -210,12 +211,4 @@ export class Painter {
 }
 
 /** What a class looks like that the engine did not say. */
-const PLAIN: Look = {
-  fill: null,
-  stroke: "#273542",
-  width: 1,
-  dash: [],
-  opacity: 1,
-  size: null,
-  evenodd: false,
-};
+const PLAIN: Look = { fill: null, stroke: "#273542", width: 1, dash: [], opacity: 1 };

@@ -35,7 +35,7 @@ export class TraceLayer {
     }
     if (!this.isContinued(traces, camera, isDark)) this.begin(context, camera, isDark);
     for (const [k, trace] of traces.list.entries()) {
-      const { stroke, width, opacity } = lookOf(trace, isDark);
+      const { stroke, width, opacity } = lookOf(trace, mark, isDark);
       context.strokeStyle = stroke;
       context.lineWidth = width;
       context.globalAlpha = opacity;
@@ -71,10 +71,10 @@ export class TraceLayer {
 }
 
 /** Paths that cover much of the page are fine, those that are drawn over are faint. */
-function lookOf({ class: name, colour }: Trace, isDark: boolean): Look {
+function lookOf({ class: name, colour }: Trace, mark: number, isDark: boolean): Look {
   const stroke = onPaper(colour, isDark);
-  if (name.startsWith("fine")) return { stroke, width: 0.9, opacity: 0.85 };
-  return { stroke, width: 1.7, opacity: name.startsWith("faint") ? 0.25 : 1 };
+  if (name.startsWith("fine")) return { stroke, width: Math.max(0.9 * mark, 0.5), opacity: 0.85 };
+  return { stroke, width: Math.max(1.7 * mark, 0.5), opacity: name.startsWith("faint") ? 0.25 : 1 };
 }
 
 /** Draws a path from a sample on; dotted where frames missed their tolerance. */

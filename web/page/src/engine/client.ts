@@ -12,6 +12,7 @@ import {
   type FileAnswer,
   type Frame,
   type Hello,
+  type Look,
   type Message,
   type Off,
   PROTOCOL,
@@ -38,6 +39,7 @@ const NOTHING: State = {
   settings: [],
   freedoms: null,
   sound: null,
+  verdict: null,
   check: null,
   receipt: null,
   unlisted: 0,
@@ -61,6 +63,7 @@ export class Client {
   hello: Hello | undefined;
   state: State | undefined;
   off: readonly Off[] = [];
+  classes: Readonly<Record<string, Look>> = {};
   drawing: Drawing | undefined;
   frame: Frame | undefined;
   readonly traces = new Traces();
@@ -214,6 +217,7 @@ export class Client {
   }
 
   private hearPicture(message: Message): void {
+    if (message.classes !== undefined) this.classes = message.classes;
     if (message.drawing !== undefined) {
       this.drawing = message.drawing;
       this.frame = undefined;

@@ -114,8 +114,9 @@ export interface State {
   readonly freedoms: number | null;
   /** Whether all is as it should be, where that is known. */
   readonly sound: boolean | null;
+  readonly verdict: string | null;
   readonly check: readonly string[] | null;
-  readonly receipt: string | null;
+  readonly receipt: readonly string[] | null;
   /** How many points and constraints are not listed because there are too many. */
   readonly unlisted: number;
   /** The statements that `undo` and `redo` would take. */
@@ -133,7 +134,7 @@ export interface Off {
   readonly shown: string;
 }
 
-/** How a class of shapes is drawn; px. */
+/** How a class of shapes is drawn; px where marks have their full size. */
 export interface Look {
   readonly fill: string | null;
   readonly stroke: string | null;
@@ -141,8 +142,8 @@ export interface Look {
   readonly dash: readonly number[];
   readonly opacity: number;
   /** Of letters. */
-  readonly size: number | null;
-  readonly evenodd: boolean;
+  readonly size?: number | null;
+  readonly evenodd?: boolean;
 }
 
 /** One outline in one style. */
@@ -171,9 +172,8 @@ export interface Drawing {
   /** px a unit of the plane. */
   readonly scale: number;
   readonly centre: readonly [number, number];
+  /** How large marks and strokes are, at most 1. */
   readonly mark: number;
-  /** How its classes are drawn. */
-  readonly classes: Readonly<Record<string, Look>>;
   readonly bounds: readonly [number, number, number, number] | null;
   /** How many handles there are. */
   readonly points: number;
@@ -211,7 +211,8 @@ export interface Hello {
 export interface Message {
   readonly answer?: number;
   readonly hello?: Hello;
-  /** What of it has changed. */
+  /** How the classes of the next drawing are drawn. */
+  readonly classes?: Readonly<Record<string, Look>>;
   readonly state?: Partial<State>;
   readonly off?: readonly Off[];
   readonly drawing?: Drawing;

@@ -140,7 +140,7 @@ function pose(page: Page): HTMLElement {
   };
   const showLines = (state: State): void => {
     showFacts();
-    const texts = [...(state.check ?? []), state.receipt];
+    const texts = [state.verdict, ...(state.check ?? []), ...(state.receipt ?? [])];
     const seen = new Set(texts.filter((text) => text !== null && text !== ""));
     replace(lines, ...[...seen].map((text) => h("p", { class: "quiet" }, text)));
   };
