@@ -23,17 +23,23 @@ export class TraceLayer {
   private readonly canvas = document.createElement("canvas");
   private readonly context = this.canvas.getContext("2d");
   private camera: Camera | undefined;
-  private theme = "";
+  private look = "";
   private progress: Progress[] = [];
 
   /** The layer with all paths on it; none if there are none. */
-  draw(traces: Traces, camera: Camera, isDark: boolean): HTMLCanvasElement | undefined {
+  draw(
+    traces: Traces,
+    camera: Camera,
+    mark: number,
+    isDark: boolean,
+  ): HTMLCanvasElement | undefined {
     const { context } = this;
     if (context === null || traces.list.length === 0) {
       this.progress = [];
       return undefined;
     }
-    if (!this.isContinued(traces, camera, isDark)) this.begin(context, camera, isDark);
+    const look = `${mark} ${isDark}`;
+    if (!this.isContinued(traces, camera, look)) this.begin(context, camera, look);
     for (const [k, trace] of traces.list.entries()) {
       const { stroke, width, opacity } = lookOf(trace, mark, isDark);
       context.strokeStyle = stroke;
@@ -46,10 +52,10 @@ export class TraceLayer {
     return this.canvas;
   }
 
-  private isContinued(traces: Traces, camera: Camera, isDark: boolean): boolean {
+  private isContinued(traces: Traces, camera: Camera, look: string): boolean {
     return (
       this.camera?.equals(camera) === true &&
-      this.theme === String(isDark) &&
+      this.look === look &&
       this.progress.length <= traces.list.length &&
       this.progress.every(({ version, nSamples }, k) => {
         const trace = traces.list[k];
@@ -58,9 +64,9 @@ export class TraceLayer {
     );
   }
 
-  private begin(context: CanvasRenderingContext2D, camera: Camera, isDark: boolean): void {
+  private begin(context: CanvasRenderingContext2D, camera: Camera, look: string): void {
     this.camera = camera;
-    this.theme = String(isDark);
+    this.look = look;
     this.progress = [];
     this.canvas.width = Math.round(camera.width * camera.density);
     this.canvas.height = Math.round(camera.height * camera.density);
