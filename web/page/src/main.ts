@@ -85,9 +85,7 @@ function tabs(app: HTMLElement): void {
   const choose = (chosen: string): void => {
     app.dataset.tab = chosen;
     for (const [k, button] of buttons.entries()) {
-      const isChosen = TABS[k]?.[0] === chosen;
-      button.setAttribute("aria-selected", String(isChosen));
-      button.setAttribute("aria-pressed", String(isChosen));
+      button.setAttribute("aria-selected", String(TABS[k]?.[0] === chosen));
     }
   };
   put(byId("tabs"), ...buttons);

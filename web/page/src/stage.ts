@@ -76,6 +76,13 @@ export class Stage {
     this.look(box === undefined ? this.camera : this.camera.fitted(box));
   }
 
+  /** What is drawn by hand stays where the hand is: the view is not fitted to it. */
+  stay(): void {
+    if (this.isFitted) return;
+    this.isFitted = true;
+    this.client.view(this.camera.scale);
+  }
+
   /** Shows the plane through another camera. */
   look(camera: Camera): void {
     const isSameScale = camera.scale === this.camera.scale;

@@ -42,6 +42,7 @@ class Writer {
   }
 
   write(): void {
+    this.page.stage.stay();
     void this.page.do(this.statements.join("; "));
   }
 }

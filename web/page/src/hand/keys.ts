@@ -81,12 +81,14 @@ export class Keys {
       return;
     }
     if (event.altKey || isTyping(target, event.key)) return;
+    // With or without Shift or a lock of capitals.
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const isOnCanvas = target === this.page.stage.canvas;
-    const arrow = isOnCanvas ? ARROWS.get(event.key) : undefined;
+    const arrow = isOnCanvas ? ARROWS.get(key) : undefined;
     const act =
       (arrow && (() => this.nudge(arrow, event.shiftKey))) ??
-      (isOnCanvas ? this.onCanvas.get(event.key) : undefined) ??
-      this.anywhere.get(event.key);
+      (isOnCanvas ? this.onCanvas.get(key) : undefined) ??
+      this.anywhere.get(key);
     if (act === undefined) return;
     event.preventDefault();
     act();
