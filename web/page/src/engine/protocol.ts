@@ -1,4 +1,4 @@
-//! What the page and an engine tell one another; `docs/view.md` describes it for other clients.
+//! What the page and an engine tell one another; `docs/protocol.md` describes it for other clients.
 
 /** The protocol that this page speaks. */
 export const PROTOCOL = 1;
