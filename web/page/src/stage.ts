@@ -5,7 +5,7 @@ import { drawOverlay, type Overlay } from "./draw/overlay.ts";
 import { Painter } from "./draw/painter.ts";
 import { TraceLayer } from "./draw/trace_layer.ts";
 import type { Client } from "./engine/client.ts";
-import type { Frame } from "./engine/protocol.ts";
+import type { Frame, Shape } from "./engine/protocol.ts";
 import { Signal } from "./signal.ts";
 import type { Theme } from "./theme.ts";
 
@@ -26,6 +26,9 @@ export class Stage {
 
   private readonly context: CanvasRenderingContext2D;
   private painter: Painter | undefined;
+  /** What the next frame is painted with: the one before is seen until that comes. */
+  private next: Painter | undefined;
+  private readonly reshaped: (readonly [number, readonly Shape[]])[] = [];
   private readonly traces = new TraceLayer();
   private isStale = true;
   private isFitted = false;
@@ -46,16 +49,18 @@ export class Stage {
       this.isFitted = false;
     });
     client.drawn.listen(() => this.takeDrawing());
-    client.reshaped.listen((figures) => {
-      for (const [idx, shapes] of figures) this.painter?.reshape(idx, shapes);
-    });
+    client.reshaped.listen((figures) => this.reshaped.push(...figures));
+    client.standing.listen(() => this.clear());
     client.moved.listen(() => this.takeFrame());
     client.traced.listen(() => this.refresh());
     client.missed.listen((off) => {
       this.red = new Set(off.map(({ constraint }) => constraint));
       this.refresh();
     });
-    theme.changed.listen(() => this.takeDrawing());
+    theme.changed.listen(() => {
+      this.takeDrawing();
+      this.takeFrame();
+    });
     const show = (now: number): void => {
       this.beat.tell(now);
       if (this.isStale) this.paint();
@@ -126,17 +131,26 @@ export class Stage {
   private takeDrawing(): void {
     const { drawing } = this.client;
     if (drawing === undefined) return;
-    this.painter = new Painter(drawing, this.client.classes, this.theme.alarm, this.theme.isDark);
+    this.next = new Painter(drawing, this.client.classes, this.theme.alarm, this.theme.isDark);
+    this.reshaped.length = 0;
     if (!this.isFitted && drawing.bounds !== null) {
       this.isFitted = true;
       this.fit();
       this.client.view(this.camera.scale);
     }
+  }
+
+  private clear(): void {
+    this.painter = undefined;
+    this.next = undefined;
     this.refresh();
   }
 
   /** A frame while something is held is painted at once; others when the display asks. */
   private takeFrame(): void {
+    this.painter = this.next ?? this.painter;
+    this.next = undefined;
+    for (const [idx, shapes] of this.reshaped.splice(0)) this.painter?.reshape(idx, shapes);
     this.refresh();
     const isHeld = this.overlay.held !== undefined;
     if (isHeld && performance.now() - this.lastPainted > YOUNG) this.paint();

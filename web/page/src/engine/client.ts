@@ -220,16 +220,23 @@ export class Client {
     if (message.classes !== undefined) this.classes = message.classes;
     if (message.drawing !== undefined) {
       this.drawing = message.drawing;
-      this.frame = undefined;
       this.drawn.tell(message.drawing);
     }
-    if (message.shapes !== undefined && message.shapes.topology === this.drawing?.topology) {
-      this.reshaped.tell(message.shapes.figures);
-    }
+    if (message.shapes !== undefined) this.reshape(message.shapes);
     if (message.traces !== undefined) {
       this.traces.update(message.traces, message.n);
       this.traced.tell();
     }
+  }
+
+  private reshape({ topology, figures }: NonNullable<Message["shapes"]>): void {
+    const { drawing } = this;
+    if (topology !== drawing?.topology) return;
+    for (const [idx, shapes] of figures) {
+      const figure = drawing.figures[idx];
+      if (figure !== undefined) drawing.figures[idx] = { ...figure, shapes };
+    }
+    this.reshaped.tell(figures);
   }
 
   private see(buffer: ArrayBuffer): void {

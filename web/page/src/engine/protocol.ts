@@ -177,7 +177,8 @@ export interface Drawing {
   readonly bounds: readonly [number, number, number, number] | null;
   /** How many handles there are. */
   readonly points: number;
-  readonly figures: readonly Figure[];
+  /** From the bottom up; one that changes its form is replaced. */
+  readonly figures: Figure[];
   readonly ghosts?: readonly { readonly opacity: number; readonly figures: readonly Figure[] }[];
 }
 
