@@ -234,17 +234,15 @@ test("a page that does not look holds nobody up", async (t) => {
 
 test("a lost connection says so and comes back", async (t) => {
   const cwd = s.folder(t);
-  const session = await s.session(t, ARM, { cwd });
+  const args = ["--port", String(await s.freePort())];
+  const session = await s.session(t, ARM, { cwd, args });
   const page = await s.openAt(t, session.address);
-  const { port } = new URL(session.address);
   await session.stop();
-  await page
-    .locator("#connection")
-    .getByText(/trying to reach it again/)
-    .waitFor({ timeout: s.PATIENCE });
-  const again = await s.session(t, FOUR_BAR, { cwd, args: ["--port", port] });
-  assert.equal(again.address, session.address, "the address is the same");
-  await s.until(async () => (await page.textContent("#connection")) === "", "the page is back");
+  const notice = page.locator("#connection");
+  await notice.getByText(/trying to reach it again/).waitFor({ timeout: s.PATIENCE });
+  const again = await s.session(t, FOUR_BAR, { cwd, args });
+  assert.equal(again.address, session.address, "who says the port gets the same address again");
+  await s.until(async () => (await notice.textContent()) === "", "the page is back");
   await s.until(
     async () => (await page.evaluate(() => window.painted.at.length)) === 8,
     "it shows the new scene",
