@@ -4,6 +4,9 @@ import type { Camera } from "../camera.ts";
 import type { Trace, Traces } from "../engine/traces.ts";
 import { onPaper } from "./dark.ts";
 
+/** A path longer than this crosses itself many times over and is drawn finer, as in pictures, px. */
+const LONG = 6000;
+
 /** Samples closer than this on the canvas are one, px. */
 const CLOSE = 0.4;
 
@@ -15,9 +18,12 @@ interface Look {
 
 /** How far a path has been drawn. */
 interface Progress {
-  version: number;
-  nSamples: number;
+  readonly version: number;
+  readonly nSamples: number;
+  readonly isFine: boolean;
 }
+
+const isFine = (trace: Trace, camera: Camera): boolean => trace.length * camera.scale > LONG;
 
 export class TraceLayer {
   private readonly canvas = document.createElement("canvas");
@@ -41,13 +47,17 @@ export class TraceLayer {
     const look = `${mark} ${isDark}`;
     if (!this.isContinued(traces, camera, look)) this.begin(context, camera, look);
     for (const [k, trace] of traces.list.entries()) {
-      const { stroke, width, opacity } = lookOf(trace, mark, isDark);
+      const { stroke, width, opacity } = lookOf(trace, camera, mark, isDark);
       context.strokeStyle = stroke;
       context.lineWidth = width;
       context.globalAlpha = opacity;
       const nDrawn = this.progress[k]?.nSamples ?? 0;
       drawFrom(context, trace, Math.max(nDrawn - 1, 0), camera);
-      this.progress[k] = { version: trace.version, nSamples: trace.at.length / 2 };
+      this.progress[k] = {
+        version: trace.version,
+        nSamples: trace.at.length / 2,
+        isFine: isFine(trace, camera),
+      };
     }
     return this.canvas;
   }
@@ -57,9 +67,9 @@ export class TraceLayer {
       this.camera?.equals(camera) === true &&
       this.look === look &&
       this.progress.length <= traces.list.length &&
-      this.progress.every(({ version, nSamples }, k) => {
+      this.progress.every((drawn, k) => {
         const trace = traces.list[k];
-        return trace?.version === version && nSamples <= trace.at.length / 2;
+        return trace?.version === drawn.version && isFine(trace, camera) === drawn.isFine;
       })
     );
   }
@@ -76,11 +86,10 @@ export class TraceLayer {
   }
 }
 
-/** Paths that cover much of the page are fine, those that are drawn over are faint. */
-function lookOf({ class: name, colour }: Trace, mark: number, isDark: boolean): Look {
-  const stroke = onPaper(colour, isDark);
-  if (name.startsWith("fine")) return { stroke, width: Math.max(0.9 * mark, 0.5), opacity: 0.85 };
-  return { stroke, width: Math.max(1.7 * mark, 0.5), opacity: name.startsWith("faint") ? 0.25 : 1 };
+function lookOf(trace: Trace, camera: Camera, mark: number, isDark: boolean): Look {
+  const stroke = onPaper(trace.colour, isDark);
+  const [width, opacity] = isFine(trace, camera) ? [0.9, 0.85] : [1.7, 1];
+  return { stroke, width: Math.max(width * mark, 0.5), opacity };
 }
 
 /** Draws a path from a sample on; dotted where frames missed their tolerance. */

@@ -141,7 +141,9 @@ function pose(page: Page): HTMLElement {
   const showLines = (state: State): void => {
     showFacts();
     const texts = [state.verdict, ...(state.check ?? []), ...(state.receipt ?? [])];
-    const seen = new Set(texts.filter((text) => text !== null && text !== ""));
+    const isNews = (text: string | null): boolean =>
+      text !== null && text !== "" && !text.startsWith("degrees of freedom: ");
+    const seen = new Set(texts.filter(isNews));
     replace(lines, ...[...seen].map((text) => h("p", { class: "quiet" }, text)));
   };
   let shown = 0;
