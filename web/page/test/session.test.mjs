@@ -385,6 +385,28 @@ test("time passes, stands and goes back", async (t) => {
   await s.until(async () => (await page.evaluate(() => window.painted.time)) === 0, "time is 0");
 });
 
+test("what is dragged while time passes says how many frames went by", async (t) => {
+  const session = await s.session(t, FOUR_BAR);
+  const page = await s.openAt(t, session.address);
+  await page.click("#play");
+  await s.until(async () => (await page.evaluate(() => window.painted.time)) > 0, "time passes");
+  await s.drag(page, { x: 4, y: 0 }, { x: 4.2, y: 0.2 }, { x: 4.4, y: 0 });
+  const line = await s.written(page, /^drag D/);
+  await page.click("#play");
+  assert.match(line, / over [1-9]\d*$/);
+  await s.until(
+    async () => (await page.getAttribute("#play", "aria-label")) === "Play",
+    "time stands",
+  );
+  // What the journal says, frame for frame, comes to the same bits.
+  const lines = (await s.journal(page)).join("\n");
+  const saved = (await s.download(page, "script")).bytes;
+  writeFileSync(join(session.cwd, "again.link"), `${FOUR_BAR}${lines}\nsave "saved.link"\n`);
+  const { status, err } = s.run(["run", "again.link", "--out", session.cwd], session.cwd);
+  assert.equal(status, 0, err);
+  assert.equal(saved.toString(), readFileSync(join(session.cwd, "saved.link"), "utf8"));
+});
+
 test("a browser without sockets gets a sentence", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.open(t, session.address, { before: () => delete window.WebSocket });
