@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
@@ -36,17 +36,20 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "study",
         ],
     ),
+    ("live", &["diag", "lang", "constraint", "world", "render", "session"]),
     ("repl", &["lang", "session", "cli"]),
-    ("cli", &["diag", "errors", "lang", "solve", "render", "session", "repl"]),
+    ("cli", &["diag", "errors", "lang", "solve", "render", "session", "live", "repl"]),
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 19] = [
+const HOMES: [(&str, &[&str]); 22] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
     ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
+    ("getrandom", &["cli/view/token.rs"]),
+    ("httparse", &["cli/view/request.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("nix", &["cli/interrupt.rs"]),
@@ -56,11 +59,12 @@ const HOMES: [(&str, &[&str]); 19] = [
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("lsp_server", &["cli/language_server/"]),
-    ("serde_json", &["cli/language_server/", "session/json.rs"]),
+    ("serde_json", &["cli/language_server/", "live/", "session/json.rs"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
     ("terminal_size", &["cli/output.rs"]),
+    ("tungstenite", &["cli/view/"]),
 ];
 
 /// All that the library builds on without its features, where there is neither a thread nor a
@@ -137,6 +141,49 @@ fn a_foreign_crate_has_one_home() {
             let is_at_home = homes.iter().any(|home| path.starts_with(home));
             let is_named = code(&text).any(|line| names_crate(line, name));
             assert!(is_at_home || !is_named, "{path} names `{name}`, which lives in {homes:?}");
+        }
+    }
+}
+
+/// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
+/// comes down to what they do.
+const STANDING_BEFORE: [(&str, &[&str]); 2] = [
+    (
+        "session/silent.rs",
+        &[
+            "print_all",
+            "page",
+            "draw",
+            "n_printed",
+            "is_keeping",
+            "keep",
+            "forget_stop",
+            "opening",
+            "write_in_pieces",
+            "progress",
+        ],
+    ),
+    // It shows no answer page by page.
+    ("cli/watch.rs", &["print_all"]),
+];
+
+#[test]
+fn who_stands_before_a_host_passes_on_all_it_can_do() {
+    let sources = sources();
+    let text = |wanted: &str| {
+        let found = sources.iter().find(|source| source.path == wanted);
+        &*found.unwrap_or_else(|| panic!("no {wanted}")).text
+    };
+    let (_, host) = text("session/host.rs").split_once("pub trait Host {").expect("the trait");
+    let (host, _) = host.split_once("\n}\n").expect("its end");
+    let methods: Vec<&str> =
+        host.lines().filter_map(|line| line.strip_prefix("    fn ")?.split('(').next()).collect();
+    assert!(methods.len() > 15, "{methods:?}");
+    for (path, others) in STANDING_BEFORE {
+        for method in &methods {
+            let is_passed_on = text(path).contains(&format!("    fn {method}("));
+            let is_left = others.contains(method);
+            assert!(is_passed_on != is_left, "{path}: `{method}`, passed on: {is_passed_on}");
         }
     }
 }
