@@ -346,12 +346,12 @@ test("fingers drag a point, two of them move the view", async (t) => {
   await fingers("touchEnd");
   await s.written(page, /^pull C/);
   const before = await page.evaluate(() => window.painted.scale);
-  await fingers("touchStart", { x: 300, y: 500, id: 1 }, { x: 400, y: 500, id: 2 });
+  await fingers("touchStart", { x: 300, y: 420, id: 1 }, { x: 400, y: 420, id: 2 });
   for (let k = 1; k <= 5; k++) {
     await fingers(
       "touchMove",
-      { x: 300 - 10 * k, y: 500, id: 1 },
-      { x: 400 + 10 * k, y: 500, id: 2 },
+      { x: 300 - 10 * k, y: 420, id: 1 },
+      { x: 400 + 10 * k, y: 420, id: 2 },
     );
   }
   await fingers("touchEnd");
