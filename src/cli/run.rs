@@ -300,7 +300,7 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if !host.no_init {
         init::run(session, process);
     }
-    kept(session, process, host, |session, process| crate::repl::converse(session, process));
+    kept(session, process, host, crate::repl::converse);
 }
 
 /// A conversation of which a journal is kept, unless the user wants none: each statement is written down

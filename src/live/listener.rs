@@ -133,6 +133,10 @@ impl Host for Listener<'_> {
         self.inner.spool()
     }
 
+    fn view(&mut self) -> io::Result<String> {
+        self.inner.view()
+    }
+
     fn seconds(&self) -> Option<f64> {
         self.inner.seconds()
     }

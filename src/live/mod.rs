@@ -1,6 +1,6 @@
 //! A session that pages look at and take hold of.
 //!
-//! A page sends messages, texts of JSON, and gets messages, texts and frames; `docs/view.md` says
+//! A page sends messages, texts of JSON, and gets messages, texts and frames; `docs/protocol.md` says
 //! which. What carries them, a socket or a worker with the library in it, is the same to a [`Live`]:
 //! it knows neither clocks nor files nor threads, and is lent the session with each message.
 //!
@@ -170,6 +170,9 @@ impl Live {
             Err(problem) => return self.say(client, &json!({ "refused": problem })),
         };
         let answer = self.grant(client, request.wish, session, host);
+        // What an answer speaks of stands in the journal by then.
+        self.note_journal(session, PAGE);
+        self.tell_journal();
         if let (Some(id), Some(mut answer)) = (request.id, answer) {
             answer["answer"] = id;
             self.say(client, &answer);

@@ -83,11 +83,17 @@ impl Page {
     }
 
     /// What lies in `bounds` at a scale of its own, without a page around it: places are px from the
-    /// middle. A scale that is none, or where nothing fits, is that of the page that shows all.
+    /// origin, or from the middle of what lies too far from there. A scale that is none is that of the
+    /// page that shows all.
     pub fn at_scale(bounds: &BoundingBox, scale: Option<f64>) -> Self {
+        /// px that single precision tells apart to a hundredth.
+        const FAR: f64 = 1e5;
         let fitted = Self::fit(bounds);
         let scale = scale.filter(|scale| scale.is_normal() && *scale > 0.0);
-        Self { scale: scale.unwrap_or(fitted.scale), width: 0.0, height: 0.0, ..fitted }
+        let scale = scale.unwrap_or(fitted.scale);
+        let is_near = fitted.centre.to_vector().norm() * scale < FAR;
+        let centre = if is_near { Point::ORIGIN } else { fitted.centre };
+        Self { scale, centre, width: 0.0, height: 0.0, ..fitted }
     }
 
     /// The same page with marks and strokes in proportion to bars of `typical` length, world

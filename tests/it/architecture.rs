@@ -147,7 +147,7 @@ fn a_foreign_crate_has_one_home() {
 
 /// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
 /// comes down to what they do.
-const STANDING_BEFORE: [(&str, &[&str]); 2] = [
+const STANDING_BEFORE: [(&str, &[&str]); 4] = [
     (
         "session/silent.rs",
         &[
@@ -160,11 +160,15 @@ const STANDING_BEFORE: [(&str, &[&str]); 2] = [
             "forget_stop",
             "opening",
             "write_in_pieces",
+            "view",
             "progress",
         ],
     ),
-    // It shows no answer page by page.
-    ("cli/watch.rs", &["print_all"]),
+    // It shows no answer page by page, and no page.
+    ("cli/watch.rs", &["print_all", "view"]),
+    // Lines are all that a page shows.
+    ("live/listener.rs", &["print_all", "page", "draw", "is_listening", "progress"]),
+    ("cli/view/host.rs", &["print_all", "page", "draw", "n_printed", "is_listening", "progress"]),
 ];
 
 #[test]

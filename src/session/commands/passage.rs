@@ -62,7 +62,7 @@ impl Execution<'_> {
             if self.is_to_stop() {
                 flow = Flow::Stopped;
             } else if pace.is_due() && n - passage.n_passed > 1 {
-                let n_at_once = self.pass_at_once(&mut passage, n);
+                let n_at_once = self.pass_at_once(&mut passage, n)?;
                 pace.note(n_at_once);
                 if n_at_once > 0 {
                     continue;
@@ -101,6 +101,7 @@ impl Execution<'_> {
         let settings = self.state.preferences.solve;
         let mut summary = self.run.take().unwrap_or(Summary::new());
         summary.begin(&settings, limits.tolerance.unwrap_or(settings.tolerance));
+        self.begin_measures()?;
         Ok(Passage {
             span,
             limits,
@@ -108,6 +109,7 @@ impl Execution<'_> {
             n_missed_before: summary.n_missed,
             n_passed: 0,
             leaves_nothing: self.state.world.traces().is_empty()
+                && !self.state.world.has_measures()
                 && self.state.recorders.is_empty()
                 && self.state.preferences.expose_every.is_none(),
             way_back: None,
@@ -118,15 +120,15 @@ impl Execution<'_> {
     }
 
     /// Lets frames pass at once up to the `n`th, as far as that goes; gives how many did.
-    fn pass_at_once(&mut self, passage: &mut Passage, n: u64) -> u64 {
+    fn pass_at_once(&mut self, passage: &mut Passage, n: u64) -> Result<u64, Diagnostic> {
         let known_error = passage.summary.error_on_the_way;
-        let stretch = self.stretch(n - passage.n_passed, &passage.limits, known_error);
+        let stretch = self.stretch(n - passage.n_passed, &passage.limits, known_error)?;
         if stretch.n_frames > 0 {
             passage.n_passed += stretch.n_frames;
             passage.summary.add_stretch(&stretch, passage.span);
             passage.last = Status::Converged;
         }
-        stretch.n_frames
+        Ok(stretch.n_frames)
     }
 
     /// Lets one frame pass, the next of those that `frames` tells of.

@@ -216,7 +216,7 @@ impl Execution<'_> {
     }
 
     /// Adds to an error in which frame it came up.
-    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+    pub(super) fn in_frame(&self, why: Diagnostic) -> Diagnostic {
         let clock = self.state.world.clock();
         why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }

@@ -49,7 +49,7 @@ fn replayed(page: &Page) -> String {
     session.to_script()
 }
 
-const WAY: [(f64, f64); 4] = [(1.5, 1.0), (1.2345678, 2.0), (0.5, 2.5), (-1.0, 0.25)];
+const WAY: [(f64, f64); 4] = [(1.5, 1.0), (1.234_567_8, 2.0), (0.5, 2.5), (-1.0, 0.25)];
 
 #[test]
 fn a_gesture_is_one_statement_that_gives_the_same_bits() {

@@ -149,10 +149,6 @@ fn twenty_thousand_moves_take_no_memory() {
 fn the_limits_of_a_session_hold_for_pages() {
     let viewed = Viewed::with(SCENE, &["--limit", "points=4", "--limit", "frames=100"]);
     let mut page = viewed.open();
-    assert_eq!(page.exec("point E = (1, 1)")["ok"], true);
-    let answer = page.exec("point F = (1, 1)");
-    assert_eq!(answer["ok"], false);
-    assert!(answer["said"][0]["message"].as_str().expect("a text").contains("points"), "{answer}");
     assert_eq!(page.exec("step 101")["ok"], false);
     for path in ["../x.svg", "/tmp/x.svg"] {
         assert_eq!(page.exec(&format!("svg \"{path}\""))["ok"], false);
@@ -160,6 +156,10 @@ fn the_limits_of_a_session_hold_for_pages() {
     let answer = page.exec("svg \"x.svg\"");
     assert_eq!(answer["ok"], true, "{answer}");
     assert!(viewed.folder.path().join("x.svg").exists());
+    assert_eq!(page.exec("point E = (1, 1)")["ok"], true);
+    let answer = page.exec("point F = (1, 1)");
+    assert_eq!(answer["ok"], false);
+    assert!(answer["said"][0]["message"].as_str().expect("a text").contains("points"), "{answer}");
 }
 
 #[test]

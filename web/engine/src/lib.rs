@@ -3,7 +3,7 @@
 //!
 //! The page puts a message into [`room`] and [`tell`]s it, lets time pass with [`tick`], and takes
 //! what there is to hear with [`next`], [`out`] and [`length`]. A trap leaves its cause in [`fault`].
-//! `docs/view.md` has the messages.
+//! `docs/protocol.md` has the messages.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
