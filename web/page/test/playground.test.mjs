@@ -42,7 +42,7 @@ test("points are dragged, mistakes have carets", { skip }, async (t) => {
   await s.written(page, /^pull B/);
   const b = await s.place(page, 1);
   assert.ok(Math.abs(Math.hypot(b.x, b.y) - 2) < 1e-9);
-  assert.match(await s.tell(page, "length A Q = 3"), /no point.*`Q`[\s\S]*\^/);
+  assert.match(await s.tell(page, "length A Q = 3"), /unknown name `Q`[\s\S]*\^/);
 });
 
 test("a link holds the mechanism, gestures included", { skip }, async (t) => {
