@@ -68,7 +68,7 @@ async function session(script) {
     readFileSync(join(ROOT, "scripts/gallery/jansen-leg.link")),
   );
   const child = spawn(
-    values.program,
+    resolve(values.program),
     ["view", join(cwd, "scene.link"), "--out", cwd, "--no-journal"],
     { cwd },
   );
