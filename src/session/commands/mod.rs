@@ -29,3 +29,4 @@ mod slips;
 mod stretch;
 pub mod touch;
 mod trace_record;
+mod view;

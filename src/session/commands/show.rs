@@ -13,7 +13,6 @@ use crate::lang::nearest_command;
 use crate::render::{Scene, Sketch};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
-use crate::session::host::reason;
 use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
@@ -308,23 +307,6 @@ impl Execution<'_> {
                 .collect(),
         };
         self.host.print_all(&lines);
-        Ok(())
-    }
-
-    /// Lets a page look at the session, and says where it is.
-    pub(crate) fn view(&mut self, span: Span) -> Result<(), Diagnostic> {
-        match self.host.view() {
-            Ok(address) => self.host.print(&address),
-            Err(e) => {
-                let why = match e.kind() {
-                    std::io::ErrorKind::Unsupported => "there is no session here to look at".into(),
-                    _ => reason(&e),
-                };
-                return Err(Diagnostic::error(errors::NO_PAGE, "no page can be shown")
-                    .at(span, why)
-                    .help("`linkwork view FILE` begins a session with one"));
-            }
-        }
         Ok(())
     }
 

@@ -26,11 +26,11 @@ fn hold(page: &mut Page, point: &str) {
     assert_eq!(answer["ok"], true, "{answer}");
 }
 
-/// Leads what is held from place to place, each of which shows before the next.
+/// Leads what is held from place to place, each before the next is said.
 fn lead(page: &mut Page, places: &[(f64, f64)]) {
     for (x, y) in places {
         page.say(&json!({ "do": "move", "to": [x, y] }));
-        page.until_frame();
+        page.ask(json!({ "do": "keep" }));
     }
 }
 
