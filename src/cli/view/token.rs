@@ -71,10 +71,25 @@ pub fn is_same(text: &str, token: &str) -> bool {
 mod tests {
     use super::*;
 
+    /// A folder that is not there yet, and goes with the test.
+    struct Folder(std::path::PathBuf);
+
+    impl Folder {
+        fn new() -> Self {
+            Self(std::env::temp_dir().join(token().expect("a token")))
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            drop(fs::remove_dir_all(&self.0));
+        }
+    }
+
     #[test]
     fn a_port_keeps_its_token() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let view = folder.path().join("view");
+        let folder = Folder::new();
+        let view = folder.0.join("view");
         let first = kept_in(&view, 8080).expect("a token");
         assert_eq!(kept_in(&view, 8080).expect("a token"), first);
         assert_ne!(kept_in(&view, 8081).expect("a token"), first);
@@ -91,9 +106,9 @@ mod tests {
     #[test]
     fn only_the_user_reads_it() {
         use std::os::unix::fs::PermissionsExt;
-        let folder = tempfile::tempdir().expect("a folder");
-        kept_in(folder.path(), 8080).expect("a token");
-        let kept = fs::metadata(folder.path().join("8080")).expect("it is there");
+        let folder = Folder::new();
+        kept_in(&folder.0, 8080).expect("a token");
+        let kept = fs::metadata(folder.0.join("8080")).expect("it is there");
         assert_eq!(kept.permissions().mode() & 0o777, 0o600);
     }
 }
