@@ -61,6 +61,7 @@ pub mod lang;
 pub mod linalg;
 #[doc(hidden)]
 pub mod mobility;
+mod optimise;
 pub mod render;
 #[cfg(feature = "terminal")]
 mod repl;

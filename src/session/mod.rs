@@ -13,6 +13,7 @@ mod ask;
 mod commands;
 mod completion;
 mod culprits;
+mod curve;
 mod deadline;
 mod dispatch;
 mod examples;

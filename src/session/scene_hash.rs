@@ -10,7 +10,7 @@ use crate::diag::{format_number, format_rounded};
 use crate::render::Options;
 
 /// The hash FNV-1a of 64 bits (G. Fowler, L. C. Noll, P. Vo).
-fn fnv_1a(bytes: &[u8]) -> u64 {
+pub(super) fn fnv_1a(bytes: &[u8]) -> u64 {
     const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01b3;
     bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))

@@ -72,6 +72,15 @@ impl World {
         self.measures().map(|(_, measure)| measure.tally.readings().len()).sum()
     }
 
+    /// Empties all measures.
+    pub fn forget_readings(&mut self) {
+        for k in 0..self.measures.n_handles() {
+            if let Some(measure) = self.measures.get_mut(k) {
+                measure.tally = Tally::default();
+            }
+        }
+    }
+
     /// Measures the pose of now; of all measures, or of those that have no value yet.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
@@ -16,6 +16,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("constraint", &["interrupt", "terms"]),
     ("world", &["diag", "errors", "terms", "constraint"]),
     ("linalg", &["interrupt"]),
+    ("optimise", &["linalg"]),
     ("mobility", &["constraint", "linalg"]),
     ("solve", &["interrupt", "diag", "constraint", "world", "linalg", "mobility"]),
     ("render", &["interrupt", "diag", "constraint", "linalg", "world"]),
@@ -34,6 +35,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "solve",
             "render",
             "study",
+            "optimise",
         ],
     ),
     ("repl", &["lang", "session", "cli"]),
@@ -47,7 +49,19 @@ const HOMES: [(&str, &[&str]); 19] = [
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
     ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
-    ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
+    (
+        "libm",
+        &[
+            "constraint/",
+            "diag/",
+            "linalg/",
+            "mobility/",
+            "optimise/",
+            "render/",
+            "solve/",
+            "world/",
+        ],
+    ),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
