@@ -28,8 +28,10 @@ const FOUR_BAR: &str = "
 fn planted_lengths_are_recovered_from_the_coupler_curve() {
     let planted = [("b", 3.5), ("c", 3.1), ("e", 2.05), ("f", 2.2)];
     let mut answer = Answer::default();
-    let lets = |of: &[(&str, f64)]| -> String {
-        of.iter().map(|(name, value)| format!("let {name} = {value}; ")).collect()
+    let lets = |of: &[(&str, f64)]| {
+        let lets: Vec<String> =
+            of.iter().map(|(name, value)| format!("let {name} = {value}; ")).collect();
+        lets.concat()
     };
     let mut drawn = Session::new();
     let script = format!(

@@ -90,7 +90,7 @@ fn a_table_is_replaced_by_one_with_the_same_columns_only() {
     let folder = folder(&[("foreign.csv", "a,b\n1,2\n")]);
     let status = |script: &str| {
         let out = run(folder.path(), &["run", "-"], script);
-        (out.status.code(), text(&out.stderr).to_owned())
+        (out.status.code(), text(&out.stderr))
     };
     assert_eq!(status(&script("time, A")).0, Some(0));
     assert_eq!(status(&script("time, A")).0, Some(0));

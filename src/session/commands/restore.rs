@@ -98,9 +98,9 @@ impl Execution<'_> {
             (Restorable::Version, None) => check_version(values),
             (Restorable::Past, None) => self.restore_past(values),
             // These have an owner or none, and this is the other way; or they have no values.
-            (Restorable::Ended, Some(_))
-            | (
-                Restorable::Clock
+            (
+                Restorable::Ended
+                | Restorable::Clock
                 | Restorable::Ghost
                 | Restorable::Turn
                 | Restorable::Version
