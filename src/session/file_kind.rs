@@ -1,6 +1,6 @@
 //! Kinds of files that statements write: their endings, and what shows that a file is one of them.
 
-use super::scene_hash::fnv_1a;
+use super::fnv::fnv_1a;
 use crate::render::FIRST_WORDS as PICTURE_MARK;
 
 /// How a file that `save` wrote begins.

@@ -19,6 +19,7 @@ mod dispatch;
 mod examples;
 mod execution;
 mod file_kind;
+mod fnv;
 mod host;
 mod input;
 mod json;

@@ -1,31 +1,11 @@
-//! Measures: a value followed from frame to frame, with what is kept of it.
+//! Measuring: what a frame adds to the measures, and what they say.
 
 use super::environments::Moving;
-use super::{Depends, Extremes, Formula, MeasureId, NameText, Rates, Tally, World};
+use super::{Depends, Extremes, MeasureId, Rates, Tally, World};
 use crate::constraint::Jet;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::terms::{Statistic, Unit};
-
-/// A value that is followed from frame to frame.
-#[derive(Debug, Clone)]
-pub struct Measure {
-    /// Its name.
-    pub name: NameText,
-    /// What it measures, a number.
-    pub formula: Formula,
-    /// What its values are counted in.
-    pub unit: Unit,
-    /// Its values so far.
-    pub tally: Tally,
-}
-
-impl Measure {
-    /// Roughly how many bytes it holds.
-    pub fn n_bytes(&self) -> usize {
-        size_of::<Self>() + self.formula.n_bytes() + self.tally.n_bytes()
-    }
-}
+use crate::terms::Statistic;
 
 /// How a frame is measured.
 pub struct Measuring<'a> {
