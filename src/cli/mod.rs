@@ -13,10 +13,11 @@ mod language_server;
 mod lines;
 mod manual;
 pub(crate) mod output;
-mod process_host;
+pub(crate) mod process_host;
 mod progress;
 mod run;
 mod spool;
+pub(crate) mod view;
 mod watch;
 mod wrap;
 
@@ -38,6 +39,7 @@ pub fn run() -> ExitCode {
         Some(Invocation::Help(wish)) => inform::help(&wish),
         Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
         Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
+        Some(Invocation::View(arguments)) => run::view(&arguments),
         Some(Invocation::Completions(arguments)) => {
             manual::completions(&arguments, args::command())
         }

@@ -44,6 +44,9 @@ mod text;
 // Figures in characters.
 mod sketch;
 
+// Figures for who draws them.
+mod drawing;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
@@ -52,7 +55,10 @@ mod trace_animation;
 
 pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
+pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
+pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
+pub(crate) use style::PAPER;
 pub use view::View;

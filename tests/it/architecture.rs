@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
@@ -38,17 +38,20 @@ const ROOMS: [(&str, &[&str]); 16] = [
             "optimise",
         ],
     ),
+    ("live", &["diag", "lang", "constraint", "world", "render", "session"]),
     ("repl", &["lang", "session", "cli"]),
-    ("cli", &["diag", "errors", "lang", "solve", "render", "session", "repl"]),
+    ("cli", &["diag", "errors", "lang", "solve", "render", "session", "live", "repl"]),
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 19] = [
+const HOMES: [(&str, &[&str]); 22] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
     ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
+    ("getrandom", &["cli/view/token.rs"]),
+    ("httparse", &["cli/view/request.rs"]),
     (
         "libm",
         &[
@@ -70,11 +73,12 @@ const HOMES: [(&str, &[&str]); 19] = [
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("lsp_server", &["cli/language_server/"]),
-    ("serde_json", &["cli/language_server/", "session/json.rs"]),
+    ("serde_json", &["cli/language_server/", "live/", "session/json.rs"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
     ("terminal_size", &["cli/output.rs"]),
+    ("tungstenite", &["cli/view/"]),
 ];
 
 /// All that the library builds on without its features, where there is neither a thread nor a
@@ -157,7 +161,7 @@ fn a_foreign_crate_has_one_home() {
 
 /// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
 /// comes down to what they do.
-const STANDING_BEFORE: [(&str, &[&str]); 2] = [
+const STANDING_BEFORE: [(&str, &[&str]); 4] = [
     (
         "session/silent.rs",
         &[
@@ -170,11 +174,15 @@ const STANDING_BEFORE: [(&str, &[&str]); 2] = [
             "forget_stop",
             "opening",
             "write_in_pieces",
+            "view",
             "progress",
         ],
     ),
-    // It shows no answer page by page.
-    ("cli/watch.rs", &["print_all"]),
+    // It shows no answer page by page, and no page.
+    ("cli/watch.rs", &["print_all", "view"]),
+    // Lines are all that a page shows.
+    ("live/listener.rs", &["print_all", "page", "draw", "is_listening", "progress"]),
+    ("cli/view/host.rs", &["print_all", "page", "draw", "n_printed", "is_listening", "progress"]),
 ];
 
 #[test]

@@ -43,6 +43,7 @@ mod tables;
 #[cfg(unix)]
 mod terminal;
 mod touches;
+mod view;
 mod watch;
 mod well_formed;
 mod words;
