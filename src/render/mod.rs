@@ -40,6 +40,14 @@ pub mod chart;
 mod document;
 mod still;
 mod text;
+mod unmet;
+
+// Documents in pixels.
+pub mod raster;
+
+// Figures in true size.
+#[doc(hidden)]
+pub mod export;
 
 // Figures in characters.
 mod sketch;
@@ -50,9 +58,10 @@ mod animation_tracks;
 mod keyframes;
 mod trace_animation;
 
-pub use animation::{Animation, is_shown};
+pub use animation::{Animation, is_shown, shown_for};
 pub use document::{FIRST_WORDS, Options};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
+pub use unmet::Unmet;
 pub use view::View;

@@ -19,6 +19,11 @@ pub struct BoundingBox {
 }
 
 impl BoundingBox {
+    /// Its lower left and its upper right corner, if anything was put into it.
+    pub const fn corners(&self) -> Option<(Point, Point)> {
+        self.corners
+    }
+
     /// Grows to hold a point.
     pub fn include(&mut self, p: Point) {
         let (lo, hi) = self.corners.unwrap_or((p, p));

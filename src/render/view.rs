@@ -63,6 +63,12 @@ impl View {
         Ok(Self { page, lettering: lettering::place(&probes, &page) })
     }
 
+    /// The same without names.
+    #[must_use]
+    pub fn without_names(self) -> Self {
+        Self { lettering: Lettering::new(), ..self }
+    }
+
     pub(super) const fn page(&self) -> &Page {
         &self.page
     }

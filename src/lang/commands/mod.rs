@@ -19,7 +19,7 @@ use super::grammar::Rule;
 use super::lower::{self, Cursor};
 pub use building::{Building, Definition};
 pub use changing::Changing;
-pub use drawing::{Drawing, Expose, PlotPart};
+pub use drawing::{Drawing, ExportPart, Expose, PicturePart, PlotPart};
 pub use looking::{ListWhat, Looking, PrintItem};
 pub use making::{Binding, DragTarget, Making, PointDecl};
 pub use running::Running;

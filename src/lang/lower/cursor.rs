@@ -124,8 +124,13 @@ impl<'a> Cursor<'a> {
     /// The word of a unit, if a clause with one is what follows.
     pub fn unit_if_any(&mut self) -> Option<Ident> {
         let clause = self.take(Rule::in_unit)?;
-        let pair = self.within(clause).must(Rule::unit);
-        Some(self.ident_of(&pair))
+        Some(self.within(clause).unit())
+    }
+
+    /// The word of a unit.
+    pub fn unit(&mut self) -> Ident {
+        let pair = self.must(Rule::unit);
+        self.ident_of(&pair)
     }
 
     pub fn ident_if_any(&mut self) -> Option<Ident> {
@@ -356,6 +361,10 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_within
             | Rule::kw_for
             | Rule::kw_in
+            | Rule::kw_width
+            | Rule::kw_scale
+            | Rule::kw_hole
+            | Rule::kw_kerf
             | Rule::kw_as
             | Rule::kw_title
             | Rule::kw_x

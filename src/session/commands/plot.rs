@@ -5,10 +5,9 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expr, PlotPart, Text};
-use crate::render::Sketch;
+use crate::render::{Options, Sketch};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
-use crate::session::file_kind::FileKind;
 use crate::session::quotas::Quota;
 use crate::session::undo::journal::Change;
 
@@ -29,7 +28,7 @@ impl Execution<'_> {
         parts: &[PlotPart],
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
+        let file = path.map(|path| self.still_file(path)).transpose()?;
         let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
@@ -57,8 +56,8 @@ impl Execution<'_> {
             data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
-        if let Some(file) = file {
-            self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
+        if let Some((file, kind)) = file {
+            self.queue_still(file, kind, chart.svg(), &Options::default(), place)?;
         } else {
             let (n_columns, n_rows) = self.host.page();
             self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
