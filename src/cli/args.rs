@@ -67,9 +67,6 @@ pub struct ExamineArguments {
     /// The script; `-` is standard input.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Print the findings as one JSON object.
-    #[arg(long)]
-    pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -84,9 +81,6 @@ pub struct AccuracyArguments {
     /// Study so many frames, not those of the script's longest run.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub frames: Option<u64>,
-    /// Print a list of JSON objects, not a table.
-    #[arg(long)]
-    pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -197,6 +191,9 @@ pub struct HostArguments {
     /// Say nothing on standard error but errors.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Say all that is to be said as JSON on standard output, an object a line; docs/json.md has them.
+    #[arg(long)]
+    pub json: bool,
     /// Work with so many cores, not with all; the results are the same to the bit.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -236,6 +233,7 @@ impl HostArguments {
             out,
             set,
             quiet,
+            json,
             threads,
             allow_any_path,
             libraries,
@@ -249,6 +247,7 @@ impl HostArguments {
             out: out.or(self.out),
             set: self.set.into_iter().chain(set).collect(),
             quiet: quiet || self.quiet,
+            json: json || self.json,
             threads: threads.or(self.threads),
             allow_any_path: allow_any_path || self.allow_any_path,
             libraries: self.libraries.into_iter().chain(libraries).collect(),

@@ -57,6 +57,11 @@ impl Growing {
         !is_incomplete(&self.text)
     }
 
+    /// Whether no line was added since the text was taken.
+    pub const fn is_empty(&self) -> bool {
+        self.text.is_empty()
+    }
+
     /// The text, which is empty from here on.
     pub fn take(&mut self) -> String {
         std::mem::take(self).text

@@ -332,11 +332,7 @@ pub fn letter(mark: f64) -> f64 {
 }
 
 /// The style sheet for these classes.
-pub fn sheet(
-    classes: &std::collections::BTreeSet<Class>,
-    mark: f64,
-    theme: Theme,
-) -> String {
+pub fn sheet(classes: &std::collections::BTreeSet<Class>, mark: f64, theme: Theme) -> String {
     let mut text = String::from(
         "\npath,circle{stroke-linecap:round;stroke-linejoin:round}\n\
          text{font-family:Helvetica,Arial,'Liberation Sans',sans-serif;text-anchor:middle}\n",

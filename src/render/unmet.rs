@@ -33,8 +33,9 @@ pub fn label(canvas: &mut Canvas, scene: &Scene) {
         let Some(amount) = left.remove(&id) else { continue };
         let points = symbol.points();
         let n = points.len().max(1) as f64;
-        let middle = points.iter().fold(Point::ORIGIN, |sum, &p| sum + canvas.px(p).to_vector() / n);
-        canvas.begin(Key::Constraint(id), false, Some(symbol.name.clone()));
+        let middle =
+            points.iter().fold(Point::ORIGIN, |sum, &p| sum + canvas.px(p).to_vector() / n);
+        canvas.begin(Key::Legend, false, Some(symbol.name.clone()));
         canvas.figure(Layer::Legend, Placement::at(middle)).text(
             Class::Amount,
             Point::new(0.0, -RISE),

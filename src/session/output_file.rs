@@ -5,6 +5,7 @@ use std::path::{Display, Path, PathBuf};
 
 use super::execution::Execution;
 use super::file_kind::{ENDINGS, FileKind, ends_in};
+use super::finding::Finding;
 use super::host::contained;
 use super::input::Input;
 use super::parcel::{Content, Parcel, unwritable};
@@ -121,6 +122,10 @@ impl Execution<'_> {
 
     /// Tells what was written: each, or of many the last.
     fn tell_written(&mut self, written: &[PathBuf]) {
+        if self.host.takes_findings() {
+            written.iter().for_each(|file| self.host.find_out(&Finding::Wrote(file)));
+            return;
+        }
         match written {
             [others @ .., last] if others.len() >= MOST_FILES_NAMED => {
                 let n = written.len();

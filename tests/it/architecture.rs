@@ -41,22 +41,24 @@ const ROOMS: [(&str, &[&str]); 15] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 19] = [
+const HOMES: [(&str, &[&str]); 21] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
     ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
+    ("gif", &["render/raster/drawn.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/grammar.rs"]),
+    ("resvg", &["render/raster/drawn.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("lsp_server", &["cli/language_server/"]),
-    ("serde_json", &["cli/language_server/", "session/json.rs"]),
+    ("serde_json", &["cli/language_server/", "session/json/"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),

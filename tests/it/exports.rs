@@ -85,7 +85,7 @@ fn paths(svg: &str) -> Vec<(String, Vec<Contour>)> {
 
 #[track_caller]
 fn assert_near(found: f64, wanted: f64, what: &str) {
-    assert!((found - wanted).abs() < 1e-4 * wanted.abs(), "{what}: {found}, not {wanted}");
+    assert!((found - wanted).abs() < 2e-4 * wanted.abs(), "{what}: {found}, not {wanted}");
 }
 
 #[test]
@@ -179,8 +179,11 @@ fn a_body_keeps_its_sense() {
         .split('M')
         .skip(2)
         .map(|hole| {
-            let numbers: Vec<f64> =
-                hole.split([' ', 'A']).take(2).map(|text| text.parse().expect("a number")).collect();
+            let numbers: Vec<f64> = hole
+                .split([' ', 'A'])
+                .take(2)
+                .map(|text| text.parse().expect("a number"))
+                .collect();
             [numbers[0], -numbers[1]]
         })
         .collect();
@@ -202,8 +205,13 @@ fn strokes_are_in_true_size_a_layer_a_path() {
     }
     assert!(!svg.contains("<text") && !svg.contains("fill=\"#"), "strokes only");
     assert_eq!(svg.matches("fill=\"none\"").count(), 3);
-    // 40 mm of path and 10 mm around it.
-    assert!(svg.contains("width=\"60mm\" height=\"60mm\" viewBox=\"0 0 60 60\""), "{}", &svg[..300]);
+    // 40 mm of path, a joint of 1 mm on its right, and 10 mm around.
+    let (_, box_of_page) = svg.split_once("viewBox=\"0 0 ").expect("a page");
+    let (width, height) =
+        box_of_page.split_once('"').expect("its end").0.split_once(' ').expect("two");
+    assert_near(width.parse().expect("a number"), 61.0, "the width");
+    assert_near(height.parse().expect("a number"), 60.0, "the height");
+    assert!(svg.contains(&format!("width=\"{width}mm\" height=\"{height}mm\"")));
     let layers: Vec<&str> = svg.split("<g ").collect();
     for (layer, radius) in [(layers[2], 20.0), (layers[3], 10.0)] {
         let (_, data) = layer.split_once("d=\"M").expect("a path");
@@ -216,11 +224,12 @@ fn strokes_are_in_true_size_a_layer_a_path() {
             })
             .collect();
         for [x, y] in &points {
-            assert!((f64::hypot(x - 30.0, y - 30.0) - radius).abs() < 2e-3, "{x} {y}");
+            assert!((f64::hypot(x - 30.0, y - 30.0) - radius).abs() < 0.02, "{x} {y}");
         }
         let length: f64 =
             points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum();
-        assert_near(length, 2.0 * PI * radius, "once around");
+        // A chord may pass the circle by a hundredth of a mm.
+        assert!((length / (2.0 * PI * radius) - 1.0).abs() < 1e-3, "{length} once around");
     }
 }
 

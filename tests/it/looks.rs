@@ -80,7 +80,8 @@ fn a_picture_that_moves_fits_its_window() {
 
 #[test]
 fn recordings_look_as_their_statement_says() {
-    let moving = picture("record \"p.svg\" every 2 dark without names width 300; step 6; record stop");
+    let moving =
+        picture("record \"p.svg\" every 2 dark without names width 300; step 6; record stop");
     assert!(!moving.contains("#fdfdfb") && !moving.contains("class=\"name\""));
     assert_eq!(attribute(&moving, "width"), 300.0);
     let files = answer(&format!("{SCENE}record \"f/\" transparent; step 2; record stop")).files;

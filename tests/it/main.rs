@@ -20,6 +20,7 @@ mod guide;
 mod habits;
 mod hard_cases;
 mod interrupts;
+mod json;
 mod language_server;
 mod laws;
 mod long_texts;

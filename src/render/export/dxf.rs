@@ -1,4 +1,4 @@
-//! Parts as DXF: lines, arcs and circles of AutoCAD release 12, which every cutter reads.
+//! Parts as DXF: lines, arcs and circles of release 12, which every cutter reads.
 
 use std::fmt::Write;
 

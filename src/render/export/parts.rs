@@ -168,15 +168,14 @@ fn outline_data(outline: &Rounded, point: &dyn Fn(Point) -> String) -> String {
     let mut data = String::new();
     for stretch in &stretches {
         match *stretch {
-            Stretch::Line { to, .. } => data.push_str(&format!("L{}", point(to))),
+            Stretch::Line { to, .. } => data.extend(["L", &point(to)]),
             Stretch::Arc { centre, angles: [from, to] } => {
-                let [from, to] = [from, to].map(|angle| {
-                    point(centre + Vector::polar(outline.radius, angle))
-                });
+                let [from, to] =
+                    [from, to].map(|angle| point(centre + Vector::polar(outline.radius, angle)));
                 if data.is_empty() {
-                    data.push_str(&format!("M{from}"));
+                    data.extend(["M", &from]);
                 }
-                data.push_str(&format!("A{radius} {radius} 0 0 0 {to}"));
+                data.extend(["A", &radius, " ", &radius, " 0 0 0 ", &to]);
             }
         }
     }
@@ -184,9 +183,8 @@ fn outline_data(outline: &Rounded, point: &dyn Fn(Point) -> String) -> String {
 }
 
 fn circle_data(centre: Point, radius: f64, point: &dyn Fn(Point) -> String) -> String {
-    let [a, b, c] = [0.0, 1.0, 2.0].map(|third| {
-        point(centre + Vector::polar(radius, third * std::f64::consts::TAU / 3.0))
-    });
+    let [a, b, c] = [0.0, 1.0, 2.0]
+        .map(|third| point(centre + Vector::polar(radius, third * std::f64::consts::TAU / 3.0)));
     let r = format_decimals(radius, PLACES);
     format!("M{a}A{r} {r} 0 0 0 {b}A{r} {r} 0 0 0 {c}A{r} {r} 0 0 0 {a}Z")
 }

@@ -114,11 +114,8 @@ impl<'a> Motion<'a> {
         let mut frame = Frame::from_rgba_speed(width, height, &mut colours, COLOUR_SPEED);
         (frame.left, frame.top) = (side(part.left)?, side(part.top)?);
         frame.delay = (seconds * 100.0).round() as u16;
-        frame.dispose = if self.is_transparent {
-            DisposalMethod::Background
-        } else {
-            DisposalMethod::Keep
-        };
+        frame.dispose =
+            if self.is_transparent { DisposalMethod::Background } else { DisposalMethod::Keep };
         encoder.write_frame(&frame).map_err(io::Error::other)?;
         self.last = Some(pixels);
         Ok(())

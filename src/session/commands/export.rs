@@ -88,13 +88,7 @@ impl Execution<'_> {
     }
 
     /// The parts on their sheet.
-    fn cut(
-        &self,
-        wish: &Wish,
-        scale: f64,
-        width: f64,
-        span: Span,
-    ) -> Result<Placed, Diagnostic> {
+    fn cut(&self, wish: &Wish, scale: f64, width: f64, span: Span) -> Result<Placed, Diagnostic> {
         let kerf = wish.kerf.map_or(0.0, |(kerf, _)| kerf);
         let wrong = |message: &str, at, label| {
             Err(Diagnostic::error(errors::UNMAKEABLE, message.to_owned()).at(at, label))

@@ -13,6 +13,7 @@ use crate::lang::nearest_command;
 use crate::render::{Scene, Sketch};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
@@ -34,15 +35,24 @@ const LINE: usize = 1000;
 impl Execution<'_> {
     pub(crate) fn print(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
         let mut line = String::new();
+        let mut values = Vec::new();
         for (k, item) in items.iter().enumerate() {
             if k > 0 {
                 line.push(' ');
             }
             match item {
                 PrintItem::Text(text) => line.push_str(&text.value),
-                PrintItem::Value(expr) => line.push_str(&format_value(self.resolve().value(expr)?)),
+                PrintItem::Value(expr) => {
+                    let value = self.resolve().value(expr)?;
+                    line.push_str(&format_value(value));
+                    values.push(value);
+                }
                 PrintItem::InUnit(expr, unit) => match self.resolve().value(expr)? {
-                    Value::Number(n) => line.push_str(&format_number(n / unit.scale())),
+                    Value::Number(n) => {
+                        let in_unit = n / unit.scale();
+                        line.push_str(&format_number(in_unit));
+                        values.push(Value::Number(in_unit));
+                    }
                     Value::Vector(_) => {
                         return Err(Diagnostic::error(
                             errors::MIXED_SORTS,
@@ -54,7 +64,11 @@ impl Execution<'_> {
                 },
             }
         }
-        self.host.print(&line);
+        if self.host.takes_findings() {
+            self.host.find_out(&Finding::Printed(&line, &values));
+        } else {
+            self.host.print(&line);
+        }
         Ok(())
     }
 
@@ -166,6 +180,10 @@ impl Execution<'_> {
 
     pub(crate) fn list(&mut self, what: Option<ListWhat>) {
         let is_asked = |part| what.is_none_or(|what| what == part);
+        if self.host.takes_findings() {
+            let listing = self.state.listing(is_asked);
+            return self.host.find_out(&Finding::Listed(&listing));
+        }
         let mut lines: Vec<String> = Vec::new();
         if is_asked(ListWhat::Parameters) {
             lines.extend(
@@ -214,6 +232,9 @@ impl Execution<'_> {
     }
 
     pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        if self.host.takes_findings() {
+            return self.show_as_data(name);
+        }
         if let Some(instance) = self.resolve().instance(name)? {
             let prefix = format!("{instance}.");
             let (now, _) = present(&self.state.world);

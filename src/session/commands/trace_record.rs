@@ -4,8 +4,8 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expose, Expr, Name, PicturePart, Selection, Text};
 use crate::render::Options;
-use crate::session::execution::Execution;
 use crate::session::commands::picture::must_be_built_in;
+use crate::session::execution::Execution;
 use crate::session::file_kind::ends_in;
 use crate::session::output_file::frame_name;
 use crate::session::parcel::{Content, Parcel, unwritable};
@@ -131,11 +131,9 @@ impl Execution<'_> {
             Format::Table
         } else {
             self.output_path(path)?;
-            let problem = Diagnostic::error(
-                errors::NOT_A_FILE_NAME,
-                "what is this recording to become?",
-            )
-            .at(path.span, "expected a name that ends in `/`, `.svg`, `.gif` or `.csv`");
+            let problem =
+                Diagnostic::error(errors::NOT_A_FILE_NAME, "what is this recording to become?")
+                    .at(path.span, "expected a name that ends in `/`, `.svg`, `.gif` or `.csv`");
             let still = ends_in(&path.value, ".png");
             return Err(if still {
                 problem.help(format!("`svg \"{}\"` writes one picture", path.value))
@@ -202,8 +200,7 @@ impl Execution<'_> {
                 );
             }
             let (file, kind, span) = (recorder.path.clone(), recorder.format.kind(), recorder.span);
-            let options =
-                Options { receipt: options.receipt.clone(), ..recorder.look.clone() };
+            let options = Options { receipt: options.receipt.clone(), ..recorder.look.clone() };
             let content = Content::Recording(Box::new((recorder, options)));
             self.outbox.push(Parcel { file, content, kind, span });
         }

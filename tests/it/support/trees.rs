@@ -229,8 +229,11 @@ fn pictures() -> BoxedStrategy<Drawing> {
         expr().prop_map(|frames| Drawing::Expose(Expose::Every(frames))),
         Just(Drawing::Expose(Expose::Off)),
         (text(), look()).prop_map(|(path, parts)| Drawing::Svg { path, parts }),
-        (text(), of(expr()), look())
-            .prop_map(|(path, every, parts)| Drawing::Record { path, every, parts }),
+        (text(), of(expr()), look()).prop_map(|(path, every, parts)| Drawing::Record {
+            path,
+            every,
+            parts
+        }),
         (text(), export()).prop_map(|(path, parts)| Drawing::Export { path, parts }),
         Just(Drawing::RecordStop),
         (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Drawing::Sample { series, values }),

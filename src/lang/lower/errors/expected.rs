@@ -158,7 +158,7 @@ pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::every | Rule::kw_every => "every",
         Rule::within | Rule::kw_within => "within",
-        Rule::in_time | Rule::kw_in => "in",
+        Rule::in_time | Rule::in_unit | Rule::kw_in => "in",
         Rule::kw_frozen => "frozen",
         Rule::kw_to => "to",
         Rule::kw_through => "through",
@@ -178,7 +178,6 @@ pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_transparent => "transparent",
         Rule::without_names | Rule::kw_without => "without names",
         Rule::kw_names => "names",
-        Rule::in_unit => "in",
         Rule::scale | Rule::kw_scale => "scale",
         Rule::hole | Rule::kw_hole => "hole",
         Rule::kerf | Rule::kw_kerf => "kerf",
