@@ -11,7 +11,8 @@ use super::process_host::ProcessHost;
 use super::run::{self, ExitStatus};
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Sources};
-use crate::session::Host;
+use crate::render::Sketch;
+use crate::session::{Clock, Host, Kept, Spool, Wish};
 
 /// How long a change goes unnoticed at most: short beside the time it takes to look up.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -82,8 +83,36 @@ impl Host for WatchingHost {
         self.process.tell(what, sources);
     }
 
+    fn page(&self) -> (usize, usize) {
+        self.process.page()
+    }
+
+    fn draw(&mut self, sketch: &Sketch) {
+        self.process.draw(sketch);
+    }
+
+    fn n_printed(&self) -> u64 {
+        self.process.n_printed()
+    }
+
     fn is_listening(&self) -> bool {
         self.process.is_listening()
+    }
+
+    fn is_keeping(&self) -> bool {
+        self.process.is_keeping()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        self.process.keep(kept);
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        self.process.wish_to_stop()
+    }
+
+    fn forget_stop(&mut self) {
+        self.process.forget_stop();
     }
 
     fn is_interrupted(&self) -> bool {
@@ -111,11 +140,27 @@ impl Host for WatchingHost {
         self.process.write(path, bytes)
     }
 
+    fn write_in_pieces(
+        &mut self,
+        path: &Path,
+        content: &mut dyn FnMut(&mut dyn io::Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.process.write_in_pieces(path, content)
+    }
+
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        self.process.spool()
+    }
+
     fn progress(&self, share: f64) {
         self.process.progress(share);
     }
 
     fn seconds(&self) -> Option<f64> {
         self.process.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.process.clock()
     }
 }

@@ -57,9 +57,9 @@ impl Growing {
         !is_incomplete(&self.text)
     }
 
-    /// Whether no line was added since the text was taken.
-    pub const fn is_empty(&self) -> bool {
-        self.text.is_empty()
+    /// How long it is so far.
+    pub const fn n_bytes(&self) -> usize {
+        self.text.len()
     }
 
     /// The text, which is empty from here on.
@@ -85,7 +85,8 @@ impl Growing {
                 b'(' | b'[' | b'{' if self.open.len() < MAX_NESTING => self.open.push(byte),
                 b'(' | b'[' | b'{' => return Line::MayEnd,
                 b')' | b']' | b'}' => {
-                    if self.open.pop().map(closing) != Some(byte) {
+                    let opened = self.open.pop();
+                    if opened.map(closing) != Some(byte) {
                         return Line::MayEnd;
                     }
                 }

@@ -9,7 +9,7 @@ use super::objects;
 use crate::diag::{Diagnostic, Sources};
 use crate::interrupt::Wish;
 use crate::session::finding::Finding;
-use crate::session::host::{Done, Host};
+use crate::session::host::{Clock, Done, Host};
 use crate::session::spool::Spool;
 
 /// Objects in front of a host: its files, its clock and its wish to stop are that host's, and what it
@@ -106,5 +106,9 @@ impl Host for Objects<'_> {
 
     fn seconds(&self) -> Option<f64> {
         self.host.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.host.clock()
     }
 }
