@@ -145,7 +145,7 @@ fn a_foreign_crate_has_one_home() {
 
 /// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
 /// comes down to what they do.
-const STANDING_BEFORE: [(&str, &[&str]); 2] = [
+const STANDING_BEFORE: [(&str, &[&str]); 3] = [
     (
         "session/silent.rs",
         &[
@@ -159,10 +159,17 @@ const STANDING_BEFORE: [(&str, &[&str]); 2] = [
             "opening",
             "write_in_pieces",
             "progress",
+            "takes_findings",
+            "find_out",
+            "done",
         ],
     ),
-    // It shows no answer page by page.
-    ("cli/watch.rs", &["print_all"]),
+    // It shows no answer page by page, and talks to people.
+    ("cli/watch.rs", &["print_all", "takes_findings", "find_out", "done"]),
+    (
+        "session/json/host.rs",
+        &["print_all", "page", "draw", "is_listening", "is_keeping", "keep", "progress"],
+    ),
 ];
 
 #[test]

@@ -68,14 +68,30 @@ fn the_page_has_every_type_and_every_field() {
     let page = include_str!("../../docs/json.md");
     let (_, table) = page.split_once("| type | when | fields |").expect("the table");
     let (_, mut found) = objects(&["--json"], &format!("{FOUR_BAR}{ALL}"));
-    let requests = "{\"get\": \"traces\"}\n{\"get\": \"svg\", \"id\": [1]}\n{\"get\": \"script\"}\n";
+    let requests =
+        "{\"get\": \"traces\"}\n{\"get\": \"svg\", \"id\": [1]}\n{\"get\": \"script\"}\n";
     found.extend(objects(&["--json"], requests).1);
     let mut seen: Vec<&str> = kinds(&found);
     seen.sort_unstable();
     seen.dedup();
     let missing: Vec<&str> = [
-        "check", "done", "effects", "error", "file", "limits", "linkwork", "list", "note", "print",
-        "receipt", "script", "show", "statement", "svg", "traces", "warning",
+        "check",
+        "done",
+        "effects",
+        "error",
+        "file",
+        "limits",
+        "linkwork",
+        "list",
+        "note",
+        "print",
+        "receipt",
+        "script",
+        "show",
+        "statement",
+        "svg",
+        "traces",
+        "warning",
     ]
     .into_iter()
     .filter(|kind| !seen.contains(kind))
@@ -89,7 +105,10 @@ fn the_page_has_every_type_and_every_field() {
         });
         let row = row.unwrap_or_else(|| panic!("docs/json.md has no `{kind}`"));
         for field in object.as_object().expect("an object").keys().filter(|it| *it != "type") {
-            assert!(row.contains(&format!("`{field}`")), "no `{field}` of `{kind}` in docs/json.md");
+            assert!(
+                row.contains(&format!("`{field}`")),
+                "no `{field}` of `{kind}` in docs/json.md"
+            );
         }
     }
 }
@@ -136,7 +155,7 @@ fn requests_are_answered_up_to_done() {
         json!({ "get": "nothing" }),
         json!({ "id": 1 }),
     ];
-    let lines: String = requests.iter().map(|request| format!("{request}\n")).collect();
+    let lines = requests.map(|request| format!("{request}\n")).concat();
     let (status, found) = objects(&["--json"], &format!("{lines}{{\"run\"\nprint r\n"));
     assert_eq!(status, Some(2));
     let done: Vec<(&Value, &Value)> = found
@@ -146,7 +165,15 @@ fn requests_are_answered_up_to_done() {
         .collect();
     let (yes, no, null) = (json!(true), json!(false), Value::Null);
     let (seven, t, one) = (json!(7), json!("t"), json!(1));
-    let wanted = [(&seven, &yes), (&t, &yes), (&null, &no), (&null, &no), (&null, &no), (&one, &no), (&null, &no)];
+    let wanted = [
+        (&seven, &yes),
+        (&t, &yes),
+        (&null, &no),
+        (&null, &no),
+        (&null, &no),
+        (&one, &no),
+        (&null, &no),
+    ];
     assert_eq!(done, wanted);
     let trace = &find(&found, "traces")["traces"][0];
     assert_eq!((&trace["point"], trace["x"].as_array().map(Vec::len)), (&json!("B"), Some(4)));

@@ -36,7 +36,9 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     ),
     // Where its point is needs no solving.
     (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
-    (Kind::Hinge, &["session/commands/touch.rs"]),
+    // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
+    (Kind::Hinge, &["render/export/parts.rs", "session/commands/touch.rs"]),
+    (Kind::Rigid, &["render/export/parts.rs"]),
     // What of a circle others name; an SVG document has circles of its own.
     (
         Kind::Curve,
@@ -77,6 +79,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Length,
         &[
             "lang/lower/errors/refusal.rs",
+            "render/export/parts.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
@@ -102,6 +105,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
+            "render/export/parts.rs",
             "render/style.rs",
             "solve/closed_form/compile.rs",
             "solve/closed_form/run.rs",

@@ -5,9 +5,7 @@ use crate::diag::Diagnostic;
 use crate::interrupt::tick;
 use crate::lang::ast::{ListWhat, Name};
 use crate::session::execution::Execution;
-use crate::session::finding::{
-    ConstraintRow, Finding, Listing, ParameterRow, PointRow, TraceRow,
-};
+use crate::session::finding::{ConstraintRow, Finding, Listing, ParameterRow, PointRow, TraceRow};
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
 use crate::solve::present;
@@ -37,7 +35,8 @@ impl Execution<'_> {
                 listing.points = ids.map(|id| state.point_row(id)).collect();
             }
             Some(Entity::Point(id)) => {
-                let uses = |c| world.constraint(c).is_some_and(|r| r.constraint.points().contains(&id.0));
+                let uses =
+                    |c| world.constraint(c).is_some_and(|r| r.constraint.points().contains(&id.0));
                 add_constraints(&uses);
                 listing.points.push(state.point_row(id));
             }
@@ -46,7 +45,7 @@ impl Execution<'_> {
         }
         let shown = match (entity, instance) {
             (Some(entity), _) => world.name_of(entity).to_owned(),
-            (None, instance) => instance.map(|name| name.to_string()).unwrap_or_default(),
+            (None, instance) => instance.unwrap_or_default(),
         };
         self.host.find_out(&Finding::Shown(&shown, &listing));
         Ok(())

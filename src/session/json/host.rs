@@ -57,7 +57,7 @@ impl Host for Objects<'_> {
         self.n_statements += 1;
         let text = done.sources.slice(done.span);
         let place = objects::place(done.span, done.sources);
-        self.put(&objects::statement(self.n_statements, text, place, done.is_ok, done.world));
+        self.put(&objects::statement(self.n_statements, text, &place, done.is_ok, done.world));
     }
 
     fn is_interrupted(&self) -> bool {

@@ -129,14 +129,7 @@ fn range(limits: &Limits) -> Value {
     let Some(DriverRange { now, reach, change_points }) = &limits.range else { return object };
     object["now"] = json!(now);
     object["change_points"] = json!(change_points);
-    object["reach"] = json!(match reach {
-        Reach::Full(_) => "full",
-        Reach::Between(..) => "between",
-        Reach::Unsatisfied => "unsatisfied",
-        Reach::Rigid => "rigid",
-        Reach::Open(_) => "open",
-        Reach::Nonholonomic => "nonholonomic",
-    });
+    object["reach"] = json!(reach.word());
     match reach {
         Reach::Full(turns) => object["turns"] = json!(turns),
         Reach::Between(from, to) => {
@@ -144,7 +137,7 @@ fn range(limits: &Limits) -> Value {
             object["to"] = end(*to, limits.stops[1].as_deref());
         }
         Reach::Open(n) => object["freedoms"] = json!(n),
-        Reach::Unsatisfied | Reach::Rigid | Reach::Nonholonomic => {}
+        _ => {}
     }
     object
 }
@@ -165,9 +158,7 @@ fn end(end: RangeEnd, stop: Option<&str>) -> Value {
 }
 
 fn listed(word: &str, listing: &Listing) -> Value {
-    let parameter = |row: &ParameterRow| {
-        json!({ "name": row.name, "statement": row.statement, "value": row.value.map(value) })
-    };
+    let parameter = |row: &ParameterRow| json!({ "name": row.name, "statement": row.statement, "value": row.value.map(value) });
     let point = |row: &PointRow| {
         let [x, y] = row.at;
         json!({ "name": row.name, "x": x, "y": y, "frozen": row.is_frozen, "weight": row.weight })
@@ -181,9 +172,7 @@ fn listed(word: &str, listing: &Listing) -> Value {
             "residual": row.residual,
         })
     };
-    let definition = |(name, parameters): &(String, Vec<String>)| {
-        json!({ "name": name, "parameters": parameters })
-    };
+    let definition = |(name, parameters): &(String, Vec<String>)| json!({ "name": name, "parameters": parameters });
     json!({
         "type": word,
         "parameters": listing.parameters.iter().map(parameter).collect::<Vec<_>>(),
@@ -214,7 +203,7 @@ pub fn traces(world: &World) -> Value {
 }
 
 /// The end of a statement.
-pub fn statement(number: u64, text: &str, place: Value, is_ok: bool, world: &World) -> Value {
+pub fn statement(number: u64, text: &str, place: &Value, is_ok: bool, world: &World) -> Value {
     json!({
         "type": "statement",
         "number": number,

@@ -10,10 +10,10 @@ use super::objects;
 use crate::diag::Diagnostic;
 use crate::errors;
 use crate::render::{Scene, svg};
+use crate::session::Session;
 use crate::session::execution::Flow;
 use crate::session::host::Host as _;
 use crate::session::transcript::Outcome;
-use crate::session::Session;
 
 /// What a request may ask for.
 const QUESTIONS: [&str; 3] = ["traces", "svg", "script"];
