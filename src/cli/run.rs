@@ -249,8 +249,8 @@ pub(super) fn begin(host: &HostArguments) -> Session {
             files::limit_bytes(most);
         }
     }
-    for (name, value) in &host.set {
-        session.override_parameter(name, *value);
+    for axis in &host.set {
+        session.override_parameter(&axis.name, axis.values[0]);
     }
     session
 }

@@ -29,6 +29,8 @@ pub enum Finding<'a> {
     Ran(&'a Summary, f64, &'a str),
     /// A motor could not go on in the frame of this number.
     Halted(&'a str, u64, Halt),
+    /// What the run is for: a name and a value.
+    Result(&'a str, f64),
     /// A file was written.
     Wrote(&'a Path),
 }
@@ -59,6 +61,8 @@ pub struct Listing {
     pub constraints: Vec<ConstraintRow>,
     /// Traces.
     pub traces: Vec<TraceRow>,
+    /// Measures.
+    pub measures: Vec<MeasureRow>,
     /// Definitions, each with its parameters.
     pub definitions: Vec<(String, Vec<String>)>,
 }
@@ -100,6 +104,17 @@ pub struct ConstraintRow {
     pub is_on: bool,
     /// By how much it is missed, with its sign.
     pub residual: f64,
+}
+
+/// A measure.
+#[derive(Debug)]
+pub struct MeasureRow {
+    /// Its name.
+    pub name: String,
+    /// The statement that makes it.
+    pub statement: String,
+    /// What it keeps of its values, each by its word; in its unit.
+    pub statistics: Vec<(&'static str, f64)>,
 }
 
 /// A trace.

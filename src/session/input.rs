@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::quotas::Quotas;
 use crate::diag::{SourceId, Sources, Span};
@@ -69,6 +70,13 @@ impl Input {
         if let Some(folder) = folder {
             self.folders.insert(id, folder);
         }
+        id
+    }
+
+    /// Keeps a text that others keep too.
+    pub fn add_shared(&mut self, name: Arc<str>, text: Arc<str>, folder: PathBuf) -> SourceId {
+        let id = self.sources.add(name, text);
+        self.folders.insert(id, folder);
         id
     }
 

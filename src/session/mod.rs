@@ -28,6 +28,7 @@ mod preferences;
 mod quotas;
 mod report;
 mod resolve;
+mod results;
 mod review;
 mod scene_hash;
 mod series;
@@ -36,6 +37,7 @@ mod silent;
 mod spool;
 mod state;
 mod summary;
+pub(crate) mod sweep;
 mod transcript;
 mod undo;
 
@@ -49,14 +51,18 @@ pub use commands::effects::{EffectRow, Effects};
 pub use completion::{Candidate, Completion, Offer, Piece};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
-pub use finding::{ConstraintRow, Finding, Limits, Listing, ParameterRow, PointRow, TraceRow};
+pub use finding::{
+    ConstraintRow, Finding, Limits, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
+};
 pub use host::{Clock, Done, Host, Kept, Nowhere, contained, reason};
 pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
+pub use results::Results;
 pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
+pub use sweep::{Axis, Columns, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet};
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 
 pub use crate::interrupt::Wish;
@@ -165,6 +171,21 @@ impl Session {
         let (world, _) = present(self.world());
         let record = world.constraint(id)?;
         Some(record.constraint.residual(world.points().column()))
+    }
+
+    /// What `result` said so far: what the run is for.
+    ///
+    /// ```
+    /// use linkwork::Session;
+    ///
+    /// let mut session = Session::new();
+    /// session.run("point A = (3, 4); result far = norm(A), \"at\" = A")?;
+    /// assert_eq!(session.results().get("far"), Some(5.0));
+    /// assert_eq!(session.results().get("at.y"), Some(4.0));
+    /// # Ok::<(), linkwork::Diagnostic>(())
+    /// ```
+    pub const fn results(&self) -> &Results {
+        &self.state.results
     }
 
     /// The texts read so far; places in diagnostics are places in these.

@@ -117,9 +117,8 @@ fn parts_are_as_large_as_they_should_be() {
 
 #[test]
 fn parts_lie_apart_on_their_sheet() {
-    let rod = |k: u32| {
-        format!("point a{k} = (0, {k}), b{k} = ({}, {k}); length a{k} b{k}\n", 1 + k % 7)
-    };
+    let rod =
+        |k: u32| format!("point a{k} = (0, {k}), b{k} = ({}, {k}); length a{k} b{k}\n", 1 + k % 7);
     let many = (0..30).map(rod).collect::<Vec<String>>().concat();
     let text = format!("{many}export \"p.dxf\" scale 20 width 8 hole 3");
     let dxf = written(&text, "p.dxf");

@@ -25,6 +25,7 @@ mod language_server;
 mod laws;
 mod long_texts;
 mod looks;
+mod measures;
 mod mobility;
 mod motors;
 mod pictures;

@@ -5,11 +5,14 @@ use crate::diag::Diagnostic;
 use crate::interrupt::tick;
 use crate::lang::ast::{ListWhat, Name};
 use crate::session::execution::Execution;
-use crate::session::finding::{ConstraintRow, Finding, Listing, ParameterRow, PointRow, TraceRow};
+use crate::session::finding::{
+    ConstraintRow, Finding, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
+};
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
 use crate::solve::present;
-use crate::world::{ConstraintId, Entity, ParameterId, PointId, World};
+use crate::terms::Statistic;
+use crate::world::{ConstraintId, Entity, Measure, ParameterId, PointId, World};
 
 /// What the writing of a row takes, in ticks.
 const ROW: usize = 1000;
@@ -41,6 +44,9 @@ impl Execution<'_> {
                 listing.points.push(state.point_row(id));
             }
             Some(Entity::Constraint(id)) => add_constraints(&|other| other == id),
+            Some(Entity::Measure(id)) => {
+                listing.measures.extend(world.measure(id).map(|it| state.measure_row(it)))
+            }
             Some(Entity::Parameter(id)) => listing.parameters.push(state.parameter_row(id)),
         }
         let shown = match (entity, instance) {
@@ -78,6 +84,9 @@ impl State {
                 })
                 .collect();
         }
+        if is_asked(ListWhat::Measures) {
+            listing.measures = self.world.measures().map(|(_, it)| self.measure_row(it)).collect();
+        }
         if is_asked(ListWhat::Definitions) {
             let definitions = self.definitions.values();
             listing.definitions = definitions
@@ -97,6 +106,19 @@ impl State {
             name: self.world.name_of(Entity::Parameter(id)).to_owned(),
             statement: Unbind::of(&self.world).parameter_text(id),
             value,
+        }
+    }
+
+    fn measure_row(&self, measure: &Measure) -> MeasureRow {
+        tick(ROW);
+        let statistics = Statistic::ALL.into_iter().filter_map(|which| {
+            let value = measure.tally.get(which)?;
+            Some((which.word(), value))
+        });
+        MeasureRow {
+            name: measure.name.to_string(),
+            statement: Unbind::of(&self.world).measure_statement(measure).to_string(),
+            statistics: statistics.collect(),
         }
     }
 

@@ -14,6 +14,7 @@ pub mod effects;
 pub mod export;
 pub mod hands;
 mod listing;
+pub mod measure;
 mod pace;
 pub mod picture;
 pub mod plot;

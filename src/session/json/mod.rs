@@ -6,6 +6,7 @@ mod objects;
 mod request;
 
 pub use host::Objects;
+pub(super) use objects::variant;
 pub use request::{answer_request, is_request};
 
 /// The number of the schema. Fields and types are added under the same number; what would break who

@@ -5,8 +5,11 @@ use serde_json::{Map, Value, json};
 use super::VERSION;
 use crate::diag::{Diagnostic, Label, Severity, Sources, Span};
 use crate::mobility::{DriverRange, RangeEnd, Reach};
-use crate::session::finding::{ConstraintRow, Finding, Limits, Listing, ParameterRow, PointRow};
+use crate::session::finding::{
+    ConstraintRow, Finding, Limits, Listing, MeasureRow, ParameterRow, PointRow,
+};
 use crate::session::summary::Summary;
+use crate::session::sweep::Variant;
 use crate::solve::Halt;
 use crate::world::{self, World};
 
@@ -88,6 +91,7 @@ pub fn finding(finding: &Finding) -> Value {
         Finding::Limits(limits) => range(limits),
         Finding::Ran(summary, time, text) => receipt(summary, *time, text),
         Finding::Halted(driver, frame, halt) => halted(driver, *frame, *halt),
+        Finding::Result(name, value) => json!({ "type": "result", "name": name, "value": value }),
         Finding::Wrote(path) => json!({ "type": "file", "path": path.to_string_lossy() }),
     }
 }
@@ -172,6 +176,14 @@ fn listed(word: &str, listing: &Listing) -> Value {
             "residual": row.residual,
         })
     };
+    let measure = |row: &MeasureRow| {
+        let statistics = row.statistics.iter();
+        let mut object: Map<String, Value> =
+            statistics.map(|(word, value)| ((*word).to_owned(), json!(value))).collect();
+        object.insert("name".to_owned(), json!(row.name));
+        object.insert("statement".to_owned(), json!(row.statement));
+        Value::Object(object)
+    };
     let definition = |(name, parameters): &(String, Vec<String>)| json!({ "name": name, "parameters": parameters });
     json!({
         "type": word,
@@ -181,6 +193,7 @@ fn listed(word: &str, listing: &Listing) -> Value {
         "traces": listing.traces.iter().map(|row| {
             json!({ "point": row.point, "every": row.every, "places": row.n_places })
         }).collect::<Vec<_>>(),
+        "measures": listing.measures.iter().map(measure).collect::<Vec<_>>(),
         "definitions": listing.definitions.iter().map(definition).collect::<Vec<_>>(),
     })
 }
@@ -200,6 +213,30 @@ pub fn traces(world: &World) -> Value {
         })
     };
     json!({ "type": "traces", "traces": world.traces().iter().map(trace).collect::<Vec<_>>() })
+}
+
+/// A variant of a sweep.
+pub fn variant(parameters: &[String], variant: &Variant) -> Value {
+    let values = parameters.iter().zip(&variant.values);
+    let values: Map<String, Value> =
+        values.map(|(name, value)| (name.clone(), json!(value))).collect();
+    let results = variant.results.iter();
+    let results: Map<String, Value> =
+        results.map(|(name, value)| (name.to_owned(), json!(value))).collect();
+    let mut object = json!({
+        "type": "variant",
+        "variant": variant.number,
+        "parameters": values,
+        "results": results,
+        "status": variant.word(),
+        "residual": variant.residual,
+        "missed": variant.n_missed,
+        "dead_points": variant.n_dead_points,
+    });
+    if let Some(failure) = &variant.failure {
+        object["error"] = json!(failure);
+    }
+    object
 }
 
 /// The end of a statement.
