@@ -157,7 +157,10 @@ impl<'a> Sweep<'a> {
     /// Runs the rows from one on, and writes them in their order as they come; whether all came.
     fn fill(&self, table: &mut Table, from: u64, to: u64) -> (io::Result<Counts>, bool) {
         let n_workers = self.wish.jobs.map_or_else(cores, u64::from).max(1);
-        crate::solve::limit_cores(if n_workers > 1 { 1 } else { usize::MAX });
+        if n_workers > 1 {
+            // Each variant has one core.
+            crate::solve::limit_cores(1);
+        }
         let n_chunks = (to - from).div_ceil(CHUNK);
         let (next, written) = (AtomicU64::new(0), AtomicU64::new(0));
         let (sender, done) = sync_channel(64);
@@ -306,32 +309,32 @@ struct Chunk {
 /// How variants went, together.
 #[derive(Debug, Default)]
 struct Counts {
-    n_failed: u64,
-    n_missed: u64,
-    n_dead_points: u64,
+    failed: u64,
+    missed: u64,
+    dead: u64,
 }
 
 impl Counts {
     fn add(&mut self, variant: &Variant) {
-        self.n_failed += u64::from(variant.failure.is_some());
-        self.n_missed += u64::from(variant.n_missed > 0);
-        self.n_dead_points += u64::from(variant.n_dead_points > 0);
+        self.failed += u64::from(variant.failure.is_some());
+        self.missed += u64::from(variant.n_missed > 0);
+        self.dead += u64::from(variant.n_dead_points > 0);
     }
 
     fn join(&mut self, other: &Self) {
-        self.n_failed += other.n_failed;
-        self.n_missed += other.n_missed;
-        self.n_dead_points += other.n_dead_points;
+        self.failed += other.failed;
+        self.missed += other.missed;
+        self.dead += other.dead;
     }
 
     fn text(&self) -> String {
         let told = [
-            (self.n_failed, "ended in an error"),
-            (self.n_missed, "missed the tolerance"),
-            (self.n_dead_points, "met dead points"),
+            (self.failed, "ended in an error"),
+            (self.missed, "missed the tolerance"),
+            (self.dead, "met dead points"),
         ];
         let told = told.into_iter().filter(|(n, _)| *n > 0);
-        told.map(|(n, what)| format!(", {n} {what}")).collect()
+        told.map(|(n, what)| format!(", {n} {what}")).collect::<Vec<_>>().concat()
     }
 }
 

@@ -30,7 +30,7 @@ fn find<'a>(objects: &'a [Value], kind: &str) -> &'a Value {
 
 /// Statements that find all that can be found.
 const ALL: &str = "let r = 2; define pin(P) { point Q = P }
-trace C; set dt 1/36; step 36
+trace C; set dt 1/36; measure m = C.x; step 36; result span = m.span
 print r, C in deg
 list
 show coupler; show A; show r
@@ -86,6 +86,7 @@ fn the_page_has_every_type_and_every_field() {
         "note",
         "print",
         "receipt",
+        "result",
         "script",
         "show",
         "statement",

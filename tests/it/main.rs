@@ -41,6 +41,7 @@ mod slips;
 mod solve;
 mod study;
 mod support;
+mod sweep;
 #[cfg(unix)]
 mod terminal;
 mod touches;

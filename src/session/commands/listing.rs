@@ -45,7 +45,7 @@ impl Execution<'_> {
             }
             Some(Entity::Constraint(id)) => add_constraints(&|other| other == id),
             Some(Entity::Measure(id)) => {
-                listing.measures.extend(world.measure(id).map(|it| state.measure_row(it)))
+                listing.measures.extend(world.measure(id).map(|it| state.measure_row(it)));
             }
             Some(Entity::Parameter(id)) => listing.parameters.push(state.parameter_row(id)),
         }

@@ -13,6 +13,7 @@ mod effect_table;
 pub mod effects;
 pub mod export;
 pub mod hands;
+mod help;
 mod listing;
 pub mod measure;
 mod pace;
