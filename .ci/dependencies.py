@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Looks at what the program builds on: may each be used, and is each there once?
 
-Crates are those that are built on any platform, as `cargo tree` tells them; packages of npm
-are those of every package-lock.json in the repository. Says what is wrong and ends with 1, or
-says nothing.
+Crates are those that are built on any platform, as `cargo tree` tells them, of every Cargo.lock in the
+repository but those of what only measures or fuzzes; packages of npm are those of every
+package-lock.json. Says what is wrong and ends with 1, or says nothing.
 """
 
 import json
@@ -92,12 +92,16 @@ def allows(expression, allowed=ALLOWED):
     return found and not words
 
 
-def crates():
-    """The crates that the program, its tests and its benches build on, on any platform."""
+# What is built by who measures or fuzzes, and handed to nobody.
+OURS_ALONE = ("benches/", "fuzz/")
+
+
+def crates(folder=ROOT):
+    """The crates that what lies in a folder, its tests and its benches build on, on any platform."""
     # `cargo metadata` lists what Cargo.lock names for features that nobody asks for as well.
     command = ["cargo", "tree", "--locked", "--all-features", "--target", "all", "--edges"]
     command += ["normal,build,dev", "--prefix", "none", "--no-dedupe", "--format", "{p}\t{l}"]
-    listed = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
+    listed = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE).stdout
     return crates_of(listed.decode())
 
 
@@ -168,19 +172,28 @@ def complaints_of_npm(lock):
     return complaints
 
 
-def npm_locks():
-    """Every package-lock.json that is part of the repository."""
-    command = ["git", "ls-files", "-z", "--", "package-lock.json", "*/package-lock.json"]
+def locks(name):
+    """Every lock file of this name that is part of the repository."""
+    command = ["git", "ls-files", "-z", "--", name, f"*/{name}"]
     listed = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
-    return [ROOT / name for name in listed.decode().split("\0") if name]
+    return [ROOT / found for found in listed.decode().split("\0") if found]
 
 
 def main():
-    complaints = complaints_of_crates(crates())
-    for lock in npm_locks():
-        complaints += [
-            f"{lock.relative_to(ROOT)}: {what}" for what in complaints_of_npm(json.loads(lock.read_text()))
-        ]
+    found = {}
+    for lock in locks("Cargo.lock"):
+        name = str(lock.relative_to(ROOT))
+        if not name.startswith(OURS_ALONE):
+            listed = crates(lock.parent)
+            # What the program has twice for a reason others may have, too.
+            twice = TWICE if lock.parent == ROOT else {
+                name: why for name, why in TWICE.items()
+                if sum(crate["name"] == name for crate in listed) > 1
+            }
+            found[name] = complaints_of_crates(listed, twice)
+    for lock in locks("package-lock.json"):
+        found[str(lock.relative_to(ROOT))] = complaints_of_npm(json.loads(lock.read_text()))
+    complaints = [f"{name}: {what}" for name, all_of_it in found.items() for what in all_of_it]
     for complaint in complaints:
         print(complaint, file=sys.stderr)
     return 1 if complaints else 0

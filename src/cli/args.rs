@@ -55,6 +55,9 @@ pub enum Invocation {
     /// Run a script for every combination of the values that `--set` gives, into one table: what
     /// `result` says, how it ended, dead points.
     Sweep(SweepArguments),
+    /// Run a script, show the mechanism in a browser, and go on at the prompt: what is typed shows at
+    /// once, and what the mouse does is written as statements.
+    View(ViewArguments),
     /// Print what completes the command line in a shell.
     Completions(CompletionArguments),
     /// Print the manual page.
@@ -163,6 +166,20 @@ pub struct SweepArguments {
     #[arg(long, value_name = "NAME")]
     pub to: Option<String>,
     /// The grid and how it talks.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
+/// A session to be looked at.
+#[derive(Debug, Args)]
+pub struct ViewArguments {
+    /// The script; without one the world is empty.
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Serve the page at this port of this machine, not at any that is free.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub port: Option<u16>,
+    /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
 }
@@ -310,6 +327,7 @@ impl Invocation {
             | Self::Examples(ExampleArguments { host, .. })
             | Self::Sweep(SweepArguments { host, .. })
             | Self::Watch(WatchArguments { host, .. })
+            | Self::View(ViewArguments { host, .. })
             | Self::Help(HelpArguments { host, .. }) => Some(host),
             Self::Fmt(_) | Self::Completions(_) | Self::Man | Self::Lsp => None,
         }

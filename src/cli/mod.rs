@@ -13,11 +13,12 @@ mod language_server;
 mod lines;
 mod manual;
 pub(crate) mod output;
-mod process_host;
+pub(crate) mod process_host;
 mod progress;
 mod run;
 mod spool;
 mod sweep;
+pub(crate) mod view;
 mod watch;
 mod wrap;
 
@@ -40,6 +41,7 @@ pub fn run() -> ExitCode {
         Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
         Some(Invocation::Sweep(wish)) => sweep::sweep(&wish),
         Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
+        Some(Invocation::View(arguments)) => run::view(&arguments),
         Some(Invocation::Completions(arguments)) => {
             manual::completions(&arguments, args::command())
         }

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::sync_channel;
 
-use super::args::{HostArguments, Scripts, command_names};
+use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output};
+use super::{files, init, interrupt, journal, output, view};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
@@ -286,14 +286,45 @@ pub fn session(host: &HostArguments) -> ExitStatus {
     converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
 }
 
+/// A session that a page looks at, after a script if there is one.
+pub fn view(arguments: &ViewArguments) -> ExitStatus {
+    let host = &arguments.host;
+    let mut session = begin(host);
+    let folder = arguments.file.as_deref().map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    if let Some(file) = &arguments.file {
+        match add(file, &mut session, &mut process) {
+            Ok(source) if session.run_text(source, &mut process).flow == Flow::Quit => {
+                return end(&mut session, &mut process);
+            }
+            Ok(_) => {}
+            Err(status) => return status,
+        }
+    }
+    match process.open_view(arguments.port) {
+        Ok(address) => output::answer(&address),
+        Err(e) => {
+            let why = format!("no page can be shown: {}", reason(&e));
+            output::show(&Diagnostic::error(errors::NO_PAGE, why), session.sources());
+            return ExitStatus::Unreadable;
+        }
+    }
+    output::flush();
+    converse(&mut session, &mut process, host)
+}
+
 fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {
+    process.may_view = true;
     let status = if io::stdin().is_terminal() {
         prompt(session, process, host);
         ExitStatus::Fine
     } else {
-        typed_ahead(session, process, |piece, transcript, session, process| {
-            transcript.enter(piece, session, process)
-        })
+        typed_ahead(
+            session,
+            process,
+            |lines, session, process| view::meanwhile(session, process, || lines.next()),
+            |piece, transcript, session, process| transcript.enter(piece, session, process),
+        )
     };
     match end(session, process) {
         ExitStatus::Fine => status,
@@ -304,13 +335,15 @@ fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArgumen
 /// A session for a program: statements and requests, answered by objects.
 fn converse_in_objects(session: &mut Session, mut objects: Objects) -> ExitStatus {
     output::flush();
-    let status = typed_ahead(session, &mut objects, |piece, transcript, session, objects| {
-        if is_request(piece) {
-            answer_request(piece, session, objects)
-        } else {
-            transcript.enter(piece, session, objects)
-        }
-    });
+    let answer =
+        |piece: &str, transcript: &mut Transcript, session: &mut Session, objects: &mut _| {
+            if is_request(piece) {
+                answer_request(piece, session, objects)
+            } else {
+                transcript.enter(piece, session, objects)
+            }
+        };
+    let status = typed_ahead(session, &mut objects, |lines, _, _| lines.next(), answer);
     match end(session, &mut objects) {
         ExitStatus::Fine => status,
         broken => broken,
@@ -323,7 +356,7 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if !host.no_init {
         init::run(session, process);
     }
-    kept(session, process, host, |session, process| crate::repl::converse(session, process));
+    kept(session, process, host, crate::repl::converse);
 }
 
 /// A conversation of which a journal is kept, unless the user wants none: each statement is written down
@@ -359,6 +392,7 @@ pub(super) fn kept<T>(
 fn typed_ahead<H: Host>(
     session: &mut Session,
     host: &mut H,
+    next: impl Fn(&mut Lines, &mut Session, &mut H) -> io::Result<Vec<u8>>,
     answer: impl Fn(&str, &mut Transcript, &mut Session, &mut H) -> Outcome,
 ) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
@@ -373,7 +407,7 @@ fn typed_ahead<H: Host>(
         ExitStatus::Unreadable
     };
     loop {
-        let line = match lines.next() {
+        let line = match next(&mut lines, session, host) {
             Ok(line) => line,
             Err(e) => return unreadable(&e, session, host),
         };

@@ -15,7 +15,7 @@ pub use diagnostic::{Code, Diagnostic, Kind, Label, Severity};
 #[doc(hidden)]
 pub use list::{listed, listed_first, listed_ways};
 #[doc(hidden)]
-pub use nearest::{nearest, suggest};
+pub use nearest::{Likeness, nearest, suggest};
 pub use number::format_number;
 #[doc(hidden)]
 pub use number::{

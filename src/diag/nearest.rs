@@ -16,25 +16,69 @@ use super::Diagnostic;
 /// assert_eq!(nearest("banana", ["list", "length"]), None);
 /// ```
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let word = fold(word);
-    if word.len() > LONGEST {
-        return None;
+    Likeness::to(word)?.nearest(candidates)
+}
+
+/// What other words are like a word.
+#[derive(Debug)]
+pub struct Likeness {
+    /// The word, small.
+    word: Vec<char>,
+    letters: u64,
+}
+
+impl Likeness {
+    /// Likeness to a word; none if nothing is like it, as it is so long.
+    pub fn to(word: &str) -> Option<Self> {
+        let word = fold(word);
+        let letters = letters(word.iter().map(|&char| u32::from(char)));
+        (word.len() <= LONGEST).then_some(Self { word, letters })
     }
-    let mut best: Option<(usize, &str)> = None;
-    for candidate in candidates {
-        let folded = fold(candidate);
-        let limit = (word.len().max(folded.len()) / 3).max(1);
-        if word.len().abs_diff(folded.len()) > limit || folded.len() > LONGEST {
-            continue;
-        }
-        let distance = distance(&word, &folded);
-        // A one-letter word is one replacement from every other: that is no likeness.
-        let alike = distance <= limit && distance < word.len().max(folded.len());
-        if alike && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, candidate));
-        }
+
+    /// In how many places a word of that length may differ.
+    fn limit(&self, length: usize) -> usize {
+        (self.word.len().max(length) / 3).max(1)
     }
-    best.map(|(_, candidate)| candidate)
+
+    /// Whether a candidate may be near: a quick look that rules most words out.
+    pub fn may_be(&self, candidate: &str) -> bool {
+        if !candidate.is_ascii() {
+            return true;
+        }
+        let limit = self.limit(candidate.len());
+        if self.word.len().abs_diff(candidate.len()) > limit || candidate.len() > LONGEST {
+            return false;
+        }
+        let small = candidate.bytes().map(|byte| u32::from(byte.to_ascii_lowercase()));
+        let letters = letters(small);
+        // Each letter that one has and the other has not is a place in which they differ.
+        let n_here = (self.letters & !letters).count_ones();
+        let n_there = (letters & !self.letters).count_ones();
+        n_here.max(n_there) as usize <= limit
+    }
+
+    fn nearest<'a>(&self, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+        let mut best: Option<(usize, &str)> = None;
+        for candidate in candidates.into_iter().filter(|candidate| self.may_be(candidate)) {
+            let folded = fold(candidate);
+            let limit = self.limit(folded.len());
+            if self.word.len().abs_diff(folded.len()) > limit || folded.len() > LONGEST {
+                continue;
+            }
+            let distance = distance(&self.word, &folded);
+            // A one-letter word is one replacement from every other: that is no likeness.
+            let alike = distance <= limit && distance < self.word.len().max(folded.len());
+            if alike && best.is_none_or(|(least, _)| distance < least) {
+                best = Some((distance, candidate));
+            }
+        }
+        best.map(|(_, candidate)| candidate)
+    }
+}
+
+/// The letters of a word as bits; some share one.
+fn letters(word: impl Iterator<Item = u32>) -> u64 {
+    word.fold(0, |bits, letter| bits | 1 << (letter % 64))
 }
 
 /// A problem with the candidate nearest to `word` as help, if one is near enough.
@@ -94,6 +138,24 @@ mod tests {
         check("", None);
         check("rhubarb", None);
         check(&"x".repeat(100_000), None);
+    }
+
+    #[test]
+    fn a_quick_look_rules_out_nothing_that_is_near() {
+        // All words of up to four of these letters, each with each.
+        let mut words = vec![String::new()];
+        for k in 0..4 {
+            let longest: Vec<String> = words.iter().filter(|w| w.len() == k).cloned().collect();
+            words.extend(longest.iter().flat_map(|w| ["a", "B", "7"].map(|l| format!("{w}{l}"))));
+        }
+        for word in &words {
+            let likeness = Likeness::to(word).unwrap();
+            for other in &words {
+                let (small, other_small) = (fold(word), fold(other));
+                let is_near = distance(&small, &other_small) <= likeness.limit(other.len());
+                assert!(!is_near || likeness.may_be(other), "{word:?} and {other:?}");
+            }
+        }
     }
 
     #[test]

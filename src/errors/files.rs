@@ -85,20 +85,27 @@ super::kinds! {
         wrong: "",
         right: "",
     }
-    714 NO_PIXELS {
+    714 NO_PAGE {
+        title: "no page can be shown",
+        help: "`view` is for a session that goes on: a prompt, or `linkwork view FILE`. Where a port is\n\
+             taken, `--port` names another, and without it any that is free will do.",
+        wrong: "view",
+        right: "",
+    }
+    715 NO_PIXELS {
         title: "a program that is built without pictures in pixels",
         help: "`.png` and `.gif` take some forty crates more, so they are a feature of their own:\n\
              `cargo install linkwork --features pictures`. The wheel and the archives have it.",
         wrong: "",
         right: "svg \"now.svg\"",
     }
-    715 NOTHING_TO_EXPORT {
+    716 NOTHING_TO_EXPORT {
         title: "there is nothing that a machine could make",
         help: "A plotter draws bars and paths, a cutter cuts rods and rigid bodies that are switched on.",
         wrong: "point A = (0, 0)\nexport \"parts.svg\" width 10",
         right: "point A = (0, 0), B = (1, 0)\nlength A B = 1\nexport \"parts.svg\" scale 50 width 10",
     }
-    716 UNMAKEABLE {
+    717 UNMAKEABLE {
         title: "a part that cannot be made so",
         help: "A hole leaves some of the part around it, a cut is thinner than the part, and points that\n\
              are nearer than a hole cannot both have one.",

@@ -52,6 +52,9 @@ pub mod export;
 // Figures in characters.
 mod sketch;
 
+// Figures for who draws them.
+mod drawing;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
@@ -60,8 +63,11 @@ mod trace_animation;
 
 pub use animation::{Animation, is_shown, shown_for};
 pub use document::{FIRST_WORDS, Options};
+pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
+pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
+pub(crate) use style::PAPER;
 pub use unmet::Unmet;
 pub use view::View;

@@ -81,11 +81,6 @@ impl World {
         }
     }
 
-    /// Whether a formula mentions a member of a constraint, at any depth.
-    pub fn mentions_members(&self, formula: &Formula) -> bool {
-        self.find_member(formula, |_| true).is_some()
-    }
-
     /// A member of the kind that is looked for that a formula mentions, at any depth; of several the
     /// first by the fewest parameters on the way.
     fn find_member(

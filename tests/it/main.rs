@@ -45,6 +45,7 @@ mod sweep;
 #[cfg(unix)]
 mod terminal;
 mod touches;
+mod view;
 mod watch;
 mod well_formed;
 mod words;

@@ -39,10 +39,11 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
     (Kind::Hinge, &["render/export/parts.rs", "session/commands/touch.rs"]),
     (Kind::Rigid, &["render/export/parts.rs"]),
-    // What of a circle others name; an SVG document has circles of its own.
+    // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
         Kind::Curve,
         &[
+            "live/drawn.rs",
             "render/document.rs",
             "render/symbols/round.rs",
             "session/commands/touch.rs",
@@ -286,8 +287,13 @@ fn names_kind(source: &Source, kind: Kind) -> bool {
         return false;
     }
     // What else is called so.
-    let others =
-        ["Quantity::Length", "feature = \"parallel\"", "Hold => \"hold\"", "\"holds\", \"hold\""];
+    let others = [
+        "Quantity::Length",
+        "feature = \"parallel\"",
+        "Hold => \"hold\"",
+        "Rigid => \"rigid\"",
+        "\"holds\", \"hold\"",
+    ];
     let code = others.iter().fold(source.code(), |code, other| code.replace(other, ""));
     let name = format!("{kind:?}");
     let words = ConstraintWord::ALL.iter().map(|word| word.pattern().entry.keyword);

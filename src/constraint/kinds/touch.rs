@@ -237,9 +237,10 @@ impl ConstraintKind for Touch {
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        let Self { points: _, curves, sort, value, wanted, beyond } = self;
+        // Which circles it is about shows in what is measured; their handles are other ones where
+        // the same scene was made in another way.
+        let Self { points: _, curves: _, sort, value, wanted, beyond } = self;
         add_all([*value, *wanted, *beyond], word);
-        curves.iter().for_each(|curve| word(u64::from(*curve)));
         let (tag, number) = match *sort {
             Sort::Glider { stops } => (0, f64::from(stops as u8)),
             Sort::Tangent { side } => (1, side),

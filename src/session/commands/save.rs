@@ -17,7 +17,7 @@ use crate::session::resolve::unbind::{Unbind, ident, literal, named, quoted, tex
 use crate::session::state::State;
 use crate::solve::CogForm;
 use crate::terms::Shape;
-use crate::world::{ConstraintId, Drivers, Formula, Mention, ParameterId, Record};
+use crate::world::{ConstraintId, Drivers, Mention, ParameterId, Record};
 
 /// What the writing of a line takes, in ticks.
 const LINE: usize = 1000;
@@ -55,11 +55,12 @@ impl State {
         self.save_points(&mut script);
         self.save_turn_counts(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
-        self.save_parameters(&mut script);
-        self.save_constraints(&mut script);
+        let late = Late::of(self);
+        self.save_parameters(&late, &mut script);
+        self.save_constraints(&late, &mut script);
         self.save_measures(&mut script);
-        self.save_late_parameters(&mut script);
-        self.save_late_values(&mut script);
+        self.save_late_parameters(&late, &mut script);
+        self.save_late_values(&late, &mut script);
         self.save_start_states(&mut script);
         restore(&mut script, Restorable::Past, None, numbers(&[0.0]));
         self.save_looks(&mut script);
@@ -145,7 +146,7 @@ impl State {
         }
     }
 
-    fn save_constraints(&self, script: &mut String) {
+    fn save_constraints(&self, waiting: &Late, script: &mut String) {
         let now = self.preferences.solve.cog;
         let mut form = now;
         for (id, record) in self.world.constraints() {
@@ -164,7 +165,7 @@ impl State {
                 let value = literal(rho);
                 line(script, Changing::Set { setting: ident("rho"), value, targets });
             }
-            if !self.follows_late(record) {
+            if !waiting.is_followed_by(record) {
                 save_state(record, script);
             }
         }
@@ -173,24 +174,11 @@ impl State {
         }
     }
 
-    /// Whether a parameter can be made live only after others, or constraints, that come after it.
-    fn is_late(&self, id: ParameterId, formula: &Formula) -> bool {
-        let mut is_late = self.world.mentions_members(formula);
-        formula.mentions(&mut |mention| {
-            is_late |= match mention {
-                Mention::Parameter(used) => used > id,
-                Mention::Measure(_) => true,
-                Mention::Point(_) | Mention::Member(..) => false,
-            };
-        });
-        is_late
-    }
-
     /// Makes the parameters, in the order in which they were made; what has to wait for others is a
     /// number until then.
-    fn save_parameters(&self, script: &mut String) {
+    fn save_parameters(&self, late: &Late, script: &mut String) {
         for (id, parameter) in self.world.parameters() {
-            if self.is_late(id, &parameter.formula) {
+            if late.parameters.contains(&id) {
                 let value = match parameter.formula.shape() {
                     Shape::Number => literal(1.0),
                     Shape::Vector => vector(1.0, 1.0),
@@ -198,6 +186,7 @@ impl State {
                 let binding = Binding { name: named(&parameter.name), value };
                 line(script, Making::Let(vec![binding]));
             } else {
+                tick(LINE);
                 script.push_str(&Unbind::of(&self.world).parameter_text(id));
                 script.push('\n');
             }
@@ -218,34 +207,12 @@ impl State {
     }
 
     /// Makes parameters live that had to wait.
-    fn save_late_parameters(&self, script: &mut String) {
-        for id in self.parameters_in_order() {
-            let parameter = self.world.parameter(id).expect("a listed parameter lives");
-            if self.is_late(id, &parameter.formula) {
-                script.push_str(&Unbind::of(&self.world).parameter_text(id));
-                script.push('\n');
-            }
+    fn save_late_parameters(&self, late: &Late, script: &mut String) {
+        for &id in &late.in_order {
+            tick(LINE);
+            script.push_str(&Unbind::of(&self.world).parameter_text(id));
+            script.push('\n');
         }
-    }
-
-    /// Whether some value of a constraint is made live by what comes after it.
-    fn follows_late(&self, record: &Record) -> bool {
-        let mut open: Vec<Formula> =
-            record.drivers().iter().map(|(_, formula)| formula.clone()).collect();
-        let mut seen = BTreeSet::new();
-        let mut is_late = open.iter().any(|formula| self.world.mentions_members(formula));
-        while let Some(formula) = open.pop().filter(|_| !is_late) {
-            formula.mentions(&mut |mention| {
-                if let Mention::Parameter(id) = mention
-                    && seen.insert(id)
-                    && let Some(parameter) = self.world.parameter(id)
-                {
-                    is_late |= self.is_late(id, &parameter.formula);
-                    open.push(parameter.formula.clone());
-                }
-            });
-        }
-        is_late
     }
 
     /// The values of a constraint that mention members of itself or of such as come after it, and
@@ -273,9 +240,9 @@ impl State {
     }
 
     /// Makes live what had to wait for the members it mentions.
-    fn save_late_values(&self, script: &mut String) {
+    fn save_late_values(&self, waiting: &Late, script: &mut String) {
         for (id, record) in self.world.constraints() {
-            if !self.follows_late(record) {
+            if !waiting.is_followed_by(record) {
                 continue;
             }
             let late = self.late_fields(id, record);
@@ -334,6 +301,63 @@ impl State {
         if let Some(every) = self.preferences.expose_every {
             line(script, Drawing::Expose(Expose::Every(literal(every as f64))));
         }
+    }
+}
+
+/// What has to wait for others, or for constraints, that come after it.
+#[derive(Debug, Default)]
+struct Late {
+    /// Parameters that can be made live only then.
+    parameters: BTreeSet<ParameterId>,
+    /// These, each after those that it mentions.
+    in_order: Vec<ParameterId>,
+    /// These, and all parameters that mention them at any depth.
+    following: BTreeSet<ParameterId>,
+}
+
+impl Late {
+    fn of(state: &State) -> Self {
+        let mut late = Self::default();
+        // Those that mention members, at any depth.
+        let mut with_members = BTreeSet::new();
+        for id in state.parameters_in_order() {
+            let parameter = state.world.parameter(id).expect("a listed parameter lives");
+            let (mut has_members, mut is_late, mut is_following) = (false, false, false);
+            parameter.formula.mentions(&mut |mention| match mention {
+                Mention::Member(..) => has_members = true,
+                Mention::Parameter(used) => {
+                    has_members |= with_members.contains(&used);
+                    is_late |= used > id;
+                    is_following |= late.following.contains(&used);
+                }
+                Mention::Measure(_) => is_late = true,
+                Mention::Point(_) => {}
+            });
+            if has_members {
+                with_members.insert(id);
+            }
+            if is_late || has_members {
+                late.parameters.insert(id);
+                late.in_order.push(id);
+            }
+            if is_late || has_members || is_following {
+                late.following.insert(id);
+            }
+        }
+        late
+    }
+
+    /// Whether some value of a constraint is made live by what comes after it.
+    fn is_followed_by(&self, record: &Record) -> bool {
+        let mut is_followed = false;
+        for (_, formula) in record.drivers() {
+            formula.mentions(&mut |mention| match mention {
+                Mention::Member(..) => is_followed = true,
+                Mention::Parameter(used) => is_followed |= self.following.contains(&used),
+                Mention::Point(_) | Mention::Measure(_) => {}
+            });
+        }
+        is_followed
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::diag::{Diagnostic, Sources, Span, format_number, nearest};
+use crate::diag::{Diagnostic, Likeness, Sources, Span, format_number, nearest};
 use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::quotas::Quotas;
@@ -442,9 +442,12 @@ impl<'a> Resolver<'a> {
             return problem.help(format!("`measure {owner} = ...` follows a value that has one"));
         }
         let prefix = &self.scope().prefix;
-        let mut known: Vec<&str> = names.iter().map(|(name, _)| name).collect();
-        known.extend(self.scope().bindings.iter().map(|(name, _)| &**name));
-        known.extend(names.iter().filter_map(|(name, _)| name.strip_prefix(prefix.as_str())));
+        let likeness = Likeness::to(text);
+        let is_like = |name: &&str| likeness.as_ref().is_some_and(|to| to.may_be(name));
+        let bound = self.scope().bindings.iter().map(|(name, _)| &**name);
+        let inside = names.iter().filter_map(|(name, _)| name.strip_prefix(prefix.as_str()));
+        let all = names.iter().map(|(name, _)| name);
+        let mut known: Vec<&str> = all.chain(inside).chain(bound).filter(is_like).collect();
         known.sort_unstable();
         // One letter is too near to `pi` to mean it.
         if text.chars().nth(1).is_some() {

@@ -100,7 +100,9 @@ impl History {
 
     /// The past poses, the latest first, for keeping.
     pub fn to_past(&self) -> Vec<Point> {
-        (1..=self.n_past).flat_map(|k| self.past(k).iter().copied()).collect()
+        let mut past = Vec::with_capacity(self.n_past * self.n_points);
+        (1..=self.n_past).for_each(|k| past.extend_from_slice(self.past(k)));
+        past
     }
 
     /// The history with these past poses of `n_free` points, the latest first.

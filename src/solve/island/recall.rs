@@ -10,11 +10,26 @@ use crate::solve::settings::Settings;
 use crate::world::PointId;
 use crate::world::marks::Marks;
 
-/// What was remembered of some islands, each filed under its first free point: nothing where there
-/// was no island that began with it.
+/// What is remembered under a point: nothing where no island begins with it, or where what it
+/// remembers does not count.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Kept {
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// Roughly how many bytes that holds.
+    n_bytes: u32,
+}
+
+impl From<Option<Arc<Snapshot>>> for Kept {
+    fn from(snapshot: Option<Arc<Snapshot>>) -> Self {
+        let n_bytes = snapshot.as_ref().map_or(0, |snapshot| snapshot.n_bytes());
+        Self { snapshot, n_bytes: u32::try_from(n_bytes).unwrap_or(u32::MAX) }
+    }
+}
+
+/// What was remembered of some islands, each filed under its first free point, in their order.
 #[derive(Debug, Clone, Default)]
 pub struct Recall {
-    pub(crate) islands: Vec<(PointId, Option<Arc<Snapshot>>)>,
+    pub(crate) islands: Vec<(PointId, Kept)>,
     /// The settings of the last call then.
     pub(crate) settings: Option<Settings>,
 }
@@ -22,10 +37,8 @@ pub struct Recall {
 impl Recall {
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        let snapshots = self.islands.iter().filter_map(|(_, snapshot)| snapshot.as_ref());
-        size_of::<Self>()
-            + size_of_val(&*self.islands)
-            + snapshots.map(|snapshot| snapshot.n_bytes()).sum::<usize>()
+        let kept = self.islands.iter().map(|(_, kept)| kept.n_bytes as usize);
+        size_of::<Self>() + size_of_val(&*self.islands) + kept.sum::<usize>()
     }
 }
 
@@ -67,16 +80,16 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(island.points[0].idx())
         {
-            recall.islands.push((island.points[0], Some(snapshot_of(island))));
+            recall.islands.push((island.points[0], Some(snapshot_of(island)).into()));
         }
     }
 
     /// What is remembered under a point is about to change.
-    pub fn note_as(&mut self, first: PointId, snapshot: Option<Arc<Snapshot>>) {
+    pub fn note_as(&mut self, first: PointId, kept: Kept) {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(first.idx())
         {
-            recall.islands.push((first, snapshot));
+            recall.islands.push((first, kept));
         }
     }
 }

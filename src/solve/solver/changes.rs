@@ -6,6 +6,7 @@ use crate::solve::dispatch::{Alone, Cause, check};
 use crate::solve::island::Island;
 use crate::solve::island::memory;
 use crate::solve::island::partition::{Home, Partition};
+use crate::solve::island::recall::Kept;
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
 use crate::world::{ConstraintId, PointId, Touched, World};
@@ -95,7 +96,7 @@ impl Solver {
             notes.note(island);
             pending
                 .entry(island.points[0])
-                .or_insert_with(|| (!island.is_new).then(|| memory::snapshot_of(island)));
+                .or_insert_with(|| (!island.is_new).then(|| memory::snapshot_of(island)).into());
         });
         for &k in &made {
             self.is_awake.resize(self.is_awake.len().max(k as usize + 1), false);
@@ -123,9 +124,9 @@ impl Solver {
     fn restore_island(&mut self, k: u32) {
         let Some(island) = self.partition.get_mut(k) else { return };
         let first = island.points[0];
-        let remembered = self.pending.remove(&first).flatten();
+        let remembered = self.pending.remove(&first).and_then(|kept| kept.snapshot);
         // What was remembered under this point before is noted already.
-        self.notes.note_as(first, None);
+        self.notes.note_as(first, Kept::default());
         if let Some(remembered) = remembered {
             memory::restore(island, &remembered);
             if !island.is_new && island.status != Status::Converged {

@@ -13,7 +13,7 @@ use super::dispatch::{Cause, Task, check};
 use super::island::Island;
 use super::island::memory::{self, Memory};
 use super::island::partition::{Home, Partition};
-use super::island::recall::{Notes, Recall};
+use super::island::recall::{Kept, Notes, Recall};
 use super::island::snapshot::Snapshot;
 use super::report::{Budget, Counters, Report, Status};
 use super::settings::{Method, Settings};
@@ -45,7 +45,7 @@ pub struct Solver {
     settings: Option<Settings>,
     /// What islands yet to be made are to remember, each under its first free point; nothing where
     /// what an island there remembers does not count.
-    pending: BTreeMap<PointId, Option<Arc<Snapshot>>>,
+    pending: BTreeMap<PointId, Kept>,
     /// Whether all islands are to be made anew.
     is_stale: bool,
     /// What commands take back.
@@ -163,8 +163,8 @@ impl Solver {
                 }
             }
         }
-        for (first, snapshot) in &self.pending {
-            if let Some(snapshot) = snapshot {
+        for (first, kept) in &self.pending {
+            if let Some(snapshot) = &kept.snapshot {
                 memory.put(*first, snapshot.clone());
             }
         }
@@ -177,9 +177,9 @@ impl Solver {
         self.remember_settings(memory.made_by());
         self.pending.clear();
         let islands = memory.into_islands();
-        self.pending.extend(islands.map(|(first, snapshot)| (first, Some(snapshot))));
+        self.pending.extend(islands.map(|(first, snapshot)| (first, Some(snapshot).into())));
         for &first in self.pending.keys() {
-            self.notes.note_as(first, None);
+            self.notes.note_as(first, Kept::default());
         }
         self.partition = Partition::default();
         self.forget_lists();
@@ -202,8 +202,8 @@ impl Solver {
             self.remember_settings(memory.made_by());
         }
         for (first, snapshot) in memory.into_islands() {
-            self.notes.note_as(first, self.remembered(first));
-            self.pending.insert(first, Some(snapshot));
+            self.notes.note_as(first, self.remembered(first).into());
+            self.pending.insert(first, Some(snapshot).into());
         }
         true
     }
@@ -237,16 +237,23 @@ impl Solver {
 
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
     /// to become so before the solver is called again.
-    pub fn recall(&mut self, then: Recall) -> Recall {
-        let mut now =
-            Recall { islands: Vec::with_capacity(then.islands.len()), settings: self.settings };
-        for (first, snapshot) in then.islands {
-            let pending = self.pending.insert(first, snapshot);
-            now.islands.push((first, pending.unwrap_or_else(|| self.remembered_by_island(first))));
+    pub fn recall(&mut self, mut then: Recall) -> Recall {
+        let mut others = Vec::new();
+        exchange(&mut self.pending, &mut then.islands, |k| others.push(k));
+        let others = others.into_iter().map(|k| {
+            let (first, kept) = &mut then.islands[k];
+            let now = self.remembered_by_island(*first).into();
+            (*first, std::mem::replace(kept, now))
+        });
+        let others: Vec<(PointId, Kept)> = others.collect();
+        if self.pending.is_empty() {
+            self.pending = others.into_iter().collect();
+        } else {
+            self.pending.extend(others);
         }
-        self.settings = then.settings;
+        std::mem::swap(&mut self.settings, &mut then.settings);
         self.missed.clear();
-        now
+        then
     }
 
     /// Whether what was noted is what is remembered.
@@ -254,12 +261,13 @@ impl Solver {
         let counts =
             |snapshot: Option<Arc<Snapshot>>| snapshot.filter(|snapshot| !snapshot.is_new());
         let mut islands = recall.islands.iter();
-        islands.all(|(first, then)| counts(self.remembered(*first)) == counts(then.clone()))
+        islands
+            .all(|(first, then)| counts(self.remembered(*first)) == counts(then.snapshot.clone()))
     }
 
     /// What is remembered of the island that begins with a point.
     fn remembered(&self, first: PointId) -> Option<Arc<Snapshot>> {
-        let pending = self.pending.get(&first).cloned();
+        let pending = self.pending.get(&first).map(|kept| kept.snapshot.clone());
         pending.unwrap_or_else(|| self.remembered_by_island(first))
     }
 
@@ -287,8 +295,8 @@ impl Solver {
 
     /// What is pending is about to be taken, or given up.
     fn note_pending(&mut self) {
-        for (first, snapshot) in &self.pending {
-            self.notes.note_as(*first, snapshot.clone());
+        for (first, kept) in &self.pending {
+            self.notes.note_as(*first, kept.clone());
         }
     }
 
@@ -353,5 +361,34 @@ impl Solver {
     /// The islands there are, and how many of them the next frame will visit.
     pub fn n_islands(&self) -> (usize, usize) {
         (self.partition.iter().count(), self.awake.len())
+    }
+}
+
+/// How many searches in a map take as long as a way through so many of its entries.
+const WAY: usize = 16;
+
+/// Exchanges what is filed under the same point in both; tells which places of the list, which is in
+/// order, are not in the map.
+fn exchange(
+    pending: &mut BTreeMap<PointId, Kept>,
+    list: &mut [(PointId, Kept)],
+    mut missing: impl FnMut(usize),
+) {
+    if list.len() < pending.len() / WAY {
+        for (k, (first, kept)) in list.iter_mut().enumerate() {
+            match pending.get_mut(first) {
+                Some(there) => std::mem::swap(there, kept),
+                None => missing(k),
+            }
+        }
+        return;
+    }
+    let mut there = pending.iter_mut().peekable();
+    for (k, (first, kept)) in list.iter_mut().enumerate() {
+        while there.next_if(|(other, _)| **other < *first).is_some() {}
+        match there.next_if(|(other, _)| **other == *first) {
+            Some((_, there)) => std::mem::swap(there, kept),
+            None => missing(k),
+        }
     }
 }

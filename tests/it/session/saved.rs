@@ -92,6 +92,18 @@ fn a_constraint_of_any_kind_whose_points_were_moved_onto_each_other_is_loaded_ag
 }
 
 #[test]
+fn what_was_made_and_deleted_before_a_constraint_is_not_seen() {
+    for statement in statements() {
+        let points = PLACES.iter().enumerate().map(|(k, at)| format!("point p{k} = {at}\n"));
+        let points: String = points.collect();
+        let mut talking = Talking::after(&format!(
+            "{points}circle other = p0 radius 1; bar: length p2 p3 = 1; delete other, bar\n{statement}"
+        ));
+        talking.assert_goes_on_from_its_file("step 2");
+    }
+}
+
+#[test]
 fn an_expression_that_has_no_value_in_the_pose_of_now_is_loaded_again() {
     for live in [
         "it: length p0 p1 = 8 / p0.x",
