@@ -18,7 +18,7 @@ mod progress;
 mod run;
 mod spool;
 mod sweep;
-pub(crate) mod view;
+mod view;
 mod watch;
 mod wrap;
 

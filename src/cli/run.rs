@@ -9,7 +9,7 @@ use std::sync::mpsc::sync_channel;
 use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output, view};
+use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
@@ -322,7 +322,7 @@ fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArgumen
         typed_ahead(
             session,
             process,
-            |lines, session, process| view::meanwhile(session, process, || lines.next()),
+            |lines, session, process| process.meanwhile(session, &mut |_| (), || lines.next()),
             |piece, transcript, session, process| transcript.enter(piece, session, process),
         )
     };
