@@ -62,6 +62,7 @@ pub mod linalg;
 pub mod live;
 #[doc(hidden)]
 pub mod mobility;
+mod optimise;
 pub mod render;
 #[cfg(feature = "terminal")]
 mod repl;

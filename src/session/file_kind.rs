@@ -1,5 +1,6 @@
 //! Kinds of files that statements write: their endings, and what shows that a file is one of them.
 
+use super::fnv::fnv_1a;
 use crate::render::FIRST_WORDS as PICTURE_MARK;
 
 /// How a file that `save` wrote begins.
@@ -17,15 +18,22 @@ pub enum FileKind {
     PathTable,
     /// A table with these words over its columns.
     Table(&'static str),
+    /// A table with words over its columns that have this hash.
+    Columns(u64),
 }
 
 impl FileKind {
+    /// A table with these words over its columns.
+    pub fn of_columns(heading: &str) -> Self {
+        Self::Columns(fnv_1a(heading.as_bytes()))
+    }
+
     /// The ending that says so; none where a file may have any.
     pub const fn ending(self) -> Option<&'static str> {
         match self {
             Self::Script => None,
             Self::Picture => Some(".svg"),
-            Self::PathTable | Self::Table(_) => Some(".csv"),
+            Self::PathTable | Self::Table(_) | Self::Columns(_) => Some(".csv"),
         }
     }
 
@@ -39,6 +47,7 @@ impl FileKind {
                 Self::Picture => opening.starts_with(PICTURE_MARK.as_bytes()),
                 Self::PathTable => is_heading_of_paths(line, is_whole),
                 Self::Table(words) => line == words.as_bytes(),
+                Self::Columns(hash) => fnv_1a(line) == hash,
             }
     }
 }

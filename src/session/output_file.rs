@@ -179,7 +179,7 @@ impl Execution<'_> {
         was_stopped: bool,
     ) -> Result<(), Diagnostic> {
         let Recorder { path, span, format, .. } = recorder;
-        let (span, kind) = (*span, format.kind());
+        let (span, kind) = (*span, recorder.kind());
         let failed = |e: io::Error| unwritable(path, span, &e);
         let stopped = || {
             Diagnostic::error(errors::INTERRUPTED, "stopped before the recording was written")

@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
@@ -16,6 +16,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("constraint", &["interrupt", "terms"]),
     ("world", &["diag", "errors", "terms", "constraint"]),
     ("linalg", &["interrupt"]),
+    ("optimise", &["linalg"]),
     ("mobility", &["constraint", "linalg"]),
     ("solve", &["interrupt", "diag", "constraint", "world", "linalg", "mobility"]),
     ("render", &["interrupt", "diag", "constraint", "linalg", "world"]),
@@ -34,6 +35,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
             "solve",
             "render",
             "study",
+            "optimise",
         ],
     ),
     ("live", &["diag", "lang", "constraint", "world", "render", "session"]),
@@ -50,7 +52,19 @@ const HOMES: [(&str, &[&str]); 22] = [
     ("ctrlc", &["cli/interrupt.rs"]),
     ("getrandom", &["cli/view/token.rs"]),
     ("httparse", &["cli/view/request.rs"]),
-    ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
+    (
+        "libm",
+        &[
+            "constraint/",
+            "diag/",
+            "linalg/",
+            "mobility/",
+            "optimise/",
+            "render/",
+            "solve/",
+            "world/",
+        ],
+    ),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),

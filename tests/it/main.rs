@@ -12,6 +12,7 @@ mod errors;
 mod examples;
 mod expressions;
 mod files;
+mod fits;
 mod format;
 mod front_door;
 mod golden;
@@ -38,6 +39,7 @@ mod slips;
 mod solve;
 mod study;
 mod support;
+mod tables;
 #[cfg(unix)]
 mod terminal;
 mod touches;

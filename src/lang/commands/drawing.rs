@@ -2,35 +2,41 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::Verb;
+use super::{Verb, each};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::catalogue::{Entry, Section};
-use crate::lang::expr::{Expr, Name};
+use crate::lang::expr::{Expr, Name, Unit};
 use crate::lang::grammar::Rule;
 use crate::lang::lower::{Cursor, refusal};
 use crate::lang::parts::{Selection, Text};
-use crate::lang::print::{Clause, Names, commas};
+use crate::lang::print::{Clause, InUnit, Names, commas};
 
 /// A command of this family.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drawing {
-    /// `trace C every 5`
+    /// `trace C as "before" every 5`
     Trace {
         /// The points.
         names: Vec<Name>,
+        /// What the path is called.
+        label: Option<Text>,
         /// Only each so many frames.
         every: Option<Expr>,
     },
     /// `untrace C`, `untrace all`
     Untrace(Selection),
+    /// `untrace "before"`
+    UntraceLabel(Text),
     /// `expose`, `expose every 30`, `expose off`
     Expose(Expose),
     /// `svg "now.svg"`
     Svg(Text),
-    /// `record "frames/" every 10`
+    /// `record "frames/" every 10`, `record "t.csv" of time, angle(A, B) in deg`
     Record {
         /// The file or folder.
         path: Text,
+        /// What a table has columns of; none for the traced points.
+        columns: Vec<Column>,
         /// Only each so many frames.
         every: Option<Expr>,
     },
@@ -43,13 +49,34 @@ pub enum Drawing {
         /// Its next values, at least one.
         values: Vec<Expr>,
     },
-    /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart.
+    /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart, or measures
+    /// against another.
     Plot {
         /// The file.
         path: Option<Text>,
+        /// Which measures are drawn, if not the series.
+        curves: Option<Curves>,
         /// How it looks.
         parts: Vec<PlotPart>,
     },
+}
+
+/// A column of a table, two of a vector.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its values.
+    pub value: Expr,
+    /// What they are counted in.
+    pub unit: Unit,
+}
+
+/// `y, z against x` in a `plot`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// What is drawn upwards, a line each; at least one.
+    pub up: Vec<Expr>,
+    /// What is drawn to the right.
+    pub against: Expr,
 }
 
 /// What an `expose` asks for.
@@ -83,11 +110,13 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "trace",
             section: Section::Pictures,
-            usage: "trace NAMES [every FRAMES]",
+            usage: "trace NAMES [as TEXT] [every FRAMES]",
             summary: "record the paths of points",
-            help: "",
+            help: "With `as` the path has a name, which stands in the legend, and a path of the same point that\n\
+                 still grew ends there and stays drawn. `reset` empties those that grow.",
             example: "trace C\n\
-                 trace A C every 5",
+                 trace A C every 5\n\
+                 trace C as \"before\"",
         },
     },
     Verb {
@@ -95,10 +124,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "untrace",
             section: Section::Pictures,
-            usage: "untrace NAMES | all",
-            summary: "forget the paths of points",
+            usage: "untrace NAMES | TEXT | all",
+            summary: "forget the paths of points, or the one of this name",
             help: "",
             example: "untrace C\n\
+                 untrace \"before\"\n\
                  untrace all",
         },
     },
@@ -131,12 +161,14 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "record",
             section: Section::Pictures,
-            usage: "record FILE [every FRAMES] | stop",
+            usage: "record FILE [of VALUE [in UNIT], ...] [every FRAMES] | stop",
             summary: "write each frame from here on",
             help: r#"A folder (`"frames/"`) gets a picture a frame, an `.svg` is one animation, a `.csv` has
-    time and the traced points. `record stop`, or the end of the script, writes them."#,
+    time and the traced points. With `of` a `.csv` has these columns, two of a vector, and a row of now.
+    `record stop`, or the end of the script, writes them."#,
             example: r#"record "frames/" every 10
     record "motion.svg"
+    record "t.csv" of time, angle(A, B) in deg, C every 10
     record stop"#,
         },
     },
@@ -158,11 +190,14 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "plot",
             section: Section::Pictures,
-            usage: "plot [FILE] [log] [title TEXT] [x TEXT] [y TEXT]",
-            summary: "write all series as a line chart against the number of the sample",
-            help: "The first sample of a series has number 0. With `log` equal ratios are equally high,
-    and values that are not above 0 are left out.",
-            example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error""#,
+            usage: "plot [FILE] [MEASURES against MEASURE|time] [log] [title TEXT] [x TEXT] [y TEXT]",
+            summary: "write measures against another as a line chart, or all series against the sample",
+            help: "Of a measure each value is drawn at that of the other in the same frame. The first sample of a
+    series has number 0. With `log` equal ratios are equally high, and values that are not above 0
+    are left out.",
+            example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error"
+    plot "lift.svg" lift against phi
+    plot d, e against time"#,
         },
     },
 ];
@@ -176,14 +211,30 @@ impl Drawing {
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {
-            Rule::trace => Self::Trace { names: c.names()?, every: c.clause(Rule::every)? },
-            Rule::untrace => Self::Untrace(c.selection()?),
+            Rule::trace => {
+                let names = c.names()?;
+                let label = match c.take(Rule::as_text) {
+                    Some(clause) => Some(c.within(clause).text()?),
+                    None => None,
+                };
+                Self::Trace { names, label, every: c.clause(Rule::every)? }
+            }
+            Rule::untrace => match c.text_if_any()? {
+                Some(label) => Self::UntraceLabel(label),
+                None => Self::Untrace(c.selection()?),
+            },
             Rule::expose => expose(c)?,
             Rule::svg => Self::Svg(c.text()?),
             Rule::record if c.flag(Rule::kw_stop) => Self::RecordStop,
-            Rule::record => Self::Record { path: c.text()?, every: c.clause(Rule::every)? },
+            Rule::record => {
+                let (path, columns) = (c.text()?, columns(c)?);
+                Self::Record { path, columns, every: c.clause(Rule::every)? }
+            }
             Rule::sample => Self::Sample { series: c.text()?, values: c.exprs()? },
-            Rule::plot => Self::Plot { path: c.text_if_any()?, parts: plot_parts(c)? },
+            Rule::plot => {
+                let (path, curves) = (c.text_if_any()?, curves(c)?);
+                Self::Plot { path, curves, parts: plot_parts(c)? }
+            }
             _ => return Ok(None),
         }))
     }
@@ -191,26 +242,44 @@ impl Drawing {
     /// Writes its canonical form.
     pub(in crate::lang) fn write(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            Self::Trace { names, every } => {
-                let names = Names { names, stop: "every" };
-                write!(f, "trace {names}{}", Clause(" every ", every))
+            Self::Trace { names, label, every } => {
+                let names = Names { names, stops: &["every", "as"] };
+                let (label, every) = (Clause(" as ", label), Clause(" every ", every));
+                write!(f, "trace {names}{label}{every}")
             }
             Self::Untrace(what) => write!(f, "untrace {what}"),
+            Self::UntraceLabel(label) => write!(f, "untrace {label}"),
             Self::Expose(Expose::Now) => f.write_str("expose"),
             Self::Expose(Expose::Every(frames)) => write!(f, "expose every {frames}"),
             Self::Expose(Expose::Off) => f.write_str("expose off"),
             Self::Svg(path) => write!(f, "svg {path}"),
-            Self::Record { path, every } => {
-                write!(f, "record {path}{}", Clause(" every ", every))
+            Self::Record { path, columns, every } => {
+                write!(f, "record {path}")?;
+                if !columns.is_empty() {
+                    write!(f, " of {}", commas(columns))?;
+                }
+                write!(f, "{}", Clause(" every ", every))
             }
             Self::RecordStop => f.write_str("record stop"),
             Self::Sample { series, values } => write!(f, "sample {series} = {}", commas(values)),
-            Self::Plot { path, parts } => {
-                write!(f, "plot{}", Clause(" ", path))?;
+            Self::Plot { path, curves, parts } => {
+                write!(f, "plot{}{}", Clause(" ", path), Clause(" ", curves))?;
                 parts.iter().try_for_each(|part| write!(f, " {part}"))
             }
         }
     }
+}
+
+fn columns(c: &mut Cursor) -> Result<Vec<Column>, Diagnostic> {
+    let Some(list) = c.take(Rule::columns) else { return Ok(Vec::new()) };
+    each(&mut c.within(list), Rule::column, |c| Ok(Column { value: c.expr()?, unit: c.unit()? }))
+}
+
+fn curves(c: &mut Cursor) -> Result<Option<Curves>, Diagnostic> {
+    let Some(clause) = c.take(Rule::against) else { return Ok(None) };
+    let mut up = c.within(clause).exprs()?;
+    let against = up.pop().expect("the grammar has two values at least here");
+    Ok(Some(Curves { up, against }))
 }
 
 fn plot_parts(c: &mut Cursor) -> Result<Vec<PlotPart>, Diagnostic> {
@@ -242,6 +311,18 @@ fn expose(c: &mut Cursor) -> Result<Drawing, Diagnostic> {
     }
     let every = c.clause(Rule::every)?;
     Ok(Drawing::Expose(every.map_or(Expose::Now, Expose::Every)))
+}
+
+impl Display for Column {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "{}{}", self.value, InUnit(self.unit))
+    }
+}
+
+impl Display for Curves {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "{} against {}", commas(&self.up), self.against)
+    }
 }
 
 impl Display for PlotPart {

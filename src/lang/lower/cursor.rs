@@ -130,6 +130,11 @@ impl<'a> Cursor<'a> {
         unit.map(Some).ok_or_else(|| refusal::unknown_unit(&word))
     }
 
+    /// The unit behind a value; none if none is said.
+    pub fn unit(&mut self) -> Result<Unit> {
+        Ok(self.unit_if_any()?.unwrap_or(Unit::None))
+    }
+
     pub fn ident_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::ident)?;
         Some(self.ident_of(&pair))
@@ -359,6 +364,10 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_for
             | Rule::kw_in
             | Rule::kw_as
+            | Rule::kw_of
+            | Rule::kw_against
+            | Rule::kw_minimise
+            | Rule::kw_maximise
             | Rule::kw_title
             | Rule::kw_x
             | Rule::kw_y

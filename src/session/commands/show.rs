@@ -14,7 +14,7 @@ use crate::render::{Scene, Sketch};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::Meaning;
-use crate::session::resolve::unbind::Unbind;
+use crate::session::resolve::unbind::{Unbind, quoted};
 use crate::session::state::State;
 use crate::solve::{Method, present};
 use crate::terms::{Function, Statistic};
@@ -189,10 +189,14 @@ impl Execution<'_> {
             lines.extend(self.state.world.traces().iter().map(|trace| {
                 let name = self.state.world.points().name(trace.point);
                 let n = trace.samples.len();
-                match trace.every {
-                    1 => format!("trace {name}  # {n} places"),
-                    every => format!("trace {name} every {every}  # {n} places"),
-                }
+                let label = trace.label.as_deref().map(quoted);
+                let label = label.map_or_else(String::new, |label| format!(" as {label}"));
+                let every = match trace.every {
+                    1 => String::new(),
+                    every => format!(" every {every}"),
+                };
+                let ended = if trace.is_ended { ", ended" } else { "" };
+                format!("trace {name}{label}{every}  # {n} places{ended}")
             }));
         }
         if is_asked(ListWhat::Measures) {

@@ -1,8 +1,10 @@
 //! Traces, ghosts, pictures and recordings.
 
-use crate::diag::{Diagnostic, Span};
+use std::sync::Arc;
+
+use crate::diag::{Diagnostic, Span, suggest};
 use crate::errors;
-use crate::lang::ast::{Expose, Expr, Name, Selection, Text};
+use crate::lang::ast::{Column, Expose, Expr, Name, Selection, Text};
 use crate::render::{Scene, svg};
 use crate::session::execution::Execution;
 use crate::session::file_kind::{FileKind, ends_in};
@@ -13,60 +15,129 @@ use crate::session::quotas::Quota;
 use crate::session::resolve::scope::ALL;
 use crate::session::spool::Tape;
 use crate::session::undo::journal::Change;
-use crate::session::undo::recorder::{Format, Recorder};
-use crate::world::{Edit, Trace};
+use crate::session::undo::recorder::{Format, Recorder, kind_of};
+use crate::world::{Edit, PointId, Trace};
 
 impl Execution<'_> {
     fn every(&mut self, every: Option<&Expr>) -> Result<u64, Diagnostic> {
         every.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e9, "frames"))
     }
 
-    pub(crate) fn trace(&mut self, names: &[Name], every: Option<&Expr>) -> Result<(), Diagnostic> {
+    pub(crate) fn trace(
+        &mut self,
+        names: &[Name],
+        label: Option<&Text>,
+        every: Option<&Expr>,
+    ) -> Result<(), Diagnostic> {
         let every = self.every(every)?;
+        if let (Some(label), [_, second, ..]) = (label, names) {
+            return Err(Diagnostic::error(errors::NAME_TAKEN, "a name is that of one path")
+                .at(label.span, "")
+                .also(second.span, "this would be another")
+                .help("write a `trace ... as ...` for each"));
+        }
         for name in names {
             let point = self.resolve().point(name)?;
-            let traces = self.state.world.traces();
-            match traces.iter().position(|t| t.point == point) {
-                Some(k) if traces[k].every == every => {}
-                Some(k) => {
-                    // The path so far stays; only its pace changes.
-                    let mut trace = traces[k].clone();
-                    trace.every = every;
-                    self.edit(Edit::Trace(k, None));
-                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
-                }
-                None => {
-                    let trace = Trace { point, every, samples: Vec::new() };
-                    let k = traces.len();
-                    self.edit(Edit::Trace(k, Some(Box::new(trace))));
-                }
+            match label {
+                Some(label) => self.trace_as(point, label, every)?,
+                None => self.trace_point(point, every),
             }
         }
         Ok(())
     }
 
+    /// The place in the list of the path of a point that still grows.
+    fn growing_trace(&self, point: PointId) -> Option<usize> {
+        let mut traces = self.state.world.traces().iter();
+        traces.position(|trace| trace.point == point && !trace.is_ended)
+    }
+
+    /// Changes what is said of a path; its places stay.
+    fn change_trace(&mut self, k: usize, change: impl FnOnce(&mut Trace)) {
+        let mut trace = self.state.world.traces()[k].clone();
+        change(&mut trace);
+        self.edit(Edit::Trace(k, None));
+        self.edit(Edit::Trace(k, Some(Box::new(trace))));
+    }
+
+    fn trace_point(&mut self, point: PointId, every: u64) {
+        match self.growing_trace(point) {
+            Some(k) if self.state.world.traces()[k].every == every => {}
+            Some(k) => self.change_trace(k, |trace| trace.every = every),
+            None => self.begin_trace(point, None, every),
+        }
+    }
+
+    /// Begins a path with a name, and ends the one of the same point that grows.
+    fn trace_as(&mut self, point: PointId, label: &Text, every: u64) -> Result<(), Diagnostic> {
+        if label.value.trim().is_empty() || label.value.contains(char::is_control) {
+            return Err(Diagnostic::error(errors::NAME_TAKEN, "a path needs a name")
+                .at(label.span, "a line of text, not empty"));
+        }
+        let growing = self.growing_trace(point);
+        let has_label = |trace: &Trace| trace.label.as_ref() == Some(&label.value);
+        if let Some(k) = self.state.world.traces().iter().position(has_label) {
+            if growing != Some(k) {
+                let text = &label.value;
+                return Err(Diagnostic::error(
+                    errors::NAME_TAKEN,
+                    format!("there is a path `{text}` already"),
+                )
+                .at(label.span, "this name is taken")
+                .help(format!("`untrace \"{text}\"` removes it")));
+            }
+            self.trace_point(point, every);
+            return Ok(());
+        }
+        if let Some(k) = growing {
+            self.change_trace(k, |trace| trace.is_ended = true);
+        }
+        self.begin_trace(point, Some(label.value.clone()), every);
+        Ok(())
+    }
+
+    fn begin_trace(&mut self, point: PointId, label: Option<Arc<str>>, every: u64) {
+        let trace = Trace { point, label, every, is_ended: false, samples: Vec::new() };
+        self.edit(Edit::Trace(self.state.world.traces().len(), Some(Box::new(trace))));
+    }
+
     pub(crate) fn untrace(&mut self, selection: &Selection) -> Result<(), Diagnostic> {
         if *selection == Selection::All {
-            for k in (0..self.state.world.traces().len()).rev() {
-                self.edit(Edit::Trace(k, None));
-            }
+            self.remove_traces(|_| true);
             return Ok(());
         }
         let Selection::Names(names) = selection else { return Ok(()) };
         for name in names {
             let point = self.resolve().point(name);
             let point = point.map_err(|problem| self.resolve().or_word(problem, name, ALL))?;
-            let Some(k) = self.state.world.traces().iter().position(|t| t.point == point) else {
+            if !self.remove_traces(|trace| trace.point == point) {
                 let text = self.state.world.points().name(point);
                 return Err(Diagnostic::error(
                     errors::NOT_TRACED,
                     format!("`{text}` is not traced"),
                 )
                 .at(name.span, "no trace to end"));
-            };
-            self.edit(Edit::Trace(k, None));
+            }
         }
         Ok(())
+    }
+
+    pub(crate) fn untrace_label(&mut self, label: &Text) -> Result<(), Diagnostic> {
+        if self.remove_traces(|trace| trace.label.as_ref() == Some(&label.value)) {
+            return Ok(());
+        }
+        let labels = self.state.world.traces().iter().filter_map(|trace| trace.label.as_deref());
+        let problem = Diagnostic::error(errors::NOT_TRACED, "no path has this name")
+            .at(label.span, "no trace to end");
+        Err(suggest(problem, &label.value, labels).help("`list traces` shows them"))
+    }
+
+    /// Removes some paths; whether there were any.
+    fn remove_traces(&mut self, is_one: impl Fn(&Trace) -> bool) -> bool {
+        let traces = self.state.world.traces().iter().enumerate();
+        let found: Vec<usize> = traces.filter(|(_, it)| is_one(it)).map(|(k, _)| k).collect();
+        found.iter().rev().for_each(|&k| self.edit(Edit::Trace(k, None)));
+        !found.is_empty()
     }
 
     pub(crate) fn expose(&mut self, expose: &Expose) -> Result<(), Diagnostic> {
@@ -97,6 +168,7 @@ impl Execution<'_> {
             // Running is taken back as a whole, ghosts included.
             self.state.world.apply(ghost);
         }
+        self.take_rows(span)?;
         let mut n_taped = 0;
         for recorder in &mut self.state.recorders {
             recorder.take(&self.state.world).map_err(|e| unwritable(&recorder.path, span, &e))?;
@@ -130,7 +202,12 @@ impl Execution<'_> {
         Ok(())
     }
 
-    pub(crate) fn record(&mut self, path: &Text, every: Option<&Expr>) -> Result<(), Diagnostic> {
+    pub(crate) fn record(
+        &mut self,
+        path: &Text,
+        columns: &[Column],
+        every: Option<&Expr>,
+    ) -> Result<(), Diagnostic> {
         let every = self.every(every)?;
         let format = if path.value.ends_with('/') {
             Format::Frames
@@ -147,13 +224,20 @@ impl Execution<'_> {
             .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
             .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
         };
+        if let Some(column) = columns.first().filter(|_| format != Format::Table) {
+            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "only a table has columns")
+                .at(path.span, "expected a name that ends in `.csv`")
+                .also(column.value.span, "the first column"));
+        }
+        let columns = self.table_columns(columns)?;
+        let kind = if columns.is_empty() { format.kind() } else { kind_of(&columns) };
         let file = match format {
             Format::Frames => {
                 let folder = self.output_path(path)?;
                 self.must_be_replaceable(&folder.join(frame_name(0)), format.kind(), path.span)?;
                 folder
             }
-            Format::Movie | Format::Table => self.output_file(path, format.kind())?,
+            Format::Movie | Format::Table => self.output_file(path, kind)?,
         };
         if self.state.recorders.iter().any(|r| r.path == file) {
             return Err(Diagnostic::error(
@@ -164,9 +248,15 @@ impl Execution<'_> {
             .help("`record stop` ends and writes all recordings"));
         }
         let spool = self.host.spool().map_err(|e| unwritable(&file, path.span, &e))?;
-        let tape = Tape::new(spool);
-        let recorder = Box::new(Recorder::new(file, path.span, every, format, tape));
-        self.change(Change::Recorder(self.state.recorders.len(), Some(recorder)));
+        let mut recorder = Recorder::new(file, path.span, every, format, Tape::new(spool));
+        recorder.columns = columns.into();
+        if !recorder.columns.is_empty() {
+            // The row of now: what is counted in it is counted from now on.
+            self.begin_counts();
+            self.take_row(&mut recorder, path.span)?;
+        }
+        let k = self.state.recorders.len();
+        self.change(Change::Recorder(k, Some(Box::new(recorder))));
         Ok(())
     }
 
@@ -195,7 +285,7 @@ impl Execution<'_> {
                         .help("`trace C` adds the columns of a point"),
                 );
             }
-            let (file, kind, span) = (recorder.path.clone(), recorder.format.kind(), recorder.span);
+            let (file, kind, span) = (recorder.path.clone(), recorder.kind(), recorder.span);
             let content = Content::Recording(Box::new((recorder, options.clone())));
             self.outbox.push(Parcel { file, content, kind, span });
         }

@@ -6,13 +6,14 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
 use crate::render::{Animation, Options, Scene, View, is_shown};
 use crate::session::file_kind::FileKind;
 use crate::session::spool::Tape;
-use crate::world::World;
+use crate::world::{Formula, World};
 
 /// One recording.
 #[derive(Debug, Clone)]
@@ -29,6 +30,19 @@ pub struct Recorder {
     shots: Vec<Shot>,
     /// The points of a table, in the order in which they came.
     names: Vec<Box<str>>,
+    /// What a table has columns of, if not the traced points.
+    pub columns: Arc<[TableColumn]>,
+}
+
+/// A column of a table, two of a vector.
+#[derive(Debug)]
+pub struct TableColumn {
+    /// The words over it; over each of two.
+    pub headings: Vec<String>,
+    /// Its values.
+    pub formula: Formula,
+    /// What they are divided by.
+    pub scale: f64,
 }
 
 /// What a recording becomes.
@@ -85,14 +99,17 @@ impl Reel {
 
 impl Recorder {
     /// A recording that has taken nothing yet.
-    pub const fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
-        Self { path, span, every, format, tape, shots: Vec::new(), names: Vec::new() }
+    pub fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
+        let columns = Arc::new([]);
+        Self { path, span, every, format, tape, shots: Vec::new(), names: Vec::new(), columns }
     }
 
     /// Another in memory that takes the same and has taken nothing yet.
     pub fn emptied(&self) -> Self {
         let tape = Tape::new(Box::new(Vec::new()));
-        Self::new(self.path.clone(), self.span, self.every, self.format, tape)
+        let columns = self.columns.clone();
+        let emptied = Self::new(self.path.clone(), self.span, self.every, self.format, tape);
+        Self { columns, ..emptied }
     }
 
     /// Its reel as it is.
@@ -118,13 +135,28 @@ impl Recorder {
         self.tape.cut(reel.n_taped);
     }
 
+    /// Whether a frame is due.
+    pub fn is_due(&self, frame: u64) -> bool {
+        frame.is_multiple_of(self.every)
+    }
+
+    /// Takes a row of a table with columns of its own; what has no value now is no number.
+    ///
+    /// # Errors
+    /// Where the tape takes no more.
+    pub fn take_row(&mut self, time: f64, row: &[f64]) -> io::Result<()> {
+        let at = self.tape.put(row)?;
+        self.shots.push(Shot { time, at, n_points: row.len() as u32, scene: None });
+        Ok(())
+    }
+
     /// Takes the frame that was just solved, if it is due.
     ///
     /// # Errors
     /// Where the tape takes no more.
     pub fn take(&mut self, world: &World) -> io::Result<()> {
         let clock = world.clock();
-        if !clock.frame.is_multiple_of(self.every) {
+        if !self.is_due(clock.frame) || !self.columns.is_empty() {
             return Ok(());
         }
         let (numbers, n_points, scene) = match self.format {
@@ -139,6 +171,7 @@ impl Recorder {
             Format::Table => {
                 let traces = world.traces();
                 let mut numbers = Vec::with_capacity(3 * traces.len());
+                let traces: Vec<_> = traces.iter().filter(|trace| !trace.is_ended).collect();
                 for (k, trace) in traces.iter().enumerate() {
                     let at = world.points().at(trace.point);
                     let name = self.column(world.points().name(trace.point), k);
@@ -161,6 +194,11 @@ impl Recorder {
             self.names.push(name.into());
             self.names.len() - 1
         })
+    }
+
+    /// What each of its files is.
+    pub fn kind(&self) -> FileKind {
+        if self.columns.is_empty() { self.format.kind() } else { kind_of(&self.columns) }
     }
 
     /// How many frames it has taken.
@@ -223,7 +261,20 @@ impl Recorder {
 
     /// Whether no row of a table says where a point is.
     pub fn has_times_only(&self) -> bool {
-        !self.shots.is_empty() && self.shots.iter().all(|shot| shot.n_points == 0)
+        self.columns.is_empty()
+            && !self.shots.is_empty()
+            && self.shots.iter().all(|shot| shot.n_points == 0)
+    }
+
+    fn write_columns(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{}", heading(&self.columns))?;
+        let cell = |n: f64| if n.is_nan() { String::new() } else { format_number(n) };
+        for shot in &self.shots {
+            let row = self.tape.get(shot.at, shot.n_points as usize)?;
+            let cells: Vec<String> = row.into_iter().map(cell).collect();
+            writeln!(out, "{}", cells.join(","))?;
+        }
+        Ok(())
     }
 
     /// The numbers of a row: of each point the number of its name, x and y.
@@ -237,6 +288,9 @@ impl Recorder {
     /// # Errors
     /// Where it cannot be written, or the tape cannot be read.
     pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
+        if !self.columns.is_empty() {
+            return self.write_columns(out);
+        }
         // What was taken back may have left names.
         let mut columns: Vec<usize> = Vec::new();
         for shot in self.shots.iter().filter(|shot| shot.n_points > 0) {
@@ -278,4 +332,24 @@ impl Recorder {
         }
         Ok(())
     }
+}
+
+/// A cell of a table that is text: in quotes where it would be taken for several.
+fn quoted(words: &str) -> String {
+    if words.contains([',', '"']) {
+        format!("\"{}\"", words.replace('"', "\"\""))
+    } else {
+        words.to_owned()
+    }
+}
+
+/// The words over some columns.
+fn heading(columns: &[TableColumn]) -> String {
+    let words = columns.iter().flat_map(|column| &column.headings);
+    words.map(|words| quoted(words)).collect::<Vec<_>>().join(",")
+}
+
+/// What a table with these columns is.
+pub fn kind_of(columns: &[TableColumn]) -> FileKind {
+    FileKind::of_columns(&heading(columns))
 }
