@@ -16,4 +16,4 @@ awk '/^```python$/ { on = 1; next } /^```$/ { on = 0 } on' docs/sweep.md > "$roo
 awk '/^```$/ && !on && !done { on = 1; next } /^```$/ && on { on = 0; done = 1 } on' docs/sweep.md \
     > "$room/four-bar.link"
 cd "$room"
-PATH="$room/bin:$PATH" "$room/python/bin/python" "$OLDPWD/tests/sweep.py"
+PYTHONPATH="$room" PATH="$room/bin:$PATH" "$room/python/bin/python" "$OLDPWD/tests/sweep.py"

@@ -36,8 +36,14 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     ),
     // Where its point is needs no solving.
     (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
+    // Points that are sums of others have a closed form.
+    (Kind::Coincidence, &["solve/closed_form/sum.rs"]),
+    (Kind::Equivalence, &["solve/closed_form/sum.rs"]),
     // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
-    (Kind::Hinge, &["render/export/parts.rs", "session/commands/touch.rs"]),
+    (
+        Kind::Hinge,
+        &["render/export/parts.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
+    ),
     (Kind::Rigid, &["render/export/parts.rs"]),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
