@@ -113,6 +113,11 @@ pub fn set_format(format: MessageFormat) {
     FORMAT.get_or_init(|| format);
 }
 
+/// Whether answers go to a terminal.
+pub fn is_terminal() -> bool {
+    io::stdout().is_terminal()
+}
+
 /// Begins on an empty page; what is no terminal keeps all.
 pub fn clear_page() {
     flush();

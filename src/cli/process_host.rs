@@ -10,6 +10,7 @@ use super::args::HostArguments;
 use super::journal::{self, Journal};
 use super::progress::ProgressBar;
 use super::spool::FileSpool;
+use super::watch::Seen;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Sketch;
@@ -33,6 +34,8 @@ pub struct ProcessHost {
     journal: Option<Journal>,
     begun: Instant,
     bar: ProgressBar,
+    /// What was read, where somebody wants to know.
+    seen: Option<Seen>,
 }
 
 /// Where what an example includes is looked for: no folder, it comes with the program.
@@ -55,7 +58,19 @@ impl ProcessHost {
             journal: None,
             begun: Instant::now(),
             bar: ProgressBar::default(),
+            seen: None,
         }
+    }
+
+    /// From here on it is noted which files are read. Nobody is there to turn pages.
+    pub fn watch(&mut self, seen: Seen) {
+        self.seen = Some(seen);
+        self.has_pager = false;
+    }
+
+    /// The files that were read since then.
+    pub fn seen(self) -> Seen {
+        self.seen.unwrap_or_default()
     }
 }
 
@@ -174,6 +189,9 @@ impl Host for ProcessHost {
             return example
                 .map(|example| example.text.to_owned())
                 .map_err(|_| io::ErrorKind::NotFound.into());
+        }
+        if let Some(seen) = &mut self.seen {
+            seen.note(path);
         }
         if files::is_regular(path)? {
             files::read(path)

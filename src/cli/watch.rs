@@ -1,17 +1,16 @@
 //! `linkwork watch`: runs a script again whenever it, or a file that it reads, is saved.
+//!
+//! On a terminal each run ends with a picture of what it came to.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use super::args::{HostArguments, WatchArguments};
+use super::args::WatchArguments;
 use super::process_host::ProcessHost;
 use super::run::{self, ExitStatus};
 use super::{files, interrupt, output};
-use crate::diag::{Diagnostic, Sources};
-use crate::session::Host;
 
 /// How long a change goes unnoticed at most: short beside the time it takes to look up.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -21,21 +20,26 @@ pub fn watch(arguments: &WatchArguments) -> ExitStatus {
     let file = &arguments.file;
     loop {
         output::clear_page();
-        let mut host = WatchingHost::new(&arguments.host, files::folder_of(file));
-        host.watch(file);
+        let mut host = ProcessHost::new(&arguments.host, files::folder_of(file));
+        let mut seen = Seen::default();
+        seen.note(file);
+        host.watch(seen);
         let mut session = run::begin(&arguments.host);
         run::script(file, &mut session, &mut host);
+        if output::is_terminal() && session.world().points().ids().next().is_some() {
+            let look = session.add_source("<watch>", "show", None);
+            session.run_text(look, &mut host);
+        }
+        let seen = host.seen();
         if !arguments.host.quiet {
-            let files = host.seen.len();
-            let what = if files == 1 {
-                "it changes".to_owned()
-            } else {
-                format!("one of {files} files changes")
+            let what = match seen.files.len() {
+                1 => "it changes".to_owned(),
+                n => format!("one of {n} files changes"),
             };
             output::remark(&format!("-- {} runs again when {what}; Ctrl-C ends", file.display()));
         }
         output::flush();
-        while !host.has_changed() {
+        while !seen.has_changed() {
             if interrupt::is_asked() {
                 return ExitStatus::Interrupted;
             }
@@ -44,10 +48,10 @@ pub fn watch(arguments: &WatchArguments) -> ExitStatus {
     }
 }
 
-/// A process that notes which files are read, and when they were written.
-struct WatchingHost {
-    process: ProcessHost,
-    seen: BTreeMap<PathBuf, Stamp>,
+/// The files that a run read, and when they were written before that.
+#[derive(Debug, Default)]
+pub struct Seen {
+    files: BTreeMap<PathBuf, Stamp>,
 }
 
 /// When a file was written and how long it is; none while it is missing.
@@ -58,64 +62,13 @@ fn stamp(file: &Path) -> Stamp {
     Some((about.modified().ok()?, about.len()))
 }
 
-impl WatchingHost {
-    fn new(arguments: &HostArguments, folder: &Path) -> Self {
-        Self { process: ProcessHost::new(arguments, folder), seen: BTreeMap::new() }
-    }
-
+impl Seen {
     /// Notes how a file is before it is read: a change that comes while it is read is one.
-    fn watch(&mut self, file: &Path) {
-        self.seen.entry(file.to_path_buf()).or_insert_with(|| stamp(file));
+    pub fn note(&mut self, file: &Path) {
+        self.files.entry(file.to_path_buf()).or_insert_with(|| stamp(file));
     }
 
     fn has_changed(&self) -> bool {
-        self.seen.iter().any(|(file, seen)| stamp(file) != *seen)
-    }
-}
-
-impl Host for WatchingHost {
-    fn print(&mut self, line: &str) {
-        self.process.print(line);
-    }
-
-    fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
-        self.process.tell(what, sources);
-    }
-
-    fn is_listening(&self) -> bool {
-        self.process.is_listening()
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.process.is_interrupted()
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.process.resolve(path)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        self.watch(path);
-        self.process.read(path)
-    }
-
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.process.find(folder, path)
-    }
-
-    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
-        self.process.opening(path)
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.process.write(path, bytes)
-    }
-
-    fn progress(&self, share: f64) {
-        self.process.progress(share);
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.process.seconds()
+        self.files.iter().any(|(file, seen)| stamp(file) != *seen)
     }
 }

@@ -1,5 +1,7 @@
 //! The arithmetic operations.
 
+use super::Unit;
+
 /// An operation of two operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Operator {
@@ -24,6 +26,18 @@ impl Operator {
             Self::Multiply => "*",
             Self::Divide => "/",
             Self::Power => "^",
+        }
+    }
+
+    /// The unit that a result is best said in, from those of the operands: half of `90deg` is
+    /// `45deg`.
+    pub fn unit(self, left: Unit, right: Unit) -> Unit {
+        match (self, left, right) {
+            (Self::Add | Self::Subtract, a, b) if a == b => a,
+            (Self::Add | Self::Subtract | Self::Multiply, unit, Unit::None)
+            | (Self::Add | Self::Subtract | Self::Multiply, Unit::None, unit)
+            | (Self::Divide, unit, Unit::None) => unit,
+            _ => Unit::None,
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::run::{Hands, Limits};
 use crate::constraint::Point;
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, Span, format_counted};
 use crate::errors;
 use crate::lang::ast::{DragTarget, Expr};
 use crate::session::execution::{Execution, Flow};
@@ -106,7 +106,7 @@ impl Execution<'_> {
         let mut status = Status::Converged;
         for k in 0..n_stops {
             if self.host.is_interrupted() {
-                self.note(format!("stopped after {k} of {n_stops} places"));
+                self.note(format!("stopped after {k} of {}", format_counted(n_stops as u64, "place")));
                 return Ok(Flow::Stopped);
             }
             self.sync();

@@ -3,7 +3,8 @@
 use super::dead_point::{Next, WayBack};
 use super::pace::Pace;
 use crate::diag::{
-    Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
+    Diagnostic, Kind, Span, format_count, format_counted, format_digits, format_number,
+    format_rounded,
 };
 use crate::errors;
 use crate::interrupt::{self, Stopped};
@@ -171,7 +172,7 @@ impl Execution<'_> {
             }
             if self.host.is_interrupted() {
                 flow = Flow::Stopped;
-                self.note(format!("stopped after {k} of {n} frames"));
+                self.note(format!("stopped after {k} of {}", format_counted(n, "frame")));
                 break;
             }
             if pace.is_due() && n - k > 1 {
@@ -190,7 +191,7 @@ impl Execution<'_> {
             let limits = Limits { known_error: summary.error_on_the_way, ..limits };
             let Ok(report) = self.frame_unless_stopped(k, frames, &limits, n_evaluations) else {
                 flow = Flow::Stopped;
-                self.note(format!("stopped after {} of {n} frames", k - 1));
+                self.note(format!("stopped after {} of {}", k - 1, format_counted(n, "frame")));
                 break;
             };
             let mut report = report?;
@@ -361,7 +362,11 @@ impl Execution<'_> {
         let mut flow = Flow::On;
         while left > 0 {
             if self.host.is_interrupted() {
-                self.note(format!("stopped after {} of {n} iterations", n - left));
+                self.note(format!(
+                    "stopped after {} of {}",
+                    n - left,
+                    format_counted(n, "iteration")
+                ));
                 flow = Flow::Stopped;
                 break;
             }
@@ -460,10 +465,10 @@ impl Execution<'_> {
             culprits = Some(found);
         }
         let text = format!(
-            "{}: residual {} after {} iterations",
+            "{}: residual {} after {}",
             status.phrase(),
             format_rounded(verdict.residual),
-            report.iterations
+            format_counted(report.iterations.into(), "iteration")
         );
         if limits.tolerance.is_some() && !verdict.is_met() {
             let problem =

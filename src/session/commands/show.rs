@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
+use crate::diag::{
+    Diagnostic, Kind, Span, format_counted, format_digits, format_number, format_rounded, suggest,
+};
 use crate::errors;
 use crate::interrupt::tick;
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
@@ -17,7 +19,7 @@ use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
 use crate::solve::{Method, present};
-use crate::terms::Function;
+use crate::terms::{Function, Unit};
 use crate::world::{ConstraintId, Entity, PointId, Value, World};
 
 /// A value as `print` writes it.
@@ -25,6 +27,17 @@ pub(crate) fn format_value(value: Value) -> String {
     match value {
         Value::Number(n) => format_number(n),
         Value::Vector(v) => format!("({}, {})", format_number(v.x), format_number(v.y)),
+    }
+}
+
+/// A value for readers, a number in a unit that is not the number's own.
+fn format_value_in(value: Value, unit: Unit) -> String {
+    match value {
+        Value::Number(n) if unit != Unit::None => {
+            // Fifteen digits are what a product of two numbers keeps.
+            format!("{}{}", format_digits(n / unit.scale(), 15), unit.suffix())
+        }
+        value => format_value(value),
     }
 }
 
@@ -186,10 +199,10 @@ impl Execution<'_> {
         if is_asked(ListWhat::Traces) {
             lines.extend(self.state.world.traces().iter().map(|trace| {
                 let name = self.state.world.points().name(trace.point);
-                let n = trace.samples.len();
+                let places = format_counted(trace.samples.len() as u64, "place");
                 match trace.every {
-                    1 => format!("trace {name}  # {n} places"),
-                    every => format!("trace {name} every {every}  # {n} places"),
+                    1 => format!("trace {name}  # {places}"),
+                    every => format!("trace {name} every {every}  # {places}"),
                 }
             }));
         }
@@ -257,7 +270,12 @@ impl Execution<'_> {
                 let text = Unbind::of(&self.state.world).parameter_text(id);
                 let formula = self.state.world.parameter(id).expect("it is named").formula.clone();
                 let value = self.resolve().evaluate(&formula)?;
-                self.host.print(&format!("{text}  # {}", format_value(value)));
+                let unit = match formula.depends().is_constant() {
+                    // It stands there already.
+                    true => Unit::None,
+                    false => Unbind::of(&self.state.world).unit(&formula),
+                };
+                self.host.print(&format!("{text}  # {}", format_value_in(value, unit)));
             }
         }
         Ok(())
@@ -310,7 +328,8 @@ impl State {
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         match (parameter.depends.is_constant(), parameter.value) {
             (false, Some(value)) if !parameter.depends.is_live() => {
-                format!("{text}  # {}", format_value(value))
+                let unit = Unbind::of(&self.world).unit(&parameter.formula);
+                format!("{text}  # {}", format_value_in(value, unit))
             }
             _ => text,
         }
