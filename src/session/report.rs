@@ -21,6 +21,7 @@ impl Execution<'_> {
         let Some(mut summary) = self.run.take() else { return };
         self.judge_the_end(&mut summary);
         summary.position_error = self.estimate_position_error(&summary);
+        self.tell_chosen(&summary);
         self.tell_turned_over(&summary);
         let time = self.state.world.clock().time();
         let line = summary.line(self.state.preferences.receipt, time);
@@ -52,6 +53,17 @@ impl Execution<'_> {
             summary.own_up(&verdict, self.state.world.clock().frame);
             summary.culprits = Some(self.state.culprits(summary.worst_status, &[]));
         }
+    }
+
+    /// Warns of a motion that began where its branches meet.
+    fn tell_chosen(&mut self, summary: &Summary) {
+        let (Some((frame, point)), Some(span)) = (summary.chosen, summary.chosen_at) else {
+            return;
+        };
+        let name = self.state.world.points().name(point);
+        let warning = Diagnostic::warning(format!("frame {frame} began where two branches meet"))
+            .at(span, format!("nothing tells along which of them `{name}` is to go on"));
+        self.warn(&warning.help("a start a little beside it is on one of them"));
     }
 
     /// Warns of frames that may have changed branch.

@@ -33,6 +33,8 @@ pub struct Summary {
     pub n_turned_over: u64,
     /// The first few of them, as the clock counts, each with a point that changed sides.
     pub turned_over: Vec<(u64, PointId)>,
+    /// The first frame that began in a pose where branches meet, and a point that goes along one.
+    pub chosen: Option<(u64, PointId)>,
     /// Wall time of all frames together, seconds, where there is a clock.
     pub seconds: Option<f64>,
     /// How the frames were solved, with the number of frames each.
@@ -51,6 +53,8 @@ pub struct Summary {
     pub(super) missed_at: Option<Span>,
     /// The statement whose frame was the first to turn over.
     pub(super) turned_over_at: Option<Span>,
+    /// The statement whose frame that was.
+    pub(super) chosen_at: Option<Span>,
 }
 
 /// How frames were solved, as far as the user chose it.
@@ -83,6 +87,7 @@ impl Summary {
             tolerance: 0.0,
             n_turned_over: 0,
             turned_over: Vec::new(),
+            chosen: None,
             seconds: None,
             ways: Vec::new(),
             position_error: None,
@@ -91,6 +96,7 @@ impl Summary {
             ended_at: None,
             missed_at: None,
             turned_over_at: None,
+            chosen_at: None,
         }
     }
 
@@ -127,6 +133,9 @@ impl Summary {
                 self.turned_over.push((frame, point));
             }
             self.turned_over_at.get_or_insert(span);
+        }
+        if let (None, Some(point)) = (self.chosen, report.chosen) {
+            (self.chosen, self.chosen_at) = (Some((frame, point)), Some(span));
         }
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));

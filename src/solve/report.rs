@@ -60,6 +60,8 @@ pub struct Report {
     /// A point that may be on another branch than before: it changed sides, and no motion
     /// from there to here was found.
     pub turned_over: Option<PointId>,
+    /// A point whose motion began in a pose where branches meet: nothing told which to take.
+    pub chosen: Option<PointId>,
     /// How far points may be from where they belong, length units, in islands that ended next to a
     /// singular pose; 0 if none did.
     pub position_error: f64,

@@ -99,7 +99,7 @@ fn who_assigns_to_a_constraint_is_told_a_change_that_it_takes() {
     for (stated, typed, advised) in [
         ("it: length A B = 3", "it = 2", "write `change it = 2`"),
         ("it: orientation A B, A C", "it = 2deg", "write `change it = 2deg`"),
-        ("it: hold A.x + B.y", "it = 2", "write `change it = 2`"),
+        ("it: hold A.x + B.y = 5", "it = 2", "write `change it = 2`"),
         ("it: hinge C on A B at 0.5", "it = 0.3", "write `change it at 0.3`"),
         ("it: coordinate D at (3, 3)", "it = (2, 2)", "write `change it at (2, 2)`"),
         ("circle it = A radius 2", "it = 3", "write `change it radius 3`"),

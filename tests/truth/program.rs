@@ -224,6 +224,11 @@ pub fn may_have_changed_branch(told: &str) -> bool {
     told.contains("may have changed branch")
 }
 
+/// Whether a receipt tells that a motion began where its branches meet.
+pub fn began_where_branches_meet(told: &str) -> bool {
+    told.contains("began where two branches meet")
+}
+
 /// The iterations of a frame that a receipt tells of.
 pub fn iterations_a_frame(told: &str) -> Option<f64> {
     told.split(" iterations and").next()?.rsplit(' ').next()?.parse().ok()

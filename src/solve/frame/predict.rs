@@ -2,7 +2,7 @@
 //! follow the motion in smaller steps where that is not safe, and where there is no solution
 //! settle for the best fit.
 
-use super::attempt::{Attempt, attempt, motion_between, motion_since};
+use super::attempt::{Attempt, NO_MOTION, attempt, motion_between, motion_since};
 use super::branch::{NEARLY_SINGULAR, SENSITIVE};
 use super::{settle, substep};
 use crate::constraint::Point;
@@ -65,7 +65,27 @@ pub(crate) fn frame(island: &mut Island, limits: &Limits, work: &mut Counters) -
     island.history.begin(&island.x[..n_free], island.highest_degree());
     // A motion that begins at a change point or at a dead point may go on along any branch.
     let is_first = island.history.n_past() == 0;
-    let is_open = is_first && island.is_singular(SINGULAR);
+    let Some(open) = island.singular_point(SINGULAR).filter(|_| is_first) else {
+        return go_on(island, is_first, false, limits, work);
+    };
+    let start: Box<[Point]> = island.x[..n_free].into();
+    let outcome = go_on(island, is_first, true, limits, work);
+    let is_moved = motion_since(island, &start) > NO_MOTION * limits.size;
+    if outcome.is_converged() && is_moved && !island.is_singular(SINGULAR) {
+        island.chosen = Some(open);
+    }
+    outcome
+}
+
+/// The same from a solved pose; it may be the first of a motion, and may be one where branches meet.
+fn go_on(
+    island: &mut Island,
+    is_first: bool,
+    is_open: bool,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Outcome {
+    let n_free = island.n_free;
     let may_be_open = is_first && island.is_singular(NEARLY_SINGULAR);
     let is_predicted = island.history.predict(&island.degree, &mut island.x[..n_free]);
     if is_predicted && !island.plan.is_complete() && !island.is_smooth() {

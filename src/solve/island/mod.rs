@@ -89,6 +89,8 @@ pub(crate) struct Island {
     pub watch: Watch,
     /// A point that may be on another branch since this frame.
     pub turned_over: Option<u32>,
+    /// A point with several branches, all of which led on from where this frame began.
+    pub chosen: Option<u32>,
     /// How far points may be from where they belong after this frame, length units, if it ended
     /// next to a singular pose; else 0.
     pub position_error: f64,
@@ -195,6 +197,7 @@ impl Island {
             has_degree: plan.is_complete(),
             watch: Watch::new(&plan, &constraints),
             turned_over: None,
+            chosen: None,
             position_error: 0.0,
             constraints,
             plan,

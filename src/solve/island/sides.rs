@@ -72,10 +72,20 @@ impl Island {
 
     /// Whether the last pose that counted is as near to a singular one as that.
     pub fn is_singular(&self, nearness: f64) -> bool {
-        let blocks = self.plan.blocks.iter().filter(|block| block.has_branches());
-        let sides = blocks.map(|block| block.side.sine);
-        let part_sides = self.watch.part_sides.iter().flatten().map(|part_side| part_side.value);
-        sides.chain(part_sides).any(|side| side.abs() < nearness)
+        self.singular_point(nearness).is_some()
+    }
+
+    /// A point of what is as near to a singular pose.
+    pub fn singular_point(&self, nearness: f64) -> Option<PointIdx> {
+        let mut blocks = self.plan.blocks.iter().filter(|block| block.has_branches());
+        let block = blocks.find(|block| block.side.sine.abs() < nearness).map(|block| block.point);
+        let of_part = || {
+            let mut parts = self.plan.rest.iter().zip(&self.watch.part_sides);
+            let is_near = |side: &PartSide| side.value.abs() < nearness;
+            let (part, _) = parts.find(|(_, side)| side.as_ref().is_some_and(is_near))?;
+            part.points.first().copied()
+        };
+        block.or_else(of_part)
     }
 
     /// A point that has more than one place where its constraints hold.

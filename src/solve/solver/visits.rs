@@ -168,9 +168,14 @@ impl Solver {
         }
         write_back(island, world);
         let is_awake = island.is_awake;
-        if let Some(p) = island.turned_over.take() {
-            let id = island.points[p as usize];
-            report.turned_over = Some(report.turned_over.map_or(id, |first| first.min(id)));
+        for (of_island, of_all) in [
+            (&mut island.turned_over, &mut report.turned_over),
+            (&mut island.chosen, &mut report.chosen),
+        ] {
+            if let Some(p) = of_island.take() {
+                let id = island.points[p as usize];
+                *of_all = Some(of_all.map_or(id, |first| first.min(id)));
+            }
         }
         report.position_error = report.position_error.max(island.position_error);
         if island.before.is_some() {

@@ -47,7 +47,8 @@ fn parameters_that_double_are_worked_out_once() {
 
 #[test]
 fn parameters_that_double_what_is_missed_are_refused_at_once() {
-    let levels: String = (1..=40).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1)).collect();
+    let levels = (1..=40).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1));
+    let levels: String = levels.collect();
     let mut talking = Talking::after(&format!(
         "point A = (0, 0) frozen, B = (1, 0)\nrod: length A B = 1\nlet a0 = rod.residual\n{levels}"
     ));

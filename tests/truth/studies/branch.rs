@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::Count;
-use crate::program::{Program, has_missed, may_have_changed_branch, places};
+use crate::program::{
+    Program, began_where_branches_meet, has_missed, may_have_changed_branch, places,
+};
 use crate::reference::constraint::{Kind, Range as Allowed};
 use crate::reference::motion::Motion;
 use crate::reference::plane::{Place, distance, farthest, polar};
@@ -143,15 +145,14 @@ fn course(
     let text = Scene { dt, ..scene.clone() }.script();
     let mut program = Program::after(&text).expect("the script has no mistake");
     let command = format!("step; print {}", scene.names());
-    let (mut has_missed_one, mut is_doubted) = (false, false);
+    let (mut is_warned, mut is_doubted) = (false, false);
     for k in 0..n_frames {
         let said = program.must(&command);
         let is_missed = has_missed(&said.told);
-        has_missed_one |= is_missed;
+        is_warned |= is_missed || began_where_branches_meet(&said.told);
         is_doubted |= may_have_changed_branch(&said.told);
         if !is_missed && !is_right(k, &places(&said.printed.concat())) {
-            let is_announced = has_missed_one || is_doubted;
-            return if is_announced { Course::Announced } else { Course::Silent };
+            return if is_warned || is_doubted { Course::Announced } else { Course::Silent };
         }
     }
     if is_doubted { Course::Doubted } else { Course::Followed }

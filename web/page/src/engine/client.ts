@@ -1,0 +1,235 @@
+//! The page's end of the protocol: what the engine said last, and how it is asked.
+
+import { Signal } from "../signal.ts";
+import type { Carrier, Standing } from "./carrier.ts";
+import {
+  type Answer,
+  type Completion,
+  type Drawing,
+  type Entry,
+  type Example,
+  type FileAnswer,
+  type Frame,
+  type Hello,
+  type Look,
+  type Message,
+  type Off,
+  PROTOCOL,
+  readFrame,
+  type Said,
+  type Shape,
+  type State,
+  topologyOf,
+} from "./protocol.ts";
+import { Traces } from "./traces.ts";
+
+/** A message may have 4 KiB; so many letters fit whatever they are. */
+const PIECE = 600;
+
+/** A text in pieces that fit into messages. */
+function pieces(text: string): string[] {
+  const parts: string[] = [];
+  for (let from = 0; from < text.length || parts.length === 0; ) {
+    let to = Math.min(from + PIECE, text.length);
+    // A letter of two units stays whole.
+    if (to < text.length && (text.charCodeAt(to - 1) & 0xfc00) === 0xd800) to -= 1;
+    parts.push(text.slice(from, to));
+    from = Math.max(to, from + 1);
+  }
+  return parts;
+}
+
+export class Client {
+  readonly standing = new Signal<Standing>();
+  readonly greeted = new Signal<Hello>();
+  readonly stated = new Signal<State>();
+  readonly missed = new Signal<readonly Off[]>();
+  readonly drawn = new Signal<Drawing>();
+  readonly reshaped = new Signal<readonly (readonly [number, readonly Shape[]])[]>();
+  readonly traced = new Signal();
+  readonly moved = new Signal<Frame>();
+  readonly wrote = new Signal<readonly Entry[]>();
+  readonly said = new Signal<readonly Said[]>();
+
+  hello: Hello | undefined;
+  state: State | undefined;
+  off: readonly Off[] = [];
+  classes: Readonly<Record<string, Look>> = {};
+  paper = "#ffffff";
+  drawing: Drawing | undefined;
+  frame: Frame | undefined;
+  readonly traces = new Traces();
+
+  private nAsked = 0;
+  private readonly waiting = new Map<number, (message: unknown) => void>();
+
+  constructor(private readonly carrier: Carrier) {}
+
+  /** Whether the session can be begun anew. */
+  get canRestart(): boolean {
+    return this.carrier.restart !== undefined;
+  }
+
+  open(): void {
+    this.carrier.open({
+      standing: (standing) => this.stands(standing),
+      text: (text) => this.hear(JSON.parse(text) as Message),
+      frame: (buffer) => this.see(buffer),
+    });
+  }
+
+  restart(): void {
+    this.carrier.restart?.();
+  }
+
+  tick(): void {
+    if (this.state?.playing === true) this.carrier.tick?.();
+  }
+
+  /** Carries out statements. */
+  exec(text: string): Promise<Answer> {
+    const parts = pieces(text);
+    const last = parts.pop() ?? "";
+    for (const part of parts) this.tell({ do: "exec", text: part, more: true });
+    return this.ask({ do: "exec", text: last });
+  }
+
+  /** Carries out a statement in the place of the last that was tried. */
+  attempt(text: string): Promise<Answer> {
+    return this.ask({ do: "try", text });
+  }
+
+  keep(): void {
+    this.tell({ do: "keep" });
+  }
+
+  complete(text: string, at: number): Promise<Completion> {
+    return this.ask({ do: "complete", text, at });
+  }
+
+  file(kind: string, more: Record<string, unknown> = {}): Promise<FileAnswer> {
+    return this.ask({ do: "file", kind, ...more });
+  }
+
+  async examples(): Promise<readonly Example[]> {
+    const answer = await this.ask<{ examples?: readonly Example[] }>({ do: "examples" });
+    return answer.examples ?? [];
+  }
+
+  grab(point: number): Promise<Answer> {
+    return this.ask({ do: "grab", point });
+  }
+
+  move(x: number, y: number): void {
+    this.tell({ do: "move", to: [x, y] });
+  }
+
+  release(): Promise<Answer> {
+    return this.ask({ do: "release" });
+  }
+
+  cancel(): void {
+    this.tell({ do: "cancel" });
+  }
+
+  play(speed: number): void {
+    this.tell({ do: "play", speed });
+  }
+
+  pause(): void {
+    this.tell({ do: "pause" });
+  }
+
+  /** Stops what runs: where the engine cannot be asked while it works, it begins anew. */
+  stop(): void {
+    if (this.canRestart) this.restart();
+    else this.tell({ do: "stop" });
+  }
+
+  view(scale: number): void {
+    this.tell({ do: "view", scale });
+  }
+
+  seen(seq: number): void {
+    this.tell({ do: "seen", seq });
+  }
+
+  private tell(message: Record<string, unknown>): void {
+    this.carrier.send(JSON.stringify(message));
+  }
+
+  private ask<T>(message: Record<string, unknown>): Promise<T> {
+    this.nAsked += 1;
+    const id = this.nAsked;
+    return new Promise((resolve) => {
+      this.waiting.set(id, (answer) => resolve(answer as T));
+      this.tell({ ...message, id });
+    });
+  }
+
+  private stands(standing: Standing): void {
+    // What was asked of an engine that is gone is not answered any more.
+    const unanswered = [...this.waiting.values()];
+    this.waiting.clear();
+    const lost: Answer = { ok: false, said: [{ kind: "error", text: "the connection was lost" }] };
+    for (const resolve of unanswered) resolve(lost);
+    this.drawing = undefined;
+    this.frame = undefined;
+    if (standing.is === "open") this.tell({ do: "hello", protocol: PROTOCOL });
+    this.standing.tell(standing);
+  }
+
+  private hear(message: Message): void {
+    if (message.answer !== undefined) {
+      this.waiting.get(message.answer)?.(message);
+      this.waiting.delete(message.answer);
+      return;
+    }
+    this.hearPicture(message);
+    if (message.hello !== undefined) {
+      this.hello = message.hello;
+      this.greeted.tell(message.hello);
+    }
+    if (message.state !== undefined) {
+      this.state = message.state;
+      this.stated.tell(message.state);
+    }
+    if (message.off !== undefined) {
+      this.off = message.off;
+      this.missed.tell(message.off);
+    }
+    if (message.journal !== undefined) this.wrote.tell(message.journal);
+    if (message.said !== undefined) this.said.tell(message.said);
+    if (message.refused !== undefined) {
+      this.said.tell([{ kind: "error", text: `refused: ${message.refused}` }]);
+    }
+  }
+
+  private hearPicture(message: Message): void {
+    if (message.classes !== undefined) {
+      this.classes = message.classes;
+      this.paper = message.paper ?? this.paper;
+    }
+    if (message.drawing !== undefined) {
+      this.drawing = message.drawing;
+      this.frame = undefined;
+      this.drawn.tell(message.drawing);
+    }
+    if (message.shapes !== undefined && message.shapes.topology === this.drawing?.topology) {
+      this.reshaped.tell(message.shapes.figures);
+    }
+    if (message.traces !== undefined) {
+      this.traces.update(message.traces, message.n);
+      this.traced.tell();
+    }
+  }
+
+  private see(buffer: ArrayBuffer): void {
+    const drawing = this.drawing;
+    if (drawing === undefined || topologyOf(buffer) !== drawing.topology) return;
+    const frame = readFrame(buffer, drawing.points);
+    if (frame === undefined) return;
+    this.frame = frame;
+    this.moved.tell(frame);
+  }
+}

@@ -1,0 +1,253 @@
+//! What the page and an engine tell one another; `docs/view.md` describes it for other clients.
+
+/** The protocol that this page speaks. */
+export const PROTOCOL = 1;
+
+/** A message of a statement, for people. */
+export interface Said {
+  readonly kind: "line" | "note" | "warning" | "error";
+  readonly text: string;
+  readonly message?: string;
+  /** Where in the text that was sent the mistake is, in UTF-16 units. */
+  readonly from?: number;
+  readonly to?: number;
+  readonly helps?: readonly string[];
+}
+
+/** What became of a text. */
+export interface Answer {
+  readonly ok: boolean;
+  readonly said?: readonly Said[];
+  readonly wrote?: readonly string[];
+  readonly quit?: boolean;
+  /** The statement that a gesture became. */
+  readonly statement?: string | null;
+}
+
+/** What may stand at a place of a text. */
+export interface Completion {
+  readonly start: number;
+  readonly candidates: readonly { readonly text: string; readonly shown: string }[];
+  readonly hint: string | null;
+  readonly pieces: readonly Piece[];
+  /** Whether the statement goes on in the next line. */
+  readonly incomplete: boolean;
+}
+
+/** A stretch of a text that has a colour. */
+export interface Piece {
+  readonly from: number;
+  readonly to: number;
+  readonly class: string;
+  readonly unknown?: boolean;
+}
+
+/** A file to be taken home. */
+export interface FileAnswer {
+  readonly ok: boolean;
+  readonly name?: string;
+  readonly mime?: string;
+  readonly text?: string;
+  readonly said?: readonly Said[];
+}
+
+export interface Example {
+  readonly name: string;
+  readonly about: string;
+  readonly text: string;
+}
+
+export interface PointState {
+  readonly handle: number;
+  readonly name: string;
+  readonly frozen: boolean;
+  readonly used: readonly string[];
+}
+
+export interface ConstraintState {
+  readonly handle: number;
+  readonly name: string;
+  readonly kind: string;
+  /** The statement that makes it. */
+  readonly text: string;
+  readonly on: boolean;
+  readonly points: readonly number[];
+}
+
+export interface MotorState {
+  readonly name: string;
+  readonly on: boolean;
+  readonly speed: number;
+  /** The speed as typed. */
+  readonly shown: string;
+}
+
+export interface ParameterState {
+  readonly name: string;
+  readonly text: string;
+  readonly value: number | readonly number[] | null;
+  /** Whether it depends on others. */
+  readonly live: boolean;
+}
+
+export interface SettingState {
+  readonly name: string;
+  readonly text: string;
+}
+
+/** All that changes with statements and not with frames. */
+export interface State {
+  readonly time: number;
+  readonly frame: number;
+  readonly dt: number;
+  readonly playing: boolean;
+  readonly speed: number;
+  readonly held: { readonly point: number; readonly client: number } | null;
+  readonly points: readonly PointState[];
+  readonly constraints: readonly ConstraintState[];
+  readonly motors: readonly MotorState[];
+  readonly parameters: readonly ParameterState[];
+  readonly settings: readonly SettingState[];
+  readonly freedoms: number | null;
+  readonly verdict: string | null;
+  readonly check: readonly string[] | null;
+  readonly receipt: readonly string[] | null;
+  /** The statements that `undo` and `redo` would take. */
+  readonly undo: string | null;
+  readonly redo: string | null;
+  /** Handles of points with a path. */
+  readonly traced: readonly number[];
+}
+
+/** A constraint that misses its tolerance. */
+export interface Off {
+  readonly constraint: number;
+  readonly name: string;
+  readonly residual: number;
+  readonly shown: string;
+}
+
+/** How a class of shapes is drawn; px at full size. */
+export interface Look {
+  readonly fill: string | null;
+  readonly stroke: string | null;
+  readonly width: number;
+  readonly dash: readonly number[];
+  readonly opacity: number;
+  readonly size?: number;
+}
+
+/** One outline in one style. */
+export interface Shape {
+  readonly class: string;
+  readonly d?: string;
+  readonly circle?: readonly [number, number, number];
+  readonly text?: string;
+  readonly at?: readonly [number, number];
+}
+
+/** A group of shapes that moves as one. */
+export interface Figure {
+  readonly layer: string;
+  readonly constraint?: number;
+  readonly point?: number;
+  readonly note?: string;
+  readonly off?: boolean;
+  readonly place?: readonly [number, number, number];
+  readonly shapes: readonly Shape[];
+}
+
+/** The drawing list. */
+export interface Drawing {
+  readonly topology: number;
+  /** px a unit of the plane. */
+  readonly scale: number;
+  readonly centre: readonly [number, number];
+  readonly mark: number;
+  readonly bounds: readonly [number, number, number, number] | null;
+  /** How many handles there are. */
+  readonly points: number;
+  readonly figures: readonly Figure[];
+  readonly ghosts?: readonly { readonly opacity: number; readonly figures: readonly Figure[] }[];
+}
+
+/** A piece of a path. */
+export interface TraceUpdate {
+  readonly trace: number;
+  readonly point: number;
+  readonly name: string;
+  readonly class: string;
+  readonly colour: string;
+  /** How many samples stay before `at` is added. */
+  readonly from: number;
+  readonly at: readonly number[];
+  readonly missed: readonly number[];
+}
+
+export interface Entry {
+  readonly number: number;
+  readonly text: string;
+  readonly by: string;
+}
+
+export interface Hello {
+  readonly protocol: number;
+  readonly version: string;
+  readonly engine: string;
+  readonly client: number;
+}
+
+/** All that an engine may say; each message has some of these. */
+export interface Message {
+  readonly answer?: number;
+  readonly hello?: Hello;
+  readonly classes?: Readonly<Record<string, Look>>;
+  readonly paper?: string;
+  readonly state?: State;
+  readonly off?: readonly Off[];
+  readonly drawing?: Drawing;
+  readonly shapes?: {
+    readonly topology: number;
+    readonly figures: readonly (readonly [number, readonly Shape[]])[];
+  };
+  readonly traces?: readonly TraceUpdate[];
+  /** How many traces there are. */
+  readonly n?: number;
+  readonly journal?: readonly Entry[];
+  readonly said?: readonly Said[];
+  readonly refused?: string;
+}
+
+/** Where everything is. */
+export interface Frame {
+  readonly seq: number;
+  readonly topology: number;
+  readonly time: number;
+  readonly residual: number;
+  /** Positions by handle, x and y in turn, in the plane. */
+  readonly at: Float64Array;
+  /** Placements of figures: x, y, turn in turn. */
+  readonly place: Float32Array;
+}
+
+const FRAME_HEAD = 24;
+
+/** Reads a frame of so many points; none if it is not one. */
+export function readFrame(buffer: ArrayBuffer, nPoints: number): Frame | undefined {
+  const rest = buffer.byteLength - FRAME_HEAD - 16 * nPoints;
+  if (rest < 0 || rest % 12 !== 0) return undefined;
+  const view = new DataView(buffer);
+  return {
+    seq: Number(view.getBigUint64(0, true)),
+    topology: view.getUint32(8, true),
+    time: view.getFloat64(12, true),
+    residual: view.getFloat32(20, true),
+    at: new Float64Array(buffer, FRAME_HEAD, 2 * nPoints),
+    place: new Float32Array(buffer, FRAME_HEAD + 16 * nPoints, rest / 4),
+  };
+}
+
+/** To which drawing a frame belongs. */
+export function topologyOf(buffer: ArrayBuffer): number {
+  return buffer.byteLength < FRAME_HEAD ? -1 : new DataView(buffer).getUint32(8, true);
+}

@@ -1,0 +1,174 @@
+//! The canvas: what of the mechanism it shows, and when it is painted.
+
+import { type Box, boxOf, Camera, type Vec } from "./camera.ts";
+import { drawOverlay, type Overlay } from "./draw/overlay.ts";
+import { Painter } from "./draw/painter.ts";
+import { TraceLayer } from "./draw/trace_layer.ts";
+import type { Client } from "./engine/client.ts";
+import type { Frame } from "./engine/protocol.ts";
+import { Signal } from "./signal.ts";
+import type { Theme } from "./theme.ts";
+
+/** While the scale changes the picture is stretched; after so long, ms, it is asked for anew. */
+const SETTLED = 90;
+
+/** A picture younger than this, ms, need not be replaced before the display shows it. */
+const YOUNG = 6;
+
+export class Stage {
+  camera = new Camera();
+  /** What is drawn over the mechanism. */
+  overlay: Overlay = {};
+  /** A frame has been painted. */
+  readonly painted = new Signal<Frame>();
+  /** The display is about to show what there is. */
+  readonly beat = new Signal<number>();
+
+  private readonly context: CanvasRenderingContext2D;
+  private painter: Painter | undefined;
+  private readonly traces = new TraceLayer();
+  private isStale = true;
+  private isFitted = false;
+  private lastPainted = 0;
+  private settling = 0;
+  private red: ReadonlySet<number> = new Set();
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly client: Client,
+    private readonly theme: Theme,
+  ) {
+    const context = canvas.getContext("2d", { alpha: false });
+    if (context === null) throw new Error("this browser has no canvas");
+    this.context = context;
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    client.greeted.listen(() => {
+      this.isFitted = false;
+    });
+    client.drawn.listen(() => this.takeDrawing());
+    client.reshaped.listen((figures) => {
+      for (const [idx, shapes] of figures) this.painter?.reshape(idx, shapes);
+    });
+    client.moved.listen(() => this.takeFrame());
+    client.traced.listen(() => this.refresh());
+    client.missed.listen((off) => {
+      this.red = new Set(off.map(({ constraint }) => constraint));
+      this.refresh();
+    });
+    theme.changed.listen(() => this.takeDrawing());
+    const show = (now: number): void => {
+      this.beat.tell(now);
+      if (this.isStale) this.paint();
+      requestAnimationFrame(show);
+    };
+    requestAnimationFrame(show);
+    this.resize();
+  }
+
+  /** Something of the picture has changed. */
+  refresh(): void {
+    this.isStale = true;
+  }
+
+  /** Shows all that there is. */
+  fit(): void {
+    const box = this.box();
+    this.look(box === undefined ? this.camera : this.camera.fitted(box));
+  }
+
+  /** Shows the plane through another camera. */
+  look(camera: Camera): void {
+    const isSameScale = camera.scale === this.camera.scale;
+    this.camera = camera;
+    this.refresh();
+    if (isSameScale) return;
+    clearTimeout(this.settling);
+    this.settling = setTimeout(() => this.client.view(this.camera.scale), SETTLED);
+  }
+
+  /** Makes a place of the canvas known to those who look for it: px from its corner. */
+  placeOf(event: { clientX: number; clientY: number }): Vec {
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  }
+
+  private box(): Box | undefined {
+    const { drawing, traces } = this.client;
+    const corners: Vec[] = [];
+    if (drawing?.bounds) {
+      const [x0, y0, x1, y1] = drawing.bounds;
+      corners.push({ x: x0, y: y0 }, { x: x1, y: y1 });
+    }
+    for (const { at } of traces.list) {
+      for (let k = 0; k + 1 < at.length; k += 2) corners.push({ x: at[k] ?? 0, y: at[k + 1] ?? 0 });
+    }
+    return boxOf(corners);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const density = window.devicePixelRatio || 1;
+    const [width, height] = [Math.max(clientWidth, 1), Math.max(clientHeight, 1)];
+    this.canvas.width = Math.round(width * density);
+    this.canvas.height = Math.round(height * density);
+    this.camera = this.camera.resized(width, height, density);
+    // Painted at once: a canvas that changes its size is empty.
+    this.paint();
+  }
+
+  private takeDrawing(): void {
+    const { drawing, classes } = this.client;
+    if (drawing === undefined) return;
+    this.painter = new Painter(drawing, classes, this.theme.alarm, this.theme.isDark);
+    if (!this.isFitted && drawing.bounds !== null) {
+      this.isFitted = true;
+      this.fit();
+      this.client.view(this.camera.scale);
+    }
+    this.refresh();
+  }
+
+  /** A frame while something is held is painted at once; others when the display asks. */
+  private takeFrame(): void {
+    this.refresh();
+    const isHeld = this.overlay.held !== undefined;
+    if (isHeld && performance.now() - this.lastPainted > YOUNG) this.paint();
+  }
+
+  private paint(): void {
+    const { context, camera, client, painter } = this;
+    const { frame, classes } = client;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.globalAlpha = 1;
+    context.fillStyle = this.theme.paper;
+    context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    this.isStale = false;
+    this.lastPainted = performance.now();
+    if (painter !== undefined && frame !== undefined) {
+      context.lineCap = "round";
+      context.lineJoin = "round";
+      if (painter.hasGhosts) painter.paintGhosts(context, camera);
+      painter.paintBelow(context, camera, frame, this.red);
+      const paths = this.traces.draw(client.traces, camera, classes, this.theme.isDark);
+      if (paths !== undefined) {
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.globalAlpha = 1;
+        context.drawImage(paths, 0, 0);
+      }
+      painter.paintAbove(context, camera, frame, this.red);
+      context.setTransform(camera.density, 0, 0, camera.density, 0, 0);
+      context.globalAlpha = 1;
+      drawOverlay(context, camera, client, this.overlay, this.theme);
+      client.seen(frame.seq);
+      this.painted.tell(frame);
+      this.report(frame);
+    }
+  }
+
+  /** Tells who measures the page what the canvas shows now. */
+  private report({ seq, time, at }: Frame): void {
+    const { scale, centre, width, height } = this.camera;
+    const detail = { seq, time, at, scale, centre, width, height };
+    this.canvas.dispatchEvent(new CustomEvent("linkwork-painted", { detail }));
+  }
+}
