@@ -21,7 +21,7 @@ mod wrap;
 
 use std::process::ExitCode;
 
-use args::Invocation;
+use args::{Deferred, Invocation};
 
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
@@ -29,15 +29,15 @@ pub fn run() -> ExitCode {
     interrupt::listen();
     output::set_format(args.message_format);
     let status = match args.command {
-        Some(Invocation::Run(batch)) => run::batch(&batch.scripts, &batch.host),
-        Some(Invocation::Accuracy(wish)) => examine::accuracy(&wish),
-        Some(Invocation::Check(arguments)) => examine::check(&arguments),
-        Some(Invocation::Effects(arguments)) => examine::effects(&arguments),
-        Some(Invocation::Examples(wish)) => inform::examples(&wish),
-        Some(Invocation::Help(wish)) => inform::help(&wish),
-        Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
-        Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
-        Some(Invocation::Completions(arguments)) => {
+        Some(Invocation::Run(Deferred(batch))) => run::batch(&batch.scripts, &batch.host),
+        Some(Invocation::Accuracy(Deferred(wish))) => examine::accuracy(&wish),
+        Some(Invocation::Check(Deferred(arguments))) => examine::check(&arguments),
+        Some(Invocation::Effects(Deferred(arguments))) => examine::effects(&arguments),
+        Some(Invocation::Examples(Deferred(wish))) => inform::examples(&wish),
+        Some(Invocation::Help(Deferred(wish))) => inform::help(&wish),
+        Some(Invocation::Fmt(Deferred(arguments))) => format::format_all(&arguments),
+        Some(Invocation::Watch(Deferred(arguments))) => watch::watch(&arguments),
+        Some(Invocation::Completions(Deferred(arguments))) => {
             manual::completions(&arguments, args::command())
         }
         Some(Invocation::Man) => manual::manual(&args::command()),

@@ -79,10 +79,8 @@ impl Growing {
                 },
                 b'(' | b'[' | b'{' if self.open.len() < MAX_NESTING => self.open.push(byte),
                 b'(' | b'[' | b'{' => return Line::MayEnd,
-                b')' | b']' | b'}' => {
-                    if self.open.pop().map(closing) != Some(byte) {
-                        return Line::MayEnd;
-                    }
+                b')' | b']' | b'}' if self.open.pop().map(closing) != Some(byte) => {
+                    return Line::MayEnd;
                 }
                 b';' if matches!(self.open.last(), Some(b'(' | b'[')) => return Line::MayEnd,
                 _ => {}

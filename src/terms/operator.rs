@@ -32,11 +32,12 @@ impl Operator {
     /// The unit that a result is best said in, from those of the operands: half of `90deg` is
     /// `45deg`.
     pub fn unit(self, left: Unit, right: Unit) -> Unit {
-        match (self, left, right) {
-            (Self::Add | Self::Subtract, a, b) if a == b => a,
-            (Self::Add | Self::Subtract | Self::Multiply, unit, Unit::None)
-            | (Self::Add | Self::Subtract | Self::Multiply, Unit::None, unit)
-            | (Self::Divide, unit, Unit::None) => unit,
+        match self {
+            Self::Add | Self::Subtract if left == right => left,
+            Self::Add | Self::Subtract | Self::Multiply if left == Unit::None => right,
+            Self::Add | Self::Subtract | Self::Multiply | Self::Divide if right == Unit::None => {
+                left
+            }
             _ => Unit::None,
         }
     }

@@ -106,7 +106,10 @@ impl Execution<'_> {
         let mut status = Status::Converged;
         for k in 0..n_stops {
             if self.host.is_interrupted() {
-                self.note(format!("stopped after {k} of {}", format_counted(n_stops as u64, "place")));
+                self.note(format!(
+                    "stopped after {k} of {}",
+                    format_counted(n_stops as u64, "place")
+                ));
                 return Ok(Flow::Stopped);
             }
             self.sync();

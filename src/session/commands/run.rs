@@ -468,7 +468,7 @@ impl Execution<'_> {
             "{}: residual {} after {}",
             status.phrase(),
             format_rounded(verdict.residual),
-            format_counted(report.iterations.into(), "iteration")
+            format_counted(report.iterations, "iteration")
         );
         if limits.tolerance.is_some() && !verdict.is_met() {
             let problem =

@@ -270,10 +270,11 @@ impl Execution<'_> {
                 let text = Unbind::of(&self.state.world).parameter_text(id);
                 let formula = self.state.world.parameter(id).expect("it is named").formula.clone();
                 let value = self.resolve().evaluate(&formula)?;
-                let unit = match formula.depends().is_constant() {
+                let unit = if formula.depends().is_constant() {
                     // It stands there already.
-                    true => Unit::None,
-                    false => Unbind::of(&self.state.world).unit(&formula),
+                    Unit::None
+                } else {
+                    Unbind::of(&self.state.world).unit(&formula)
                 };
                 self.host.print(&format!("{text}  # {}", format_value_in(value, unit)));
             }
