@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::Resettable;
 use clap::{ArgMatches, Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use super::graphics::Graphics;
 use super::output::MessageFormat;
 
 use crate::diag::visible;
@@ -29,6 +30,15 @@ pub struct Arguments {
     /// How errors, warnings and notes are written.
     #[arg(long, global = true, value_name = "FORMAT", default_value = "full")]
     pub message_format: MessageFormat,
+    /// How pictures are shown in a terminal.
+    #[arg(
+        long,
+        global = true,
+        value_name = "HOW",
+        default_value = "auto",
+        env = "LINKWORK_GRAPHICS"
+    )]
+    pub graphics: Graphics,
 }
 
 /// What to do.

@@ -5,6 +5,7 @@ mod examine;
 mod files;
 pub(crate) mod folders;
 mod format;
+mod graphics;
 mod inform;
 mod init;
 pub(crate) mod interrupt;
@@ -28,6 +29,7 @@ pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
     output::set_format(args.message_format);
+    graphics::set(args.graphics);
     let status = match args.command {
         Some(Invocation::Run(Deferred(batch))) => run::batch(&batch.scripts, &batch.host),
         Some(Invocation::Accuracy(Deferred(wish))) => examine::accuracy(&wish),

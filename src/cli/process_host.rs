@@ -13,7 +13,7 @@ use super::spool::FileSpool;
 use super::watch::Seen;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::render::Sketch;
+use crate::render::Drawable;
 use crate::session::{Example, Host, Kept, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
@@ -107,8 +107,8 @@ impl Host for ProcessHost {
         output::page_size()
     }
 
-    fn draw(&mut self, sketch: &Sketch) {
-        output::draw(sketch);
+    fn draw(&mut self, what: Drawable) {
+        output::draw(what);
     }
 
     fn n_printed(&self) -> u64 {

@@ -38,10 +38,13 @@ pub mod chart;
 
 // Figures that stand still, as a document.
 mod document;
+mod drawable;
 mod still;
 mod text;
 
-// Figures in characters.
+// Figures in characters, documents in pixels.
+#[cfg(feature = "terminal")]
+mod pixels;
 mod sketch;
 
 // Figures in motion.
@@ -52,6 +55,9 @@ mod trace_animation;
 
 pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
+pub use drawable::Drawable;
+#[cfg(feature = "terminal")]
+pub use pixels::Pixels;
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};

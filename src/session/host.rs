@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources};
 use crate::interrupt::Wish;
-use crate::render::Sketch;
+use crate::render::Drawable;
 
 /// What a journal is told of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,9 +32,10 @@ pub trait Host {
         (72, 24)
     }
 
-    /// Takes a picture in characters.
-    fn draw(&mut self, sketch: &Sketch) {
-        self.print_all(&sketch.lines());
+    /// Takes what is to be shown; by default in characters.
+    fn draw(&mut self, what: Drawable) {
+        let (n_columns, n_rows) = self.page();
+        self.print_all(&what.sketch(n_columns, n_rows).lines());
     }
 
     /// Bytes of the answer so far, where somebody wants that to have an end.

@@ -41,7 +41,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 19] = [
+const HOMES: [(&str, &[&str]); 21] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
@@ -49,7 +49,8 @@ const HOMES: [(&str, &[&str]); 19] = [
     ("ctrlc", &["cli/interrupt.rs"]),
     ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
     ("nalgebra", &["linalg/", "mobility/"]),
-    ("nix", &["cli/interrupt.rs"]),
+    ("miniz_oxide", &["cli/graphics/png.rs"]),
+    ("nix", &["cli/graphics/question.rs", "cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/grammar.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),
@@ -60,6 +61,7 @@ const HOMES: [(&str, &[&str]); 19] = [
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
+    ("ttf_parser", &["render/pixels/letters.rs"]),
     ("terminal_size", &["cli/output.rs"]),
 ];
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expr, PlotPart, Text};
-use crate::render::Sketch;
+use crate::render::Drawable;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
@@ -60,8 +60,7 @@ impl Execution<'_> {
         if let Some(file) = file {
             self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
         } else {
-            let (n_columns, n_rows) = self.host.page();
-            self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
+            self.host.draw(Drawable::Chart(&chart));
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use crate::interrupt::tick;
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Entry, Trade};
 use crate::lang::nearest_command;
-use crate::render::{Scene, Sketch};
+use crate::render::{Drawable, Scene};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
 use crate::session::resolve::scope::Meaning;
@@ -282,14 +282,13 @@ impl Execution<'_> {
         Ok(())
     }
 
-    /// Draws the mechanism in characters.
+    /// Shows the mechanism.
     pub(crate) fn sketch(&mut self) {
         if self.state.world.points().ids().next().is_none() {
             return self.note("nothing here yet");
         }
-        let (n_columns, n_rows) = self.host.page();
-        let sketch = Sketch::of(&Scene::new(&self.state.world), n_columns, n_rows);
-        self.host.draw(&sketch);
+        let scene = Scene::new(&self.state.world);
+        self.host.draw(Drawable::Scene(&scene));
     }
 
     pub(crate) fn tell_history(&mut self) {
