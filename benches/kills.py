@@ -1,16 +1,16 @@
-"""Sessions killed at random moments: is what was carried out in their journals?
+#!/usr/bin/env python3
+"""Sessions killed at random moments: does the journal bring back what was carried out?
 
     cargo build --release && python3 benches/kills.py [target/release/linkwork] [N]
 
 Each of N sessions (1000) is typed at as fast as it takes lines and killed with signal 9 after a
-random time. Of the lines whose answer was seen none may be missing from the journal, and what is
-there must load.
+random time. Its journal must load, and what it makes must be to the byte what the lines make that
+were carried out, or these and the one that was under way.
 """
 
 import os
 import pty
 import random
-import re
 import select
 import signal
 import subprocess
@@ -20,72 +20,89 @@ import time
 
 
 def lines():
-    yield "point p[0] = (0, 0) frozen"
+    """What is typed: edits, motion, loops, undo, loads; each leaves something behind."""
+    yield "point p[0] = (0, 0) frozen, q = (1, 0)"
+    yield "spin: motor p[0] q speed 1rev"
     k = 0
     while True:
         k += 1
         yield f"point p[{k}] = ({k}, 0); length p[{k - 1}] p[{k}] = 1"
         yield f"let r[{k}] = {k}"
+        if k % 3 == 0:
+            yield f"for i in 1..20 {{ let s[{k}][i] = i; step }}"
         if k % 5 == 0:
-            yield "step 2"
-        if k % 17 == 0:
-            yield "undo"
-        yield f"r[{k}] + 0" if k % 17 else "time"
+            yield "step 2000"
+        if k % 7 == 0:
+            yield "undo 2"
+            yield "redo"
+        if k % 11 == 0:
+            yield 'save "kept.link"'
+            yield 'load "kept.link"'
 
 
 def session(program, folder, seconds):
-    """Types until the time is up; gives the lines behind which the next prompt was seen."""
+    """Types until the time is up and kills; gives the lines carried out, and the one under way."""
     pid, fd = pty.fork()
     if pid == 0:
+        os.chdir(folder)
         environment = {"HOME": folder, "PATH": os.environ["PATH"], "TERM": "dumb"}
         os.execve(program, [program], environment)
     end = time.monotonic() + seconds
-    seen, typed = b"", lines()
-    n_prompts = n_sent = 0
-    carried_out = []
-    sent = []
+    seen, typed, sent = b"", lines(), []
     while time.monotonic() < end:
         if select.select([fd], [], [], 0.001)[0]:
             seen += os.read(fd, 1 << 16)
         n_prompts = seen.count(b"\n> ") + seen.startswith(b"> ")
-        if n_prompts > n_sent:
-            carried_out = sent[:]
-            line = next(typed)
-            sent.append(line)
-            os.write(fd, line.encode() + b"\n")
-            n_sent += 1
+        if n_prompts > len(sent):
+            sent.append(next(typed))
+            os.write(fd, sent[-1].encode() + b"\n")
     os.kill(pid, signal.SIGKILL)
     os.waitpid(pid, 0)
     os.close(fd)
-    return carried_out
+    return sent[:-1], sent[-1:]
+
+
+def made(program, typed):
+    """The script of what lines on a pipe make; none where one of them fails."""
+    with tempfile.TemporaryDirectory() as folder:
+        text = "\n".join([*typed, 'save "made.link"', ""])
+        out = subprocess.run([program, "-q", "--allow-any-path"], input=text, cwd=folder, text=True,
+                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        if out.returncode != 0:
+            print(out.stderr)
+            return None
+        with open(os.path.join(folder, "made.link"), encoding="utf-8") as file:
+            return file.read()
 
 
 def main():
     program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else "target/release/linkwork")
     n = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
     rng = random.Random(1)
-    n_lines = n_lost = n_broken = 0
+    n_lines = n_before = n_after = n_none = n_wrong = 0
     for k in range(n):
         with tempfile.TemporaryDirectory() as folder:
-            done = session(program, folder, rng.uniform(0.01, 0.4))
-            journal = os.path.join(folder, ".local/state/linkwork/journal")
-            files = [f for f in os.listdir(journal) if f.endswith(".link")] if os.path.isdir(journal) else []
-            marks = [line for line in done if line.startswith("let ")]
+            done, under_way = session(program, folder, rng.uniform(0.01, 0.6))
             n_lines += len(done)
+            journals = os.path.join(folder, ".local/state/linkwork/journal")
+            files = os.listdir(journals) if os.path.isdir(journals) else []
+            files = [file for file in files if file.endswith(".link")]
             if not files:
-                n_lost += bool(marks)
+                n_none += 1
+                n_wrong += bool(done)
                 continue
-            path = os.path.join(journal, files[0])
-            text = open(path).read()
-            out = subprocess.run([program, "-q", path], capture_output=True, text=True)
-            n_broken += out.returncode != 0
-            # Undo takes one `let` back at most.
-            names = [re.match(r"let (\S+)", line).group(1) for line in marks]
-            lost = [name for name in names if f"let {name} = " not in text]
-            if len(lost) > done.count("undo"):
-                n_lost += 1
-                print(f"session {k}: {lost} of {len(names)} lost")
-    print(f"{n} sessions killed, {n_lines} lines carried out; {n_lost} lost some, {n_broken} cannot be loaded")
+            back = made(program, [f'load "{os.path.join(journals, files[0])}"'])
+            if back is not None and back == made(program, done):
+                n_before += 1
+            elif back is not None and back == made(program, done + under_way):
+                n_after += 1
+            else:
+                n_wrong += 1
+                print(f"session {k}: after {len(done)} lines, in {under_way}")
+    print(f"{n} sessions killed, {n_lines} lines carried out: {n_before} came back as after their last "
+          f"answer, {n_after} with the line under way, {n_none} were killed before they began; "
+          f"{n_wrong} lost something")
+    sys.exit(n_wrong > 0)
 
 
 if __name__ == "__main__":

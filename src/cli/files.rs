@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufWriter, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -27,15 +27,9 @@ pub fn limit_bytes(most: u64) {
     MOST_BYTES.store(most, Ordering::Relaxed);
 }
 
-/// Reads a line with its end, as long as a text may be; nothing at the end.
-pub fn read_line(source: impl BufRead) -> io::Result<Vec<u8>> {
-    let mut line = Vec::new();
-    let most = MOST_BYTES.load(Ordering::Relaxed);
-    source.take(most.saturating_add(1)).read_until(b'\n', &mut line)?;
-    if line.len() as u64 > most {
-        return Err(io::ErrorKind::FileTooLarge.into());
-    }
-    Ok(line)
+/// Bytes of a text that are read at most.
+pub fn most_bytes() -> u64 {
+    MOST_BYTES.load(Ordering::Relaxed)
 }
 
 /// Reads a text in UTF-8 from a file, or from a pipe by the name of one.
@@ -46,7 +40,7 @@ pub fn read(path: &Path) -> io::Result<String> {
 /// Reads a text in UTF-8, of which so much is there that it may be a script.
 pub fn read_text(source: impl Read) -> io::Result<String> {
     let mut bytes = Vec::new();
-    let most = MOST_BYTES.load(Ordering::Relaxed);
+    let most = most_bytes();
     source.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         return Err(io::ErrorKind::FileTooLarge.into());

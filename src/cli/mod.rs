@@ -11,6 +11,7 @@ mod init;
 pub(crate) mod interrupt;
 mod journal;
 mod language_server;
+mod lines;
 mod manual;
 pub(crate) mod output;
 mod process_host;

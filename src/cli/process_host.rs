@@ -14,7 +14,7 @@ use super::watch::Seen;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Drawable;
-use crate::session::{Example, Host, Kept, Spool, Wish, contained, reason};
+use crate::session::{Clock, Example, Host, Kept, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
@@ -235,5 +235,10 @@ impl Host for ProcessHost {
 
     fn seconds(&self) -> Option<f64> {
         Some(self.begun.elapsed().as_secs_f64())
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        let begun = self.begun;
+        Some(Rc::new(move || begun.elapsed().as_secs_f64()))
     }
 }

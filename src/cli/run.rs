@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::mpsc::sync_channel;
 
 use super::args::{HostArguments, Scripts, command_names};
+use super::lines::Lines;
 use super::process_host::ProcessHost;
 use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, format_counted, nearest};
@@ -229,26 +230,6 @@ fn read_stdin() -> io::Result<String> {
     interrupt::next_from(&text).unwrap_or_else(|| Err(io::ErrorKind::Interrupted.into()))
 }
 
-/// Lines read ahead of what works on them.
-const LINES_AHEAD: usize = 1024;
-
-/// The lines of standard input with their ends, up to the end or the first that cannot be read. They
-/// are read by a thread of their own, so that who waits for one can be woken.
-fn lines_of_stdin() -> Receiver<io::Result<Vec<u8>>> {
-    let (to, lines) = sync_channel(LINES_AHEAD);
-    std::thread::spawn(move || {
-        loop {
-            let line = files::read_line(io::stdin().lock());
-            let is_end = line.as_ref().is_ok_and(Vec::is_empty);
-            let is_last = is_end || line.is_err();
-            if is_end || to.send(line).is_err() || is_last {
-                return;
-            }
-        }
-    });
-    lines
-}
-
 /// An empty session.
 pub(super) fn begin(host: &HostArguments) -> Session {
     if let Some(n) = host.threads {
@@ -291,8 +272,19 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if !host.no_init {
         init::run(session, process);
     }
+    kept(session, process, host, |session, process| crate::repl::converse(session, process));
+}
+
+/// A conversation of which a journal is kept, unless the user wants none: each statement is written down
+/// before the next is read. What the last one left that did not end in order is offered first.
+pub(super) fn kept<T>(
+    session: &mut Session,
+    process: &mut ProcessHost,
+    host: &HostArguments,
+    converse: impl FnOnce(&mut Session, &mut ProcessHost) -> T,
+) -> T {
     if host.no_journal {
-        return crate::repl::converse(session, process);
+        return converse(session, process);
     }
     if let Some(remains) = journal::remains() {
         let news = Diagnostic::note_only(format!(
@@ -306,8 +298,9 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if session.to_script() != Session::new().to_script() {
         session.keep_whole(process);
     }
-    crate::repl::converse(session, process);
+    let result = converse(session, process);
     process.end_journal();
+    result
 }
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
@@ -317,18 +310,17 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     let mut status = ExitStatus::Fine;
     let mut piece = Growing::default();
     let mut is_first = true;
-    let lines = lines_of_stdin();
+    let most = files::most_bytes();
+    let mut lines = Lines::of_stdin(most);
+    let unreadable = |e: &io::Error, session: &Session| {
+        let message = format!("cannot read standard input: {}", reason(e));
+        output::show(&Diagnostic::error(errors::CANNOT_READ, message), session.sources());
+        ExitStatus::Unreadable
+    };
     loop {
-        let line = match interrupt::next_from(&lines).unwrap_or_else(|| Ok(Vec::new())) {
+        let line = match lines.next() {
             Ok(line) => line,
-            Err(e) => {
-                let problem = Diagnostic::error(
-                    errors::CANNOT_READ,
-                    format!("cannot read standard input: {}", reason(&e)),
-                );
-                output::show(&problem, session.sources());
-                return ExitStatus::Unreadable;
-            }
+            Err(e) => return unreadable(&e, session),
         };
         let is_end = line.is_empty();
         let mark = files::BYTE_ORDER_MARK;
@@ -336,6 +328,10 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
         let is_whole = piece.add(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
         is_first = false;
         if !is_end && !is_whole {
+            // A block that never ends would be all of the memory.
+            if piece.n_bytes() as u64 > most {
+                return unreadable(&io::ErrorKind::FileTooLarge.into(), session);
+            }
             continue;
         }
         let Outcome { flow, failure } = transcript.enter(&piece.take(), session, host);

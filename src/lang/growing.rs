@@ -57,6 +57,11 @@ impl Growing {
         !is_incomplete(&self.text)
     }
 
+    /// How long it is so far.
+    pub const fn n_bytes(&self) -> usize {
+        self.text.len()
+    }
+
     /// The text, which is empty from here on.
     pub fn take(&mut self) -> String {
         std::mem::take(self).text
@@ -79,8 +84,11 @@ impl Growing {
                 },
                 b'(' | b'[' | b'{' if self.open.len() < MAX_NESTING => self.open.push(byte),
                 b'(' | b'[' | b'{' => return Line::MayEnd,
-                b')' | b']' | b'}' if self.open.pop().map(closing) != Some(byte) => {
-                    return Line::MayEnd;
+                b')' | b']' | b'}' => {
+                    let opened = self.open.pop();
+                    if opened.map(closing) != Some(byte) {
+                        return Line::MayEnd;
+                    }
                 }
                 b';' if matches!(self.open.last(), Some(b'(' | b'[')) => return Line::MayEnd,
                 _ => {}

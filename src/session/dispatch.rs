@@ -28,8 +28,8 @@ impl Execution<'_> {
         })?;
         self.begin_counts();
         self.hold_quotas(statement.span)?;
-        if flow == Flow::On && self.host.is_interrupted() {
-            self.note("stopped");
+        if flow == Flow::On && self.is_to_stop() {
+            self.note_stop("stopped");
             return Ok(Flow::Stopped);
         }
         Ok(flow)
@@ -42,7 +42,8 @@ impl Execution<'_> {
         quotas.check(Quota::Points, n_points, span)?;
         quotas.check(Quota::Constraints, world.n_constraints() as u64, span)?;
         quotas.check(Quota::GhostPoints, world.ghosts().len() as u64 * n_points, span)?;
-        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)
+        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)?;
+        self.hold_time(span)
     }
 
     fn perform(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {

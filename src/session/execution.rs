@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::deadline::Deadline;
 use super::host::Host;
 use super::input::Input;
 use super::parcel::Parcel;
+use super::quotas::Quota;
 use super::resolve::scope::{Resolver, Scopes};
 use super::state::State;
 use super::summary::Summary;
@@ -55,6 +57,8 @@ pub struct Execution<'a> {
     pub run: Option<Summary>,
     /// Where likely slips were found.
     pub slips: BTreeSet<Span>,
+    /// When it must be done.
+    pub deadline: Deadline,
     /// Whether work is under way whose progress is told: what is part of it tells none.
     is_telling_progress: bool,
 }
@@ -67,6 +71,7 @@ impl<'a> Execution<'a> {
         history: &'a mut History,
         host: &'a mut dyn Host,
     ) -> Self {
+        let deadline = Deadline::after(input.quotas.seconds(), host);
         Self {
             state,
             input,
@@ -80,13 +85,14 @@ impl<'a> Execution<'a> {
             outbox: Vec::new(),
             run: None,
             slips: BTreeSet::new(),
+            deadline,
             is_telling_progress: false,
         }
     }
 
     /// Carries out one statement, whole or not at all.
     pub fn carry_out(mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
-        let wish = self.host.wish_to_stop();
+        let wish = self.deadline.wish(self.host);
         let work = || {
             let flow = self.dispatch(statement)?;
             if self.state.preferences.is_live && statement.command.is_edit() {
@@ -97,11 +103,13 @@ impl<'a> Execution<'a> {
         let Ok(result) = interrupt::listening(wish, work) else {
             self.history.roll_back(self.state);
             self.state.solver.begin_anew();
+            self.hold_time(statement.span)?;
             self.note("stopped; it changed nothing");
             return Ok(Flow::Stopped);
         };
         let result = result.and_then(|flow| {
-            self.flush_outbox()?;
+            let written = self.flush_outbox();
+            written.map_err(|problem| self.hold_time(statement.span).err().unwrap_or(problem))?;
             Ok(flow)
         });
         match result {
@@ -167,6 +175,26 @@ impl<'a> Execution<'a> {
     /// Keeps all that running changes, before time passes or the solver moves points.
     pub fn begin_motion(&mut self) {
         self.history.begin_motion(self.state);
+    }
+
+    /// Whether it is to stop where it is: the user wants that, or its time is up.
+    pub fn is_to_stop(&self) -> bool {
+        self.host.is_interrupted() || self.deadline.has_passed(self.host)
+    }
+
+    /// Refuses to have taken longer than is allowed, unless the user has stopped it.
+    pub fn hold_time(&self, span: Span) -> Result<(), Diagnostic> {
+        if !self.deadline.has_passed(self.host) || self.host.is_interrupted() {
+            return Ok(());
+        }
+        self.input.quotas.check(Quota::Seconds, u64::MAX, span)
+    }
+
+    /// Tells how far it came, where the user stopped it.
+    pub fn note_stop(&mut self, text: impl Into<String>) {
+        if self.host.is_interrupted() {
+            self.note(text);
+        }
     }
 
     /// Tells the user something that is not an answer.

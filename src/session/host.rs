@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
 
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources};
@@ -16,6 +17,9 @@ pub enum Kept<'a> {
     /// The script that makes all there is; what was told before is not needed any more.
     Whole(&'a str),
 }
+
+/// Says how many seconds have passed since some fixed moment.
+pub type Clock = Rc<dyn Fn() -> f64>;
 
 /// The outside of a session. The program gives it a terminal and files; a test gives it lists.
 pub trait Host {
@@ -143,6 +147,12 @@ pub trait Host {
     /// Seconds of wall time since some fixed moment, none where there is no clock; for promises and
     /// receipts only.
     fn seconds(&self) -> Option<f64>;
+
+    /// What says the same within a long piece of work, which is left where the time of its command is
+    /// up; by default that is asked between statements and frames alone.
+    fn clock(&self) -> Option<Clock> {
+        None
+    }
 }
 
 /// What is wrong where time is to be measured and [`Host::seconds`] has none.

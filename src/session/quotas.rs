@@ -11,6 +11,8 @@ pub enum Quota {
     SourceBytes,
     /// Levels of blocks.
     Nesting,
+    /// Seconds of a command.
+    Seconds,
     /// Statements of a command.
     Statements,
     /// Frames of a command.
@@ -62,13 +64,15 @@ const fn row(quota: Quota, word: &'static str, what: &'static str, usual: u64) -
 
 /// All of them, in the order of [`Quota`]. The usual bounds keep a session below some four gigabytes
 /// of memory; a slip of the pen is found in seconds.
-const ROWS: [Row; 17] = [
+const ROWS: [Row; 18] = [
     row(Quota::SourceBytes, "source-bytes", "bytes of a script", 64 << 20),
     // Each level takes some kilobytes of a stack that cannot grow.
     Row {
         highest: 64,
         ..row(Quota::Nesting, "nesting", "levels of `for`, `use` and `include`", 64)
     },
+    // How long something takes is the machine's: a command that is long is no mistake for that.
+    row(Quota::Seconds, "seconds", "seconds in one command", u64::MAX),
     row(Quota::Statements, "statements", "statements in one command", 20_000_000),
     // A billion frames of the smallest mechanism take minutes.
     row(Quota::Frames, "frames", "frames in one command", 1_000_000_000),
@@ -102,8 +106,8 @@ pub const LONGEST_ARGUMENT: u32 = 64;
 
 impl Quota {
     /// All of them.
-    pub const ALL: [Self; 17] = {
-        let mut all = [Self::SourceBytes; 17];
+    pub const ALL: [Self; 18] = {
+        let mut all = [Self::SourceBytes; 18];
         let mut k = 0;
         while k < all.len() {
             all[k] = ROWS[k].quota;
@@ -126,7 +130,7 @@ impl Quota {
 /// How much is allowed.
 #[derive(Debug, Clone)]
 pub struct Quotas {
-    most: [u64; 17],
+    most: [u64; 18],
 }
 
 impl Default for Quotas {
@@ -139,6 +143,12 @@ impl Quotas {
     /// The most of something.
     pub const fn of(&self, quota: Quota) -> u64 {
         self.most[quota as usize]
+    }
+
+    /// The most seconds of one command, where there are.
+    pub fn seconds(&self) -> Option<f64> {
+        let most = self.of(Quota::Seconds);
+        (most < u64::MAX).then_some(most as f64)
     }
 
     /// The most terms of one expression.

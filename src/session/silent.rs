@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::host::Host;
+use super::host::{Clock, Host};
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::interrupt::Wish;
@@ -70,5 +70,9 @@ impl Host for Silent<'_> {
 
     fn seconds(&self) -> Option<f64> {
         self.host.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.host.clock()
     }
 }

@@ -142,6 +142,49 @@ fn a_foreign_crate_has_one_home() {
     }
 }
 
+/// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
+/// comes down to what they do.
+const STANDING_BEFORE: [(&str, &[&str]); 2] = [
+    (
+        "session/silent.rs",
+        &[
+            "print_all",
+            "page",
+            "draw",
+            "n_printed",
+            "is_keeping",
+            "keep",
+            "forget_stop",
+            "opening",
+            "write_in_pieces",
+            "progress",
+        ],
+    ),
+    // It shows no answer page by page.
+    ("cli/watch.rs", &["print_all"]),
+];
+
+#[test]
+fn who_stands_before_a_host_passes_on_all_it_can_do() {
+    let sources = sources();
+    let text = |wanted: &str| {
+        let found = sources.iter().find(|source| source.path == wanted);
+        &*found.unwrap_or_else(|| panic!("no {wanted}")).text
+    };
+    let (_, host) = text("session/host.rs").split_once("pub trait Host {").expect("the trait");
+    let (host, _) = host.split_once("\n}\n").expect("its end");
+    let methods: Vec<&str> =
+        host.lines().filter_map(|line| line.strip_prefix("    fn ")?.split('(').next()).collect();
+    assert!(methods.len() > 15, "{methods:?}");
+    for (path, others) in STANDING_BEFORE {
+        for method in &methods {
+            let is_passed_on = text(path).contains(&format!("    fn {method}("));
+            let is_left = others.contains(method);
+            assert!(is_passed_on != is_left, "{path}: `{method}`, passed on: {is_passed_on}");
+        }
+    }
+}
+
 #[test]
 fn the_library_needs_no_system() {
     for source in sources() {

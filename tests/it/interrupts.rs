@@ -11,7 +11,7 @@ use std::path::Path;
 use crate::support::compare::check_same;
 use crate::support::talk::Talking;
 use linkwork::diag::{Diagnostic, Sources};
-use linkwork::session::{Flow, Host, Kept, Session, Transcript};
+use linkwork::session::{Flow, Host, Kept, Quota, Session, Transcript};
 
 /// How often a statement may go on asking after it was told to stop.
 const MOST_AFTER: u64 = 8;
@@ -117,6 +117,61 @@ fn what_is_stopped_ends_soon_and_is_done_whole_or_not_at_all() {
             assert_eq!(asked(&mut talking, &statement, None).0, Flow::On, "{what}");
             check_same(&talking.script(), &whole.script(), &format!("{what}, then not stopped"));
         }
+    }
+}
+
+/// A statement on a clock that goes on by a second whenever it is looked at.
+fn timed(talking: &mut Talking, statement: &str, most: u64) -> (Result<Flow, Diagnostic>, u64) {
+    talking.talk.tick = 1.0;
+    talking.session.limit(Quota::Seconds, most);
+    let before = talking.talk.n_looks.get();
+    let result = talking.execute(statement);
+    (result, talking.talk.n_looks.get() - before)
+}
+
+#[test]
+fn a_command_whose_time_is_up_is_left_and_taken_back() {
+    const CRANK: &str = "point p[0] = (0, 0) frozen, p[1] = (1, 0); motor p[0] p[1] speed 1rev";
+    const OTHERS: [(&str, &str, &str); 6] = [
+        ("a loop", "", "for i in 1..1000 { let q = i }"),
+        ("frames", "expose every 100", "step 1000"),
+        ("frames at once", "", "step 100000"),
+        ("a hand", "", "drag p[1] through (1, 1), (0, 1), (1, 1), (0, 1) over 0"),
+        ("sweeps", "", "relax 10000"),
+        ("a study", "step 20", "accuracy"),
+    ];
+    let others =
+        OTHERS.map(|(what, before, it)| (what, format!("{CRANK}\n{before}"), it.to_owned()));
+    // Reading is no part of a command.
+    let cases = CASES.into_iter().filter(|it| it.what != "reading a long block");
+    let cases = cases.map(|it| (it.what, (it.before)(it.size), (it.statement)(it.size)));
+    for (what, scene, last) in cases.chain(others) {
+        let mut whole = Talking::after(&scene);
+        let (result, n_looks) = timed(&mut whole, &last, u64::MAX - 1);
+        assert_eq!(result.expect(what), Flow::On);
+        let mut n_refused = 0;
+        for most in [n_looks / 3, n_looks - 2] {
+            let mut talking = Talking::after(&scene);
+            let (script, n_files) = (talking.script(), talking.talk.files.len());
+            let (result, n_looked) = timed(&mut talking, &last, most);
+            // A study looks at the clock for each of its rungs.
+            let most_after = if what == "a study" { 100 } else { MOST_AFTER };
+            assert!(n_looked <= most + most_after, "{what}: looked {n_looked} times of {most}");
+            let Err(problem) = result else {
+                // It was told when all that was left were its files.
+                check_same(&talking.script(), &whole.script(), what);
+                continue;
+            };
+            n_refused += 1;
+            assert_eq!(&*problem.message, "the limit `seconds` is exceeded", "{what}");
+            check_same(&talking.script(), &script, what);
+            assert_eq!(talking.talk.files.len(), n_files, "{what}");
+            assert!(!talking.talk.said.contains("stopped"), "{what}: {}", talking.talk.said);
+            let (result, _) = timed(&mut talking, &last, u64::MAX - 1);
+            assert_eq!(result.expect(what), Flow::On);
+            check_same(&talking.script(), &whole.script(), &format!("{what}, then with time"));
+        }
+        assert!(n_refused > 0, "{what}");
     }
 }
 

@@ -6,9 +6,10 @@ use crate::support::program::{folder, run, text};
 use crate::support::talk::Talking;
 
 /// A script that goes on for as long as it may, and the limit that ends it.
-const ENDLESS: [(&str, &str); 15] = [
+const ENDLESS: [(&str, &str); 16] = [
     ("source-bytes=1000", "include \"long.link\""),
     ("nesting=3", "define d(x) { use d(x) }\nuse d(1)"),
+    ("seconds=0", "print 1"),
     ("statements=1000", "for i in 1..999 { let a = i; let b = i }"),
     ("frames=99", "step 100"),
     ("points=1000", "for i in 1..100000 { point p[i] = (i, 0) }"),
@@ -89,7 +90,11 @@ fn the_documentation_lists_all_limits() {
     for quota in Quota::ALL {
         let line = page.lines().find(|line| line.starts_with(&format!("| `{}` |", quota.word())));
         let usual = line.and_then(|line| line.split('|').nth(3)).map(|cell| cell.replace(' ', ""));
-        assert_eq!(usual, Some(quota.usual().to_string()), "of `{}`", quota.word());
+        let wanted = match quota.usual() {
+            u64::MAX => "none".to_owned(),
+            n => n.to_string(),
+        };
+        assert_eq!(usual, Some(wanted), "of `{}`", quota.word());
     }
 }
 
@@ -159,4 +164,26 @@ fn a_line_on_a_pipe_has_an_end() {
     let said = text(&out.stderr);
     assert_eq!((out.status.code(), &*text(&out.stdout)), (Some(3), "1\n"), "{said}");
     assert!(said.contains("standard input") && said.contains("`source-bytes`"), "{said}");
+}
+
+#[test]
+fn a_block_on_a_pipe_has_an_end() {
+    let folder = folder(&[]);
+    let typed = format!("print 1\nfor i in 1..2 {{\n{}", "print i\n".repeat(1000));
+    let out = run(folder.path(), &["--limit", "source-bytes=1000"], &typed);
+    let said = text(&out.stderr);
+    assert_eq!((out.status.code(), &*text(&out.stdout)), (Some(3), "1\n"), "{said}");
+    assert!(said.contains("standard input") && said.contains("`source-bytes`"), "{said}");
+    let out = run(folder.path(), &[], &format!("{typed}}}\n"));
+    assert_eq!((out.status.code(), text(&out.stdout).lines().count()), (Some(0), 2001));
+}
+
+#[test]
+fn lines_on_a_pipe_are_what_they_are_however_they_come() {
+    let folder = folder(&[]);
+    let long = format!("print 1{}", " ".repeat(200_000));
+    let typed = format!("print 1\n\n{long}\r\nprint 2\nprint 3");
+    let out = run(folder.path(), &[], &typed);
+    assert_eq!(text(&out.stderr), "");
+    assert_eq!((out.status.code(), &*text(&out.stdout)), (Some(0), "1\n1\n2\n3\n"));
 }

@@ -74,14 +74,16 @@ impl Execution<'_> {
             self.must_be_replaceable(Path::new(name), kind, span)?;
         }
         let motion = self.repeatable_motion(n_frames);
-        let host = &self.host;
+        let (host, deadline) = (&*self.host, self.deadline);
         let host = StudyHost {
             now: &|| host.seconds().unwrap_or_default(),
-            stop: &|| host.is_interrupted(),
+            stop: &|| host.is_interrupted() || deadline.has_passed(host),
             progress: &|share| host.progress(share),
             seconds: SECONDS,
         };
-        study(&motion, &ladder(), &host)
+        let study = study(&motion, &ladder(), &host)?;
+        self.hold_time(span)?;
+        Ok(study)
     }
 
     /// What is wrong, and what to type, where no constraint is switched on.

@@ -56,8 +56,8 @@ impl Execution<'_> {
 
     /// A round of a loop; one without statements ends it where the user wants that, too.
     fn round(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
-        if body.is_empty() && self.host.is_interrupted() {
-            self.note("stopped");
+        if body.is_empty() && self.is_to_stop() {
+            self.note_stop("stopped");
             return Ok(Flow::Stopped);
         }
         self.perform_all(body)

@@ -105,8 +105,8 @@ impl Execution<'_> {
         let n_stops = hands.iter().map(Hand::n_pieces).max().unwrap_or(0);
         let mut status = Status::Converged;
         for k in 0..n_stops {
-            if self.host.is_interrupted() {
-                self.note(format!(
+            if self.is_to_stop() {
+                self.note_stop(format!(
                     "stopped after {k} of {}",
                     format_counted(n_stops as u64, "place")
                 ));

@@ -9,8 +9,9 @@ use crate::diag::{
 use crate::errors;
 use crate::interrupt::{self, Stopped};
 use crate::lang::ast::{Expr, Promise};
+use crate::session::deadline::Deadline;
 use crate::session::execution::{Execution, Flow};
-use crate::session::host::{Host, NO_CLOCK};
+use crate::session::host::NO_CLOCK;
 use crate::session::quotas::Quota;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::session::state::State;
@@ -28,18 +29,6 @@ pub(crate) struct Limits {
     pub seconds: Option<f64>,
     /// The largest position error that is known of the run.
     pub known_error: f64,
-}
-
-impl Limits {
-    /// When the time of what begins now is up, by the clock of a host.
-    fn deadline(&self, host: &dyn Host) -> Option<f64> {
-        Some(host.seconds()? + self.seconds?)
-    }
-}
-
-/// Whether a moment has passed.
-fn has_passed(deadline: f64, host: &dyn Host) -> bool {
-    host.seconds().is_some_and(|now| now >= deadline)
 }
 
 /// The hands that are at work while frames pass.
@@ -170,9 +159,9 @@ impl Execution<'_> {
             if is_told {
                 self.host.progress(k as f64 / n as f64);
             }
-            if self.host.is_interrupted() {
+            if self.is_to_stop() {
                 flow = Flow::Stopped;
-                self.note(format!("stopped after {k} of {}", format_counted(n, "frame")));
+                self.note_stop(format!("stopped after {k} of {}", format_counted(n, "frame")));
                 break;
             }
             if pace.is_due() && n - k > 1 {
@@ -191,7 +180,11 @@ impl Execution<'_> {
             let limits = Limits { known_error: summary.error_on_the_way, ..limits };
             let Ok(report) = self.frame_unless_stopped(k, frames, &limits, n_evaluations) else {
                 flow = Flow::Stopped;
-                self.note(format!("stopped after {} of {}", k - 1, format_counted(n, "frame")));
+                self.note_stop(format!(
+                    "stopped after {} of {}",
+                    k - 1,
+                    format_counted(n, "frame")
+                ));
                 break;
             };
             let mut report = report?;
@@ -300,15 +293,15 @@ impl Execution<'_> {
     ) -> Result<Report, Diagnostic> {
         // What was edited is part of no frame's time.
         self.sync();
-        let Self { state, host, .. } = &mut *self;
+        let Self { state, host, deadline, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
-        let deadline = limits.deadline(&**host);
+        let promised = Deadline::after(limits.seconds, &**host);
         let is_over = || {
-            may_be_long && host.is_interrupted()
-                || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
+            may_be_long && (host.is_interrupted() || deadline.has_passed(&**host))
+                || promised.has_passed(&**host)
         };
-        let has_end = may_be_long || deadline.is_some();
+        let has_end = may_be_long || promised.exists();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
         let Limits { tolerance, known_error, .. } = *limits;
         let budget = Budget { tolerance, stop, known_error };
@@ -361,8 +354,8 @@ impl Execution<'_> {
         let mut lowered: Option<f64> = None;
         let mut flow = Flow::On;
         while left > 0 {
-            if self.host.is_interrupted() {
-                self.note(format!(
+            if self.is_to_stop() {
+                self.note_stop(format!(
                     "stopped after {} of {}",
                     n - left,
                     format_counted(n, "iteration")
@@ -398,19 +391,20 @@ impl Execution<'_> {
     pub(super) fn settle(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
         self.state.world.refresh_driven()?;
         let report = {
-            let Self { state, host, .. } = &mut *self;
+            let Self { state, host, deadline, .. } = &mut *self;
             let State { solver, world, preferences, .. } = &mut **state;
-            let deadline = limits.deadline(&**host);
+            let promised = Deadline::after(limits.seconds, &**host);
             let is_over = || {
                 host.is_interrupted()
-                    || deadline.is_some_and(|deadline| has_passed(deadline, &**host))
+                    || deadline.has_passed(&**host)
+                    || promised.has_passed(&**host)
             };
             let budget =
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
             solver.settle(world, &preferences.solve, &budget)
         };
         // Whatever it came to, more might have come of it.
-        if self.host.is_interrupted() {
+        if self.is_to_stop() {
             interrupt::go_on(Stopped);
         }
         if report.status != Status::Converged

@@ -33,14 +33,14 @@ impl Execution<'_> {
     /// Lets up to `n` frames pass at once, as far as that goes.
     pub(super) fn stretch(&mut self, n: u64, limits: &Limits, known_error: f64) -> Stretch {
         let most = self.input.quotas.of(Quota::TraceSamples);
-        let Self { state, host, .. } = &mut *self;
+        let Self { state, host, deadline, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         // No more than traces may keep: the frame that exceeds that is told of by itself.
         let n_kept = world.traces().iter().map(|trace| trace.samples.len() as u64).sum();
         let n_left = most.saturating_sub(n_kept).checked_div(world.traces().len() as u64);
         let n = n.min(n_left.unwrap_or(n)).min(MOST_AT_ONCE);
         let budget = Budget { tolerance: limits.tolerance, stop: None, known_error };
-        let goes_on = || !host.is_interrupted();
+        let goes_on = || !host.is_interrupted() && !deadline.has_passed(&**host);
         solver.stretch(world, &preferences.solve, &budget, n, &goes_on)
     }
 

@@ -8,10 +8,9 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use linkwork::diag::{Diagnostic, Paint, Sources, render};
-use linkwork::session::Host;
+use linkwork::session::{Clock, Host};
 
 /// What was said and written so far.
-#[derive(Default)]
 pub struct Notebook {
     /// The lines printed.
     pub printed: Vec<String>,
@@ -26,13 +25,36 @@ pub struct Notebook {
     /// How far the clock goes on whenever it is looked at, seconds.
     pub tick: f64,
     /// How often the clock was looked at.
-    pub n_looks: Cell<u64>,
+    pub n_looks: Rc<Cell<u64>>,
     /// The user wants to stop once the clock was looked at more often than that.
     pub patience: Option<u64>,
     /// How often it was asked whether the user wants to stop.
     pub n_polls: Rc<Cell<u64>>,
     /// The user wants to once that was asked more often.
     pub most_polls: Option<u64>,
+    /// How often it counts as asked where that is within a long piece of work.
+    pub polls_a_look: u64,
+    /// Whether notes and warnings reach nobody.
+    pub is_deaf: bool,
+}
+
+impl Default for Notebook {
+    fn default() -> Self {
+        Self {
+            printed: Vec::new(),
+            told: Vec::new(),
+            said: String::new(),
+            files: BTreeMap::new(),
+            folder: PathBuf::new(),
+            tick: 0.0,
+            n_looks: Rc::default(),
+            patience: None,
+            n_polls: Rc::default(),
+            most_polls: None,
+            polls_a_look: 1,
+            is_deaf: false,
+        }
+    }
 }
 
 impl Notebook {
@@ -59,6 +81,10 @@ impl Host for Notebook {
         self.told.push(what.clone());
     }
 
+    fn is_listening(&self) -> bool {
+        !self.is_deaf
+    }
+
     fn is_interrupted(&self) -> bool {
         self.n_polls.set(self.n_polls.get() + 1);
         self.patience.is_some_and(|most| self.n_looks.get() > most)
@@ -66,9 +92,9 @@ impl Host for Notebook {
     }
 
     fn wish_to_stop(&self) -> Option<Rc<dyn Fn() -> bool>> {
-        let (n_polls, most) = (self.n_polls.clone(), self.most_polls);
+        let (n_polls, most, n) = (self.n_polls.clone(), self.most_polls, self.polls_a_look);
         Some(Rc::new(move || {
-            n_polls.set(n_polls.get() + 1);
+            n_polls.set(n_polls.get() + n);
             most.is_some_and(|most| n_polls.get() > most)
         }))
     }
@@ -93,5 +119,13 @@ impl Host for Notebook {
     fn seconds(&self) -> Option<f64> {
         self.n_looks.set(self.n_looks.get() + 1);
         Some(self.n_looks.get() as f64 * self.tick)
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        let (n_looks, tick) = (self.n_looks.clone(), self.tick);
+        Some(Rc::new(move || {
+            n_looks.set(n_looks.get() + 1);
+            n_looks.get() as f64 * tick
+        }))
     }
 }
