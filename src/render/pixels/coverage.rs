@@ -97,10 +97,10 @@ impl Coverage {
         };
         let mut area = 0.0;
         let mut share = 0.0;
-        for column in first..=end {
+        for (step, column) in steps[first..=end].iter_mut().zip(first..) {
             let next_area = covered((column + 1) as f64);
             let next = next_area - area;
-            steps[column] += height * (next - share) as f32;
+            *step += height * (next - share) as f32;
             (area, share) = (next_area, next);
         }
     }

@@ -5,8 +5,8 @@ use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Member, Operator, Shape, Unit};
-use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, call, operate};
+use crate::terms::{Member, Operator, Shape, Unit};
+use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -20,7 +20,7 @@ pub enum Term {
 
 /// What names in an expression become.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mode {
+pub(super) enum Mode {
     /// Their values now.
     Now,
     /// Themselves: the expression stays live.
@@ -39,7 +39,7 @@ pub struct Driven {
 }
 
 impl Term {
-    fn shape(&self) -> Shape {
+    pub(super) fn shape(&self) -> Shape {
         match self {
             Self::Constant(value, _) => value.shape(),
             Self::Live(formula) => formula.shape(),
@@ -47,7 +47,7 @@ impl Term {
     }
 
     /// A value without a unit.
-    const fn plain(value: Value) -> Self {
+    pub(super) const fn plain(value: Value) -> Self {
         Self::Constant(value, Unit::None)
     }
 
@@ -65,7 +65,7 @@ impl Term {
         }
     }
 
-    fn depends(&self) -> Depends {
+    pub(super) fn depends(&self) -> Depends {
         match self {
             Self::Constant(..) => Depends::default(),
             Self::Live(formula) => formula.depends(),
@@ -201,7 +201,8 @@ impl Resolver<'_> {
         }
     }
 
-    fn bind(&mut self, expr: &Expr, mode: Mode) -> Result<Term, Diagnostic> {
+    /// The value of an expression, or the formula that it is.
+    pub(super) fn bind(&mut self, expr: &Expr, mode: Mode) -> Result<Term, Diagnostic> {
         let number = |n| Ok(Term::plain(Value::Number(n)));
         match &expr.node {
             Syntax::Number(n) => Ok(Term::Constant(Value::Number(n.value()), n.unit)),
@@ -350,99 +351,6 @@ impl Resolver<'_> {
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
         self.state.look(crate::solve::Solver::rates)
     }
-
-    fn bind_call(
-        &mut self,
-        function: Function,
-        arguments: &[Expr],
-        expr: &Expr,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let is_of_points = function.is_rate() || function.counts_turns();
-        let mut few = [const { Term::plain(Value::Number(0.0)) }; 4];
-        let mut many = Vec::new();
-        let is_few = arguments.len() <= few.len();
-        let letters =
-            function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
-        for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
-            // Only a formula keeps the names of points.
-            let term = self.bind(argument, if is_of_points { Mode::Live } else { mode })?;
-            let shape = if letter == b'n' { Shape::Number } else { Shape::Vector };
-            if term.shape() != shape {
-                return Err(wanted(argument, shape));
-            }
-            if is_few {
-                few[k] = term;
-            } else {
-                many.push(term);
-            }
-        }
-        let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
-        if is_of_points {
-            return self.bind_of_points(function, terms, arguments, expr, mode);
-        }
-        if terms.iter().all(|term| matches!(term, Term::Constant(..))) {
-            let constant = |term: &Term| match term {
-                Term::Constant(value, _) => *value,
-                Term::Live(_) => unreachable!("all are constant"),
-            };
-            let mut values = [Value::Number(0.0); 4];
-            let value = if is_few {
-                values.iter_mut().zip(terms).for_each(|(value, term)| *value = constant(term));
-                call(function, &values[..terms.len()], expr.span)?
-            } else {
-                call(function, &terms.iter().map(constant).collect::<Vec<_>>(), expr.span)?
-            };
-            return Ok(Term::plain(value));
-        }
-        let depends = terms.iter().fold(Depends::default(), |all, term| all.or(term.depends()));
-        let formulas = terms.iter().zip(arguments).map(|(t, a)| t.clone().into_formula(a.span));
-        let node = Node::Call(function, formulas.collect());
-        Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
-    }
-
-    fn bind_of_points(
-        &mut self,
-        function: Function,
-        terms: &[Term],
-        arguments: &[Expr],
-        expr: &Expr,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let points = points_of(function, terms, arguments)?;
-        if function.counts_turns() {
-            self.note_turning(&points);
-        }
-        let is_rate = function.is_rate();
-        let depends = Depends { on_rates: is_rate, on_points: !is_rate, ..Depends::default() };
-        let node = Node::Call(function, points);
-        let formula = Formula::new(node, function.result(), depends, expr.span);
-        match mode {
-            Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::plain),
-        }
-    }
-}
-
-/// The arguments of a function that takes the names of points.
-fn points_of(
-    function: Function,
-    terms: &[Term],
-    arguments: &[Expr],
-) -> Result<Box<[Formula]>, Diagnostic> {
-    let points = terms.iter().zip(arguments).map(|(term, argument)| match term {
-        Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => Ok(formula.clone()),
-        _ => {
-            let wants =
-                if terms.len() == 1 { "the name of a point" } else { "the names of points" };
-            Err(Diagnostic::error(
-                errors::WRONG_SORT,
-                format!("`{}` takes {wants}", function.name()),
-            )
-            .at(argument.span, "this is not a point"))
-        }
-    });
-    points.collect()
 }
 
 fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {
@@ -522,7 +430,7 @@ fn too_large(expr: &Expr, value: Value) -> Diagnostic {
 }
 
 /// The error for an expression of the other shape.
-fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
+pub(super) fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(errors::MIXED_SORTS, format!("expected a {}", shape.noun()))
         .at(expr.span, format!("this is a {}", is.noun()))

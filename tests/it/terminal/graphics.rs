@@ -16,6 +16,9 @@ const FOUR_BAR: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), 
 /// Columns and rows of a terminal, less those that stay free under a picture.
 const PAGE: [usize; 2] = [80, 21];
 
+/// What the scale below a drawing takes, px.
+const SCALE_HEIGHT: f64 = 34.0;
+
 /// A picture, a colour for each pixel.
 struct Picture {
     width: usize,
@@ -181,7 +184,7 @@ fn kitty_gets_the_picture_as_it_is() {
     let n = terminal.bytes().len();
     terminal.enter("sample \"s\" = 1, 2; plot");
     let chart = of_kitty(&terminal.bytes()[n..]);
-    assert!(chart.colours.iter().any(|colour| *colour == [0; 3]));
+    assert!(chart.colours.contains(&[0; 3]));
 }
 
 #[test]
@@ -206,7 +209,7 @@ fn a_terminal_that_says_it_can_gets_sixels() {
     let bytes = terminal.bytes();
     let (sixels, _) = between(&bytes, b"\x1bP", b"\x1b\\").expect("a picture");
     // Colours are in hundredths, and the rarest take that of a neighbour.
-    assert_same(&from_sixels(sixels), &wanted(9, 18), 12);
+    assert_same(&from_sixels(sixels), &wanted(9, 18), 20);
     // It is asked once.
     let n = bytes.len();
     terminal.enter("show");
@@ -223,16 +226,28 @@ fn where_letters_are_drawn_the_picture_has_lines() {
     let scene = Scene::new(session.world());
     let lines = Drawable::Scene(&scene).sketch(PAGE[0], PAGE[1]).lines();
     let picture = wanted(16, 32);
+    let svg = Drawable::Scene(&scene).svg();
+    let side = |name: &str| {
+        let (_, behind) = svg.split_once(&format!(" {name}=\"")).expect("a side");
+        behind.split('"').next().expect("a number").parse::<f64>().expect("a number")
+    };
+    // Below the drawing is the scale, which letters leave out.
+    let (width, height) = (side("width"), side("height") - SCALE_HEIGHT);
+    let block = (width / PAGE[0] as f64).max(height / (2 * PAGE[1]) as f64);
+    let fine = block * picture.width as f64 / width;
     // Empty rows above are left out in letters.
     let is_met = |above: usize| {
-        lines.iter().enumerate().all(|(row, line)| {
-            let blocks =
-                line.chars().enumerate().filter(|(_, c)| ('\u{2580}'..='\u{2588}').contains(c));
-            blocks.into_iter().all(|(column, _)| {
-                let (xs, ys) =
-                    ((column * 16).saturating_sub(8), ((row + above) * 32).saturating_sub(16));
-                (xs..xs + 32).any(|x| (ys..ys + 64).any(|y| !picture.is_paper(x, y)))
-            })
+        let mut blocks = lines.iter().enumerate().flat_map(|(row, line)| {
+            let is_block = |c: char| ('\u{2580}'..='\u{2588}').contains(&c);
+            let columns = line.chars().enumerate().filter(move |(_, c)| is_block(*c));
+            columns.map(move |(column, _)| (column, row + above))
+        });
+        blocks.all(|(column, row)| {
+            let from = |n: f64| (n * fine - 0.5 * fine).max(0.0) as usize;
+            let to = |n: f64| (n * fine + 0.5 * fine) as usize;
+            let (column, row) = (column as f64, 2.0 * row as f64);
+            let mut xs = from(column)..to(column + 1.0);
+            xs.any(|x| (from(row)..to(row + 2.0)).any(|y| !picture.is_paper(x, y)))
         })
     };
     assert!(lines.len() > 8 && (0..6).any(is_met), "{lines:?}");
