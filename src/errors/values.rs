@@ -35,4 +35,12 @@ super::kinds! {
         wrong: "set dt 0",
         right: "set dt 1/60",
     }
+    306 NOT_MEASURED {
+        title: "a measure has no value yet",
+        help: "`measure` takes the pose of now if it is solved, and then a value each frame; `reset` empties\n\
+             it. A measure has `.min`, `.max`, `.span`, `.mean`, `.first`, `.last`, `.at_min`, `.at_max`\n\
+             and `.count`.",
+        wrong: "point A = (0, 0), B = (1, 0)\nlength A B = 2\nmeasure d = B.x\nprint d.max",
+        right: "point A = (0, 0), B = (1, 0)\nlength A B = 2\nmeasure d = B.x\nstep\nprint d.max",
+    }
 }

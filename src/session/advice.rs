@@ -34,6 +34,7 @@ impl State {
             Entity::Parameter(_) => {
                 ("to give the parameter another value", format!("let {name} = {value}"))
             }
+            Entity::Measure(_) => ("to begin it anew", format!("measure {name} = {value}")),
             Entity::Constraint(id) => {
                 let record = self.world.constraint(id).expect("it is named");
                 let pattern = pattern_of(&record.constraint);

@@ -11,7 +11,7 @@ use crate::lang::ast::{Function, ListWhat, Unit};
 use crate::lang::{
     Class, NameOf, Next, Token, catalogue, next, rest_of_usage, statement_start, tokens,
 };
-use crate::terms::Member;
+use crate::terms::{Member, Statistic};
 use crate::world::{Entity, World};
 
 /// Names kept; more than this are no help, and are not looked through.
@@ -25,8 +25,9 @@ enum Kind {
     Driver,
     Constraint,
     Parameter,
+    Measure,
     Instance,
-    /// Of a constraint: it may be looked at, and is offered once the dot is there.
+    /// Of a constraint or a measure: it may be looked at, and is offered once the dot is there.
     Member,
 }
 
@@ -87,12 +88,8 @@ impl Completion {
         self.is_whole = all.iter().nth(MOST_NAMES).is_none();
         for (name, entity) in all.iter().take(MOST_NAMES) {
             self.names.insert(name.to_owned(), kind(world, entity));
-            if let Entity::Constraint(id) = entity {
-                let members =
-                    Member::ALL.into_iter().filter(|&member| world.has_member(id, member));
-                let members = members.map(|member| format!("{name}.{}", member.word()));
-                self.names.extend(members.map(|member| (member, Kind::Member)));
-            }
+            let words = member_words(world, entity).into_iter();
+            self.names.extend(words.map(|word| (format!("{name}.{word}"), Kind::Member)));
         }
         let instances = all.instances().take(MOST_NAMES);
         self.names.extend(instances.map(|name| (name.to_owned(), Kind::Instance)));
@@ -180,7 +177,9 @@ impl Completion {
         let owner = self.names.get(&name[..dot]);
         match owner {
             Some(Kind::Point) => is_axis,
-            Some(Kind::Instance | Kind::Constraint | Kind::Guide | Kind::Driver) => false,
+            Some(
+                Kind::Instance | Kind::Constraint | Kind::Guide | Kind::Driver | Kind::Measure,
+            ) => false,
             _ => true,
         }
     }
@@ -262,6 +261,7 @@ fn kind(world: &World, entity: Entity) -> Kind {
     match entity {
         Entity::Point(_) => Kind::Point,
         Entity::Parameter(_) => Kind::Parameter,
+        Entity::Measure(_) => Kind::Measure,
         Entity::Constraint(id) if world.has_member(id, Member::Radius) => Kind::Guide,
         Entity::Constraint(id)
             if world.has_member(id, Member::Angle) || world.has_member(id, Member::Value) =>
@@ -269,6 +269,18 @@ fn kind(world: &World, entity: Entity) -> Kind {
             Kind::Driver
         }
         Entity::Constraint(_) => Kind::Constraint,
+    }
+}
+
+/// The words of the members of a thing.
+fn member_words(world: &World, of: Entity) -> Vec<&'static str> {
+    match of {
+        Entity::Constraint(id) => {
+            let members = Member::ALL.into_iter().filter(|&member| world.has_member(id, member));
+            members.map(Member::word).collect()
+        }
+        Entity::Measure(_) => Statistic::ALL.map(Statistic::word).to_vec(),
+        Entity::Point(_) | Entity::Parameter(_) => Vec::new(),
     }
 }
 

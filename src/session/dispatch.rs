@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::interrupt;
 use crate::lang::ast::{
-    Building, Changing, Command, Drawing, Expr, Looking, Making, Running, Statement,
+    Building, Changing, Command, Drawing, Expr, Looking, Making, Measuring, Running, Statement,
 };
 
 impl Execution<'_> {
@@ -54,6 +54,7 @@ impl Execution<'_> {
             Command::Changing(it) => return self.changing(it, span),
             Command::Running(it) => return self.running(it, span),
             Command::Looking(it) => return self.looking(it, span),
+            Command::Measuring(it) => self.measuring(it, span)?,
             Command::Drawing(it) => return self.drawing(it, span),
             Command::Building(it) => return self.building(it, span),
         }
@@ -120,6 +121,13 @@ impl Execution<'_> {
             Looking::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)
+    }
+
+    fn measuring(&mut self, it: &Measuring, span: Span) -> Result<(), Diagnostic> {
+        match it {
+            Measuring::Measure { name, value, unit } => self.measure(name, value, *unit, span),
+            Measuring::Result(items) => self.say_results(items),
+        }
     }
 
     fn drawing(&mut self, it: &Drawing, span: Span) -> Result<Flow, Diagnostic> {

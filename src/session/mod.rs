@@ -27,6 +27,7 @@ mod preferences;
 mod quotas;
 mod report;
 mod resolve;
+mod results;
 mod review;
 mod scene_hash;
 mod series;
@@ -51,6 +52,7 @@ pub use execution::Flow;
 pub use host::{Clock, Host, Kept, Nowhere, contained, reason};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
+pub use results::Results;
 pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
@@ -162,6 +164,21 @@ impl Session {
         let (world, _) = present(self.world());
         let record = world.constraint(id)?;
         Some(record.constraint.residual(world.points().column()))
+    }
+
+    /// What `result` said so far: what the run is for.
+    ///
+    /// ```
+    /// use linkwork::Session;
+    ///
+    /// let mut session = Session::new();
+    /// session.run("point A = (3, 4); result far = norm(A), \"at\" = A")?;
+    /// assert_eq!(session.results().get("far"), Some(5.0));
+    /// assert_eq!(session.results().get("at.y"), Some(4.0));
+    /// # Ok::<(), linkwork::Diagnostic>(())
+    /// ```
+    pub const fn results(&self) -> &Results {
+        &self.state.results
     }
 
     /// The texts read so far; places in diagnostics are places in these.

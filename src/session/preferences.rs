@@ -1,6 +1,7 @@
 //! What a user prefers.
 
 use crate::solve::Settings;
+use crate::world::Extremes;
 
 /// Everything that `set` sets but the length of a frame, which belongs to the clock.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -11,6 +12,8 @@ pub struct Preferences {
     pub dead_points: AtDeadPoint,
     /// A ghost of the mechanism is kept every so many frames.
     pub expose_every: Option<u64>,
+    /// Whether extremes of measures are looked for between frames.
+    pub measures: Extremes,
     /// How much is said of a run at its end.
     pub receipt: Receipt,
     /// Whether each edit is followed by a solution.

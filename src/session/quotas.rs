@@ -23,6 +23,8 @@ pub enum Quota {
     Constraints,
     /// Samples of traces.
     TraceSamples,
+    /// Values of measures.
+    MeasureSamples,
     /// Points of ghosts.
     GhostPoints,
     /// Values that `sample` collected.
@@ -64,7 +66,7 @@ const fn row(quota: Quota, word: &'static str, what: &'static str, usual: u64) -
 
 /// All of them, in the order of [`Quota`]. The usual bounds keep a session below some four gigabytes
 /// of memory; a slip of the pen is found in seconds.
-const ROWS: [Row; 18] = [
+const ROWS: [Row; 19] = [
     row(Quota::SourceBytes, "source-bytes", "bytes of a script", 64 << 20),
     // Each level takes some kilobytes of a stack that cannot grow.
     Row {
@@ -79,6 +81,7 @@ const ROWS: [Row; 18] = [
     row(Quota::Points, "points", "points", 4_000_000),
     row(Quota::Constraints, "constraints", "constraints", 4_000_000),
     row(Quota::TraceSamples, "trace-samples", "samples of traces", 40_000_000),
+    row(Quota::MeasureSamples, "measure-samples", "values of measures", 40_000_000),
     row(Quota::GhostPoints, "ghost-points", "points of all ghosts together", 40_000_000),
     row(Quota::PlotSamples, "plot-samples", "values collected by `sample`", 40_000_000),
     row(Quota::RecordedFrames, "recorded-frames", "frames in recordings under way", 10_000_000),
@@ -106,8 +109,8 @@ pub const LONGEST_ARGUMENT: u32 = 64;
 
 impl Quota {
     /// All of them.
-    pub const ALL: [Self; 18] = {
-        let mut all = [Self::SourceBytes; 18];
+    pub const ALL: [Self; 19] = {
+        let mut all = [Self::SourceBytes; 19];
         let mut k = 0;
         while k < all.len() {
             all[k] = ROWS[k].quota;
@@ -130,7 +133,7 @@ impl Quota {
 /// How much is allowed.
 #[derive(Debug, Clone)]
 pub struct Quotas {
-    most: [u64; 18],
+    most: [u64; 19],
 }
 
 impl Default for Quotas {

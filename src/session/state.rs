@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::preferences::Preferences;
+use super::results::Results;
 use super::series::SeriesList;
 use super::undo::recorder::Recorder;
 use crate::lang::ast::Definition;
@@ -25,6 +26,8 @@ pub struct State {
     pub recorders: Vec<Recorder>,
     /// What `sample` collects.
     pub series: SeriesList,
+    /// What `result` said.
+    pub results: Results,
     /// Whether what is stated was there before, in a world that `save` wrote: how it stands now is
     /// then no reason to refuse it.
     pub is_restoring: bool,
@@ -40,6 +43,7 @@ impl State {
             definitions: BTreeMap::new(),
             recorders: Vec::new(),
             series: SeriesList::new(),
+            results: Results::default(),
             is_restoring: false,
         }
     }

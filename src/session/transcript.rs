@@ -128,6 +128,7 @@ pub(super) fn leaves_a_mark(command: &Command) -> bool {
         Command::Drawing(it) => it.leaves_a_mark(),
         Command::Building(it) => it.leaves_a_mark(),
         Command::Changing(it) => it.leaves_a_mark(),
+        Command::Measuring(it) => it.is_edit(),
         Command::Making(_) | Command::Constrain(_) | Command::Running(_) => true,
     }
 }

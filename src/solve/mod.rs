@@ -38,6 +38,6 @@ pub use report::Status;
 pub use report::{Budget, Counters, Report};
 pub use settings::{CogForm, Method, Settings};
 #[doc(hidden)]
-pub use solver::{Solver, Stretch};
+pub use solver::{Along, Solver, Stretch};
 #[doc(hidden)]
 pub use verdict::{Judged, Verdict, least_tolerance, present, verdict};

@@ -21,7 +21,7 @@ pub(super) const FLOOR: f64 = 1e-10;
 const REPETITIONS: u32 = 4;
 
 /// The values of constraints that change in time, in order of constraint.
-type FieldRates = [(ConstraintId, Field, Jet)];
+pub(super) type FieldRates = [(ConstraintId, Field, Jet)];
 
 /// Velocities and accelerations of all points, where the solver has taken in the world.
 ///
@@ -36,14 +36,14 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
     let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
     for k in all {
         if let Some(island) = partition.get_mut(k) {
-            solve(island, &fields, &mut rates);
+            add_rates(island, &fields, &mut rates);
         }
     }
     Ok(rates)
 }
 
 /// Works out the rates of the free points of an island.
-fn solve(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
+pub(super) fn add_rates(island: &mut Island, fields: &FieldRates, rates: &mut Rates) {
     let ids = island.ids.clone();
     let drive = |c: usize, field: Field, value: f64| {
         let first = fields.partition_point(|(other, ..)| *other < ids[c]);

@@ -3,7 +3,8 @@
 use super::batch::{Batch, BatchRecords};
 use super::motion::whole_state;
 use super::{
-    ConstraintId, Edit, Entity, Ghost, Parameter, ParameterId, PointId, PointRecord, Record, World,
+    ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, Parameter, ParameterId, PointId,
+    PointRecord, Record, World,
 };
 use crate::constraint::Constraint;
 
@@ -46,6 +47,7 @@ impl World {
             Edit::Parameter(id, parameter) => {
                 Edit::Parameter(id, self.swap_parameter(id, parameter))
             }
+            Edit::Measure(id, measure) => Edit::Measure(id, self.swap_measure(id, measure)),
             Edit::Clock(clock) => {
                 self.dependencies.note_change();
                 Edit::Clock(Box::new(std::mem::replace(&mut self.clock, *clock)))
@@ -155,12 +157,33 @@ impl World {
         self.parameters.swap(id.idx(), parameter.map(|p| *p)).map(Box::new)
     }
 
+    fn swap_measure(&mut self, id: MeasureId, new: Option<Box<Measure>>) -> Option<Box<Measure>> {
+        let old = self.measures.get(id.idx());
+        let (was, is) = (old.map(|it| &it.formula), new.as_ref().map(|it| &it.formula));
+        self.dependencies.note_measure(id, was, is);
+        self.point_users.note_measure(id, was, is);
+        match (old, &new) {
+            (None, Some(new)) => {
+                self.n_measures += 1;
+                self.index.insert(&new.name, Entity::Measure(id));
+            }
+            (Some(old), None) => {
+                self.n_measures -= 1;
+                self.index.remove(&old.name, Entity::Measure(id));
+            }
+            _ => {}
+        }
+        self.measures.swap(id.idx(), new.map(|it| *it)).map(Box::new)
+    }
+
     /// Empties the world; gives the edits that bring everything back, last first.
     pub fn clear_edits(&self) -> Vec<Edit> {
         let mut edits: Vec<Edit> = Vec::new();
         edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
         edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
         edits.extend(self.turn_counts().map(|(t, _)| Edit::TurnCount(Box::new((t, None)))));
+        // They are used by parameters, and use all there is.
+        edits.extend(self.measures().map(|(id, _)| Edit::Measure(id, None)));
         edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
         let mut parameters: Vec<_> =
             self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();

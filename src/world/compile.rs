@@ -69,7 +69,7 @@ impl World {
         if !self.dependencies.has_measures() {
             return;
         }
-        let users = self.point_users.of(point, &self.constraints, &self.parameters);
+        let users = self.point_users.of(point, &self.constraints, &self.parameters, &self.measures);
         let (_, constraints) = self.affected(users);
         let measured = |constraint: &Constraint| Field::ALL.map(|field| constraint.measures(field));
         for id in constraints {
@@ -176,7 +176,7 @@ impl<'a> Compiler<'a> {
                     Mention::Member(id, Member::Radius) => {
                         open.extend(self.world.radius_driver(id).cloned());
                     }
-                    Mention::Member(id, Member::Value) => open.push(self.world.measure(id)),
+                    Mention::Member(id, Member::Value) => open.push(self.world.measured_by(id)),
                     _ => {}
                 }
                 if let Mention::Parameter(id) = mention
@@ -314,8 +314,8 @@ impl<'a> Compiler<'a> {
                 Place::Number(self.push(Operation::NearestTurn(place.number(), before)))
             }
             Node::Member(id, Member::Radius) => self.radius(*id),
-            Node::Member(id, Member::Value) => self.compile(&self.world.measure(*id)),
-            Node::Member(..) | Node::Time => {
+            Node::Member(id, Member::Value) => self.compile(&self.world.measured_by(*id)),
+            Node::Member(..) | Node::Statistic(..) | Node::Time => {
                 unreachable!("what does not measure the pose is an input")
             }
         }

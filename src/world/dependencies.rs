@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{ConstraintId, Depends, Formula, Mention, ParameterId, Record, User};
+use super::{ConstraintId, Depends, Formula, MeasureId, Mention, ParameterId, Record, User};
 use crate::constraint::{Carried, ConstraintKind as _};
 use crate::diag::Diagnostic;
 
@@ -15,6 +15,8 @@ pub(super) struct Dependencies {
     users: BTreeSet<(ParameterId, User)>,
     /// By constraint, what mentions a member of it.
     member_users: BTreeSet<(ConstraintId, User)>,
+    /// By measure, what mentions it.
+    measure_users: BTreeSet<(MeasureId, User)>,
     /// Live parameters, each after those it mentions.
     order: Vec<ParameterId>,
     /// Why live parameters have no value now.
@@ -157,6 +159,11 @@ impl Dependencies {
         self.member_users.range((id, User::FIRST)..=(id, User::LAST)).map(|(_, user)| *user)
     }
 
+    /// Who mentions a measure, in order.
+    pub fn measure_users(&self, id: MeasureId) -> impl Iterator<Item = User> {
+        self.measure_users.range((id, User::FIRST)..=(id, User::LAST)).map(|(_, user)| *user)
+    }
+
     /// The constraints of which something mentions a member, each once, in order.
     pub fn with_member_users(&self) -> BTreeSet<ConstraintId> {
         self.member_users.iter().map(|(id, _)| *id).collect()
@@ -220,10 +227,23 @@ impl Dependencies {
         self.is_stale |= self.has_members();
     }
 
+    /// A measure was made, begun anew or deleted.
+    pub fn note_measure(&mut self, id: MeasureId, old: Option<&Formula>, new: Option<&Formula>) {
+        if let Some(formula) = old {
+            self.unlink(formula, User::Measure(id));
+        }
+        if let Some(formula) = new {
+            self.link(formula, User::Measure(id));
+        }
+        // What its values were is another number now.
+        self.is_stale = true;
+    }
+
     fn link(&mut self, formula: &Formula, user: User) {
         formula.mentions(&mut |mention| match mention {
             Mention::Parameter(used) => drop(self.users.insert((used, user))),
             Mention::Member(used, _) => drop(self.member_users.insert((used, user))),
+            Mention::Measure(used) => drop(self.measure_users.insert((used, user))),
             Mention::Point(_) => {}
         });
     }
@@ -233,6 +253,7 @@ impl Dependencies {
         formula.mentions(&mut |mention| match mention {
             Mention::Parameter(used) => drop(self.users.remove(&(used, user))),
             Mention::Member(used, _) => drop(self.member_users.remove(&(used, user))),
+            Mention::Measure(used) => drop(self.measure_users.remove(&(used, user))),
             Mention::Point(_) => {}
         });
     }

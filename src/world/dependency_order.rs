@@ -121,8 +121,8 @@ impl World {
                     Some(formula) => open.push(formula.clone()),
                     None => follows |= self.radius_depends(id).on_points,
                 },
-                Mention::Member(id, Member::Value) => open.push(self.measure(id)),
-                Mention::Parameter(_) | Mention::Member(..) => {}
+                Mention::Member(id, Member::Value) => open.push(self.measured_by(id)),
+                Mention::Parameter(_) | Mention::Member(..) | Mention::Measure(_) => {}
             });
         }
         follows
@@ -148,9 +148,9 @@ impl World {
                     depends = depends.or(self.radius_depends(id));
                 }
                 Mention::Member(id, Member::Value) => {
-                    depends = depends.or(self.depends(&self.measure(id)));
+                    depends = depends.or(self.depends(&self.measured_by(id)));
                 }
-                Mention::Member(..) | Mention::Point(_) => {}
+                Mention::Member(..) | Mention::Point(_) | Mention::Measure(_) => {}
             });
         }
         depends
@@ -169,7 +169,7 @@ impl World {
                     Mention::Member(used, Member::Radius | Member::Value) => {
                         Entity::Constraint(used)
                     }
-                    Mention::Member(..) | Mention::Point(_) => return,
+                    Mention::Member(..) | Mention::Point(_) | Mention::Measure(_) => return,
                 };
                 reached.entry(used).or_insert_with(|| {
                     pending.push(used);
@@ -189,8 +189,8 @@ impl World {
                 Entity::Constraint(id) if self.curve(id).is_some() => {
                     self.radius_driver(id).cloned()
                 }
-                Entity::Constraint(id) => Some(self.measure(id)),
-                Entity::Point(_) => None,
+                Entity::Constraint(id) => Some(self.measured_by(id)),
+                Entity::Point(_) | Entity::Measure(_) => None,
             };
             if let Some(formula) = formula {
                 look(&formula, used, &mut pending);

@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::environments::Here;
 use super::evaluate::given;
 use super::{
-    ConstraintId, Environment, Formula, Mention, ParameterId, PointId, Turning, Value, World,
+    ConstraintId, Environment, Formula, MeasureId, Mention, ParameterId, PointId, Turning, Value,
+    World,
 };
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real, Vec2};
-use crate::diag::Diagnostic;
-use crate::terms::Member;
+use crate::diag::{Diagnostic, Span};
+use crate::terms::{Member, Statistic};
 
 /// A parameter, and what follows it.
 #[derive(Debug, Clone)]
@@ -43,7 +44,7 @@ impl World {
                     follows |= match mention {
                         Mention::Parameter(id) => all.contains(&id),
                         Mention::Member(id, _) => constraints.binary_search(&id).is_ok(),
-                        Mention::Point(_) => false,
+                        Mention::Point(_) | Mention::Measure(_) => false,
                     };
                 });
                 if follows {
@@ -110,7 +111,7 @@ impl Environment<Jet> for WithParameter<'_> {
     fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {
         match member {
             Member::Radius => return self.world.radius(id, self),
-            Member::Value => return Ok(self.world.measure(id).evaluate(self)?.number()),
+            Member::Value => return Ok(self.world.measured_by(id).evaluate(self)?.number()),
             Member::Angle | Member::Residual => {}
         }
         let now = Jet::constant(self.world.member(id, member)?);
@@ -122,6 +123,10 @@ impl Environment<Jet> for WithParameter<'_> {
             }
             _ => Ok(now),
         }
+    }
+
+    fn statistic(&self, id: MeasureId, which: Statistic, span: Span) -> Result<Jet, Diagnostic> {
+        self.world.statistic(id, which, span).map(Jet::constant)
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<Jet>, Vec2<Jet>)> {

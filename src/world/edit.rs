@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::batch::{Batch, BatchRecords};
 use super::{
-    Clock, ConstraintId, Ghost, Motion, Parameter, ParameterId, PointId, PointRecord, Record,
-    Trace, TurnCount, Turning,
+    Clock, ConstraintId, Ghost, Measure, MeasureId, Motion, Parameter, ParameterId, PointId,
+    PointRecord, Record, Trace, TurnCount, Turning,
 };
 use crate::constraint::Point;
 
@@ -31,6 +31,8 @@ pub enum Edit {
     RestoreBatch(Box<BatchRecords>),
     /// Makes a parameter, changes it, or deletes it.
     Parameter(ParameterId, Option<Box<Parameter>>),
+    /// Makes a measure, begins it anew, or deletes it.
+    Measure(MeasureId, Option<Box<Measure>>),
     /// Sets the clock.
     Clock(Box<Clock>),
     /// Puts a trace at a place in the list of traces, or takes it out.
@@ -60,7 +62,8 @@ impl Edit {
             | Self::Switch(..)
             | Self::DeleteBatch(_)
             | Self::RestoreBatch(_)
-            | Self::Parameter(..) => true,
+            | Self::Parameter(..)
+            | Self::Measure(..) => true,
             Self::Move(..)
             | Self::Clock(_)
             | Self::Trace(..)
@@ -82,6 +85,7 @@ impl Edit {
             Self::Constraint(_, Some(record)) => record.n_bytes(),
             Self::RestoreBatch(records) => records.n_bytes(),
             Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),
+            Self::Measure(_, Some(measure)) => measure.n_bytes(),
             Self::Clock(clock) => size_of_val(&**clock),
             Self::Trace(_, Some(trace)) => size_of_val(&**trace) + size_of_val(&*trace.samples),
             Self::Ghost(Some(ghost)) => ghost.n_bytes(),
@@ -97,6 +101,7 @@ impl Edit {
             | Self::Switch(..)
             | Self::DeleteBatch(_)
             | Self::Parameter(_, None)
+            | Self::Measure(_, None)
             | Self::Trace(_, None)
             | Self::Ghost(None)
             | Self::Start(..)

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
+use super::{ConstraintId, Environment, MeasureId, ParameterId, PointId, Turning, Value, World};
 use crate::constraint::{ConstraintKind as _, Field, Jet, Real, Vec2, Vector};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::terms::Member;
+use crate::terms::{Member, Statistic};
 
 /// Velocities and accelerations of all points, by handle.
 #[derive(Debug, Clone, Default)]
@@ -52,6 +52,10 @@ impl Environment<f64> for Here<'_> {
         if let Some(value) = self.values.get(&id) {
             return value.clone();
         }
+        if parameter.depends.on_measures && !parameter.depends.on_rates {
+            // It says what it waits for.
+            return parameter.formula.evaluate(self);
+        }
         Err(self.world.dependencies.failure(id).cloned().unwrap_or_else(|| {
             Diagnostic::error(
                 errors::NOT_A_DRIVER,
@@ -77,6 +81,10 @@ impl Environment<f64> for Here<'_> {
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
         self.world.member(id, member)
+    }
+
+    fn statistic(&self, id: MeasureId, which: Statistic, span: Span) -> Result<f64, Diagnostic> {
+        self.world.statistic(id, which, span)
     }
 
     fn rates(&self, id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
@@ -139,6 +147,10 @@ impl Environment<f64> for Within<'_> {
 
     fn member(&self, id: ConstraintId, member: Member) -> Result<f64, Diagnostic> {
         self.world.member(id, member)
+    }
+
+    fn statistic(&self, id: MeasureId, which: Statistic, span: Span) -> Result<f64, Diagnostic> {
+        self.world.statistic(id, which, span)
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {
@@ -227,7 +239,7 @@ impl Environment<Jet> for Moving<'_> {
     fn member(&self, id: ConstraintId, member: Member) -> Result<Jet, Diagnostic> {
         match member {
             Member::Radius => return self.world.radius(id, self),
-            Member::Value => return Ok(self.world.measure(id).evaluate(self)?.number()),
+            Member::Value => return Ok(self.world.measured_by(id).evaluate(self)?.number()),
             Member::Angle | Member::Residual => {}
         }
         debug_assert_eq!(member, Member::Angle, "the others drive nothing");
@@ -236,6 +248,10 @@ impl Environment<Jet> for Moving<'_> {
             let speed = record.constraint.get(Field::Speed).filter(|_| record.is_on);
             Jet::new(self.world.motor_angle(id), speed.unwrap_or_default(), 0.0)
         }))
+    }
+
+    fn statistic(&self, id: MeasureId, which: Statistic, span: Span) -> Result<Jet, Diagnostic> {
+        self.world.statistic(id, which, span).map(Jet::constant)
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<Jet>, Vec2<Jet>)> {

@@ -53,8 +53,8 @@ impl World {
         }
         self.refresh_parameters();
         let (parameters, constraints) = self.affected(self.dependencies.users(id));
-        if depends.on_constraints && !constraints.is_empty() {
-            return Err(self.follows_from_a_constraint(id));
+        if (depends.on_constraints || depends.on_measures) && !constraints.is_empty() {
+            return Err(self.follows_from_the_motion(id));
         }
         self.evaluate_anew(parameters, constraints, undo)
     }
@@ -107,7 +107,14 @@ impl World {
         depends: Depends,
     ) -> Result<Option<Value>, Diagnostic> {
         let value = || formula.evaluate(&Here::new(self, None));
-        if depends.on_rates { Ok(None) } else { value().map(Some) }
+        if depends.on_rates {
+            Ok(None)
+        } else if depends.on_measures {
+            // What was not measured yet will be.
+            Ok(value().ok())
+        } else {
+            value().map(Some)
+        }
     }
 
     /// Evaluates parameters, each after those it mentions, and then constraints, all of them whether
@@ -141,11 +148,16 @@ impl World {
     }
 
     /// Why a parameter cannot drive a constraint.
-    fn follows_from_a_constraint(&self, id: ParameterId) -> Diagnostic {
+    fn follows_from_the_motion(&self, id: ParameterId) -> Diagnostic {
         let parameter = self.parameter(id).expect("a named parameter lives");
-        let text = format!("`{}` follows from a constraint", parameter.name);
+        let (what, why) = if parameter.depends.on_measures {
+            ("a measure", "what is measured cannot drive a constraint")
+        } else {
+            ("a constraint", "what a constraint comes to cannot drive one")
+        };
+        let text = format!("`{}` follows from {what}", parameter.name);
         Diagnostic::error(errors::NOT_A_DRIVER, text)
-            .at(parameter.formula.span(), "what a constraint comes to cannot drive one")
+            .at(parameter.formula.span(), why)
             .help("use it in `print`, `assert`, or a parameter that these use")
     }
 
@@ -173,6 +185,8 @@ impl World {
                         users.extend(further);
                     }
                 }
+                // They are looked at frame by frame.
+                Some(User::Measure(_)) => {}
                 Some(User::Parameter(p)) => {
                     if !std::mem::replace(&mut is_seen[p.idx()], true) {
                         stack.push((Some(p), self.dependencies.users(p).collect()));
@@ -233,7 +247,10 @@ impl World {
             let value = parameter.formula.evaluate(&Here::new(self, None));
             let parameter = self.parameters.get_mut(id.idx()).expect("a listed parameter lives");
             parameter.value = value.as_ref().ok().copied();
-            if let Err(why) = value {
+            let waits = parameter.depends.on_measures;
+            if let Err(why) = value
+                && !waits
+            {
                 self.dependencies.fail(id, why);
             }
         }

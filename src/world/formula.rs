@@ -6,11 +6,11 @@ use std::sync::Arc;
 use super::arithmetic::{call, finite, operate};
 use super::rate_function::{MovingPoint, rate};
 use super::turning::whole_turns;
-use super::{ConstraintId, ParameterId, PointId, Turning, Value};
+use super::{ConstraintId, MeasureId, ParameterId, PointId, Turning, Value};
 use crate::constraint::{Real, Vec2};
 use crate::diag::{Diagnostic, SourceId, Span};
 use crate::errors;
-use crate::terms::{Function, Member, Operator, Shape, Unit};
+use crate::terms::{Function, Member, Operator, Shape, Statistic, Unit};
 
 /// The place of what no text says.
 const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -62,6 +62,8 @@ pub enum Node {
     Point(PointId),
     /// A member of a constraint.
     Member(ConstraintId, Member),
+    /// What a measure has kept of its values.
+    Statistic(MeasureId, Statistic),
     /// The time of the clock.
     Time,
     /// The negative.
@@ -90,6 +92,8 @@ pub struct Depends {
     pub on_angles: bool,
     /// It mentions what a constraint measures, or by how much it is missed.
     pub on_constraints: bool,
+    /// It mentions what a measure has kept.
+    pub on_measures: bool,
     /// It mentions a parameter.
     pub on_parameters: bool,
 }
@@ -97,7 +101,12 @@ pub struct Depends {
 impl Depends {
     /// Whether anything but the user's own edit of a parameter can change it.
     pub const fn is_live(self) -> bool {
-        self.on_time || self.on_points || self.on_rates || self.on_angles || self.on_constraints
+        self.on_time
+            || self.on_points
+            || self.on_rates
+            || self.on_angles
+            || self.on_constraints
+            || self.on_measures
     }
 
     /// Whether nothing can change it.
@@ -114,6 +123,7 @@ impl Depends {
             on_rates: self.on_rates || o.on_rates,
             on_angles: self.on_angles || o.on_angles,
             on_constraints: self.on_constraints || o.on_constraints,
+            on_measures: self.on_measures || o.on_measures,
             on_parameters: self.on_parameters || o.on_parameters,
         }
     }
@@ -137,6 +147,11 @@ pub trait Environment<T: Real> {
     /// # Errors
     /// Where a live value of the constraint has none.
     fn member(&self, id: ConstraintId, member: Member) -> Result<T, Diagnostic>;
+    /// What a measure has kept of its values.
+    ///
+    /// # Errors
+    /// Where it has none yet.
+    fn statistic(&self, id: MeasureId, which: Statistic, span: Span) -> Result<T, Diagnostic>;
     /// Velocity and acceleration of a point; none where they cannot be had.
     fn rates(&self, id: PointId) -> Option<(Vec2<T>, Vec2<T>)>;
 }
@@ -164,6 +179,7 @@ impl Formula {
             | Node::Parameter(_)
             | Node::Point(_)
             | Node::Member(..)
+            | Node::Statistic(..)
             | Node::Time => Extent::around([]),
             Node::Negate(a) | Node::X(a) | Node::Y(a) => Extent::around([a.extent()]),
             Node::Vector(a, b) | Node::Binary(_, a, b) => Extent::around([a.extent(), b.extent()]),
@@ -218,6 +234,7 @@ impl Formula {
             Node::Parameter(id) => visit(Mention::Parameter(*id)),
             Node::Point(id) => visit(Mention::Point(*id)),
             Node::Member(id, member) => visit(Mention::Member(*id, *member)),
+            Node::Statistic(id, _) => visit(Mention::Measure(*id)),
             Node::Negate(a) | Node::X(a) | Node::Y(a) => a.mentions(visit),
             Node::Vector(a, b) | Node::Binary(_, a, b) => {
                 a.mentions(visit);
@@ -235,7 +252,8 @@ impl Formula {
             | Node::Time
             | Node::Parameter(_)
             | Node::Point(_)
-            | Node::Member(..) => {}
+            | Node::Member(..)
+            | Node::Statistic(..) => {}
             Node::Negate(a) | Node::X(a) | Node::Y(a) => a.segments(visit),
             Node::Vector(a, b) | Node::Binary(_, a, b) => {
                 let ends = a.as_point().zip(b.as_point());
@@ -271,6 +289,7 @@ impl Formula {
             Node::Point(id) => return Ok(Vector(env.position(*id))),
             Node::Parameter(id) => return env.parameter(*id),
             Node::Member(id, member) => Number(env.member(*id, *member)?),
+            Node::Statistic(id, which) => Number(env.statistic(*id, *which, self.span())?),
             Node::Vector(x, y) => {
                 Vector(Vec2 { x: x.evaluate(env)?.number(), y: y.evaluate(env)?.number() })
             }
@@ -372,4 +391,6 @@ pub enum Mention {
     Parameter(ParameterId),
     /// A member of a constraint.
     Member(ConstraintId, Member),
+    /// A measure.
+    Measure(MeasureId),
 }

@@ -33,6 +33,11 @@ id!(
     ParameterId
 );
 
+id!(
+    /// A measure.
+    MeasureId
+);
+
 /// Anything that has a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entity {
@@ -42,6 +47,8 @@ pub enum Entity {
     Constraint(ConstraintId),
     /// A parameter.
     Parameter(ParameterId),
+    /// A measure.
+    Measure(MeasureId),
 }
 
 impl Entity {
@@ -51,6 +58,7 @@ impl Entity {
             Self::Point(_) => "point",
             Self::Constraint(_) => "constraint",
             Self::Parameter(_) => "parameter",
+            Self::Measure(_) => "measure",
         }
     }
 }

@@ -3,9 +3,10 @@
 
 use super::marks::Marks;
 use super::same::States;
+use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::TurnCounts;
-use super::{Clock, ConstraintId, Ghost, PointId, Sample};
+use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, Sample};
 use crate::constraint::{Constraint, Heading, Point};
 
 /// What takes back all that running changed since a moment, and does it again: of points, motors
@@ -25,6 +26,7 @@ pub struct Motion {
     /// None if nothing was counted.
     pub(super) turn_counts: Option<TurnCounts>,
     pub(super) traces: Vec<Tail<Sample>>,
+    pub(super) tallies: Vec<(MeasureId, TallyMark)>,
     pub(super) ghosts: Tail<Ghost>,
 }
 
@@ -40,6 +42,7 @@ impl Motion {
     pub fn n_bytes(&self) -> usize {
         let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
         let traces: usize = self.traces.iter().map(Tail::n_bytes).sum();
+        let measured = self.tallies.iter().map(|(_, mark)| mark.n_bytes()).sum::<usize>();
         let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
         size_of::<Self>()
             + size_of_val(&**points)
@@ -51,13 +54,17 @@ impl Motion {
             + turn_counts.as_ref().map_or(0, |counts| 80 * counts.len())
             + size_of_val(&*self.traces)
             + traces
+            + size_of_val(&*self.tallies)
+            + measured
             + exposed
     }
 
-    /// Whether paths or ghosts come back with it.
+    /// Whether paths, ghosts or values of measures come back with it.
     pub fn has_paths(&self) -> bool {
         let mut traces = self.traces.iter();
-        traces.any(|tail| !tail.then().is_empty()) || !self.ghosts.then().is_empty()
+        traces.any(|tail| !tail.then().is_empty())
+            || !self.ghosts.then().is_empty()
+            || self.tallies.iter().any(|(_, mark)| mark.has_readings())
     }
 
     /// Gives up room that is not needed.

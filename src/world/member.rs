@@ -39,7 +39,7 @@ impl World {
         Ok(match member {
             Member::Angle => self.motor_angle(id),
             Member::Radius => self.radius(id, &Here::new(self, None))?,
-            Member::Value => self.measure(id).evaluate(&Here::new(self, None))?.number(),
+            Member::Value => self.measured_by(id).evaluate(&Here::new(self, None))?.number(),
             Member::Residual if record.live().is_empty() => record.constraint.residual(x),
             Member::Residual => {
                 let mut now = record.clone();
@@ -55,7 +55,7 @@ impl World {
     }
 
     /// What a constraint measures, as a formula.
-    pub(super) fn measure(&self, id: ConstraintId) -> Formula {
+    pub(super) fn measured_by(&self, id: ConstraintId) -> Formula {
         let record = self.constraint(id).expect("a mentioned constraint lives");
         let depends = Depends { on_points: true, ..Depends::default() };
         let new = |node, shape| Formula::without_place(node, shape, depends);
@@ -105,7 +105,10 @@ impl World {
                 Mention::Parameter(id) if seen.insert(id) => {
                     open.extend(self.parameter(id).map(|parameter| parameter.formula.clone()));
                 }
-                Mention::Member(..) | Mention::Parameter(_) | Mention::Point(_) => {}
+                Mention::Member(..)
+                | Mention::Parameter(_)
+                | Mention::Point(_)
+                | Mention::Measure(_) => {}
             });
         }
         found
@@ -130,7 +133,7 @@ impl World {
             let (id, member) = mentions[0];
             let behind = match member {
                 Member::Radius => self.radius_driver(id).cloned(),
-                Member::Value => Some(self.measure(id)),
+                Member::Value => Some(self.measured_by(id)),
                 Member::Angle | Member::Residual => None,
             };
             let Some(behind) = behind else { continue };

@@ -6,10 +6,13 @@
 // What there is.
 mod clock;
 mod id;
+mod measure;
 mod name;
 mod points;
 mod records;
+mod smooth;
 mod state;
+mod tally;
 mod touched;
 mod trace;
 
@@ -58,9 +61,11 @@ pub use edit::Edit;
 #[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
-pub use id::{ConstraintId, Entity, ParameterId, PointId};
+pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 #[doc(hidden)]
 pub use log::Motion;
+pub use measure::Measure;
+pub(crate) use measure::Measuring;
 #[doc(hidden)]
 pub use moment::Moment;
 pub use name::NameText;
@@ -68,6 +73,7 @@ pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Parameter, Record};
 pub use state::World;
+pub use tally::{Extremes, Reading, Tally};
 #[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};

@@ -4,9 +4,10 @@
 use super::log::Motion;
 use super::motion::{restore_whole, whole_state};
 use super::same::{States, bits, is_same_constraint, same_place};
+use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead};
-use super::{Clock, ConstraintId, Ghost, PointId, Sample, World};
+use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, Sample, World};
 use crate::constraint::{Constraint, Field, Point};
 
 /// All that running changes: positions, clock, motors and wheels, traces, ghosts.
@@ -22,6 +23,7 @@ pub struct Moment {
     /// States that these are to have instead.
     states: States,
     traces: Vec<Tail<Sample>>,
+    tallies: Vec<(MeasureId, TallyMark)>,
     ghosts: Tail<Ghost>,
 }
 
@@ -41,12 +43,13 @@ impl World {
             constraints: changing.map(|(id, record)| (id, record.constraint.clone())).collect(),
             states: States::new(),
             traces,
+            tallies: self.tally_marks(),
             ghosts,
         }
     }
 
     /// The moment at the start: time 0, every point where it stood when the clock left 0, empty
-    /// traces and no ghosts. Live values are those of now: call [`World::refresh`] after.
+    /// traces and measures and no ghosts. Live values are those of now: call [`World::refresh`] after.
     pub fn start(&self) -> Moment {
         let mut moment = self.moment();
         if self.clock.frame > 0 {
@@ -56,6 +59,7 @@ impl World {
         }
         moment.clock = self.clock.at_start();
         moment.traces.iter_mut().for_each(|tail| *tail = Tail::cleared());
+        moment.tallies.iter_mut().for_each(|(_, mark)| *mark = TallyMark::empty());
         moment.ghosts = Tail::cleared();
         moment
     }
@@ -88,6 +92,7 @@ impl World {
         self.turn_counts = moment.turn_counts;
         let lists = self.traces.iter_mut().zip(moment.traces);
         before.traces = lists.map(|(trace, tail)| tail.swap(&mut trace.samples)).collect();
+        before.tallies = self.swap_tallies(moment.tallies);
         before.ghosts = moment.ghosts.swap(&mut self.ghosts);
         self.turns_ahead = TurnsAhead::default();
         self.touched.all = true;

@@ -7,9 +7,10 @@ use super::environments::Within;
 use super::log::Motion;
 use super::quadrature::mean;
 use super::same::{are_same_places, are_same_states, is_same_constraint, same_place};
+use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
-use super::{Clock, ConstraintId, Ghost, Sample, World};
+use super::{Clock, ConstraintId, Ghost, MeasureId, Sample, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Heading, Point};
 use crate::diag::Diagnostic;
 
@@ -17,6 +18,23 @@ impl World {
     /// The traces and ghosts as they are, to go back to.
     pub(super) fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
         (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
+    }
+
+    /// The values of measures as they are, to go back to.
+    pub(super) fn tally_marks(&self) -> Vec<(MeasureId, TallyMark)> {
+        self.measures().map(|(id, measure)| (id, measure.tally.mark())).collect()
+    }
+
+    /// Puts the values of measures back as they were; gives what takes that back.
+    pub(super) fn swap_tallies(
+        &mut self,
+        marks: Vec<(MeasureId, TallyMark)>,
+    ) -> Vec<(MeasureId, TallyMark)> {
+        let swap = |(id, mark): (MeasureId, TallyMark)| {
+            let measure = self.measures.get_mut(id.idx())?;
+            Some((id, measure.tally.swap(mark)))
+        };
+        marks.into_iter().filter_map(swap).collect()
     }
 
     /// What brings the present back while nothing has changed.
@@ -32,6 +50,7 @@ impl World {
             clock: self.clock,
             turn_counts: (!self.turn_counts.is_empty()).then(|| self.turn_counts.clone()),
             traces,
+            tallies: self.tally_marks(),
             ghosts,
         }
     }
@@ -62,6 +81,9 @@ impl World {
             )
             && self.traces.len() == motion.traces.len()
             && traces.all(|(trace, tail)| tail.is_all_of(&trace.samples))
+            && motion.tallies.iter().all(|(id, mark)| {
+                self.measure(*id).is_some_and(|measure| measure.tally.is_at(mark))
+            })
             && motion.ghosts.is_all_of(&self.ghosts)
     }
 
@@ -102,6 +124,7 @@ impl World {
             let wanted = std::mem::replace(tail, Tail::cleared());
             *tail = wanted.swap(&mut trace.samples);
         }
+        motion.tallies = self.swap_tallies(motion.tallies);
         motion.ghosts = motion.ghosts.swap(&mut self.ghosts);
         motion.shrink();
         self.turns_ahead = TurnsAhead::default();

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher, Hasher};
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::{ConstraintId, Entity, ParameterId, PointId};
+use super::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 
 /// Finds what has a name by the hash of the name: a table of slots, looked through from the
 /// one that the hash says up to the first empty one.
@@ -35,18 +35,23 @@ impl Slot {
             Entity::Point(id) => (0, id.0),
             Entity::Constraint(id) => (1, id.0),
             Entity::Parameter(id) => (2, id.0),
+            Entity::Measure(id) => (3, id.0),
         };
-        assert!(id < 1 << 30, "a world holds fewer than 2^30 of a kind");
+        // The last of the last sort is the code of an empty slot.
+        assert!(id < (1 << 30) - 1, "a world holds fewer than 2^30 of a kind");
         Self { hash, code: sort << 30 | id }
     }
 
     fn entity(self) -> Option<Entity> {
+        if self == Self::EMPTY {
+            return None;
+        }
         let id = self.code & ((1 << 30) - 1);
         match self.code >> 30 {
             0 => Some(Entity::Point(PointId(id))),
             1 => Some(Entity::Constraint(ConstraintId(id))),
             2 => Some(Entity::Parameter(ParameterId(id))),
-            _ => None,
+            _ => Some(Entity::Measure(MeasureId(id))),
         }
     }
 }

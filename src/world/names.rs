@@ -1,4 +1,4 @@
-//! The one namespace of points, constraints and parameters.
+//! The one namespace of points, constraints, parameters and measures.
 
 use super::{Entity, World};
 use crate::diag::push_integer;
@@ -23,13 +23,14 @@ impl<'a> Namespace<'a> {
         self.get(name).is_none() && !self.is_instance(name)
     }
 
-    /// All names: of points, of constraints, of parameters, each in order of creation.
+    /// All names: of points, of constraints, of parameters, of measures, each in order of creation.
     pub fn iter(self) -> impl Iterator<Item = (&'a str, Entity)> {
         let world = self.0;
         let points = world.points().ids().map(Entity::Point);
         let constraints = world.constraints().map(|(id, _)| Entity::Constraint(id));
         let parameters = world.parameters().map(|(id, _)| Entity::Parameter(id));
-        let all = points.chain(constraints).chain(parameters);
+        let measures = world.measures().map(|(id, _)| Entity::Measure(id));
+        let all = points.chain(constraints).chain(parameters).chain(measures);
         all.map(|entity| (world.name_of(entity), entity))
     }
 

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use super::records::Table;
-use super::{ConstraintId, Formula, Mention, Parameter, ParameterId, PointId, Record, User};
+use super::{
+    ConstraintId, Formula, Measure, MeasureId, Mention, Parameter, ParameterId, PointId, Record,
+    User,
+};
 use crate::constraint::ConstraintKind;
 
 /// By point, what holds or mentions it. Made when it is first asked for, since only `delete` asks,
@@ -20,6 +23,7 @@ impl PointUsers {
         id: PointId,
         constraints: &Table<Record>,
         parameters: &Table<Parameter>,
+        measures: &Table<Measure>,
     ) -> impl Iterator<Item = User> {
         let all = self.0.get_or_init(|| {
             let mut all: Vec<(PointId, User)> = Vec::new();
@@ -30,6 +34,10 @@ impl PointUsers {
             for (k, parameter) in parameters.iter() {
                 let user = User::Parameter(ParameterId::new(k));
                 points_of_formula(&parameter.formula, &mut |point| all.push((point, user)));
+            }
+            for (k, measure) in measures.iter() {
+                let user = User::Measure(MeasureId::new(k));
+                points_of_formula(&measure.formula, &mut |point| all.push((point, user)));
             }
             all.into_iter().collect()
         });
@@ -64,8 +72,16 @@ impl PointUsers {
         old: Option<&Formula>,
         new: Option<&Formula>,
     ) {
+        self.note_formula(User::Parameter(id), old, new);
+    }
+
+    /// A measure was made, begun anew or deleted.
+    pub fn note_measure(&mut self, id: MeasureId, old: Option<&Formula>, new: Option<&Formula>) {
+        self.note_formula(User::Measure(id), old, new);
+    }
+
+    fn note_formula(&mut self, user: User, old: Option<&Formula>, new: Option<&Formula>) {
         let Some(all) = self.0.get_mut() else { return };
-        let user = User::Parameter(id);
         if let Some(formula) = old {
             points_of_formula(formula, &mut |point| {
                 all.remove(&(point, user));

@@ -9,8 +9,8 @@ use super::point_users::PointUsers;
 use super::records::Table;
 use super::turning::{TurnCounts, TurnsAhead};
 use super::{
-    Clock, ConstraintId, Entity, Ghost, NameText, Parameter, ParameterId, PointId, Points, Record,
-    Touched, Trace,
+    Clock, ConstraintId, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
+    PointId, Points, Record, Touched, Trace,
 };
 use crate::constraint::{Constraint, Point};
 
@@ -21,6 +21,9 @@ pub struct World {
     pub(super) constraints: Table<Record>,
     pub(super) n_constraints: usize,
     pub(super) parameters: Table<Parameter>,
+    pub(super) measures: Table<Measure>,
+    /// How many of them there are.
+    pub(super) n_measures: usize,
     pub(super) index: NameIndex,
     pub(super) clock: Clock,
     /// The state of motors and wheels when the clock left 0, or at birth if made later.
@@ -73,6 +76,16 @@ impl World {
         self.parameters.get(id.idx())
     }
 
+    /// The measures, in order of creation.
+    pub fn measures(&self) -> impl Iterator<Item = (MeasureId, &Measure)> {
+        self.measures.iter().map(|(k, measure)| (MeasureId::new(k), measure))
+    }
+
+    /// One measure, if it exists.
+    pub fn measure(&self, id: MeasureId) -> Option<&Measure> {
+        self.measures.get(id.idx())
+    }
+
     /// The name of an entity.
     pub fn name_of(&self, entity: Entity) -> &str {
         self.name_text_of(entity)
@@ -87,6 +100,7 @@ impl World {
             Entity::Parameter(id) => {
                 &self.parameter(id).expect("a handle of a living parameter").name
             }
+            Entity::Measure(id) => &self.measure(id).expect("a handle of a living measure").name,
         }
     }
 
@@ -124,6 +138,11 @@ impl World {
     /// A handle for a parameter to be made.
     pub fn next_parameter(&self) -> ParameterId {
         ParameterId::new(self.parameters.n_handles())
+    }
+
+    /// A handle for a measure to be made.
+    pub fn next_measure(&self) -> MeasureId {
+        MeasureId::new(self.measures.n_handles())
     }
 
     /// Whether nothing changed since it was last asked what did.

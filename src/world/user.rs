@@ -1,6 +1,6 @@
 //! What uses an entity.
 
-use super::{ConstraintId, Entity, ParameterId};
+use super::{ConstraintId, Entity, MeasureId, ParameterId};
 
 /// Something that uses an entity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -9,19 +9,22 @@ pub enum User {
     Constraint(ConstraintId),
     /// A parameter whose expression mentions it.
     Parameter(ParameterId),
+    /// A measure whose expression mentions it.
+    Measure(MeasureId),
 }
 
 impl User {
     /// The first of all in order.
     pub(super) const FIRST: Self = Self::Constraint(ConstraintId(0));
     /// The last of all in order.
-    pub(super) const LAST: Self = Self::Parameter(ParameterId(u32::MAX));
+    pub(super) const LAST: Self = Self::Measure(MeasureId(u32::MAX));
 
     /// The user as an entity.
     pub const fn entity(self) -> Entity {
         match self {
             Self::Constraint(id) => Entity::Constraint(id),
             Self::Parameter(id) => Entity::Parameter(id),
+            Self::Measure(id) => Entity::Measure(id),
         }
     }
 }

@@ -8,10 +8,12 @@ impl World {
     fn users_of(&self, entity: Entity) -> Vec<User> {
         match entity {
             Entity::Point(id) => {
-                self.point_users.of(id, &self.constraints, &self.parameters).collect()
+                let Self { constraints, parameters, measures, .. } = self;
+                self.point_users.of(id, constraints, parameters, measures).collect()
             }
             Entity::Parameter(id) => self.dependencies.users(id).collect(),
             Entity::Constraint(id) => self.dependencies.member_users(id).collect(),
+            Entity::Measure(id) => self.dependencies.measure_users(id).collect(),
         }
     }
 

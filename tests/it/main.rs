@@ -22,6 +22,7 @@ mod interrupts;
 mod language_server;
 mod laws;
 mod long_texts;
+mod measures;
 mod mobility;
 mod motors;
 mod pictures;

@@ -6,7 +6,7 @@ use crate::support::program::{folder, run, text};
 use crate::support::talk::Talking;
 
 /// A script that goes on for as long as it may, and the limit that ends it.
-const ENDLESS: [(&str, &str); 16] = [
+const ENDLESS: [(&str, &str); 17] = [
     ("source-bytes=1000", "include \"long.link\""),
     ("nesting=3", "define d(x) { use d(x) }\nuse d(1)"),
     ("seconds=0", "print 1"),
@@ -15,6 +15,7 @@ const ENDLESS: [(&str, &str); 16] = [
     ("points=1000", "for i in 1..100000 { point p[i] = (i, 0) }"),
     ("constraints=1000", "point A = (0, 0), B = (1, 0)\nfor i in 1..100000 { length A B <= 2 }"),
     ("trace-samples=1000", "point A = (0, 0) frozen\ntrace A\nstep 100000"),
+    ("measure-samples=1000", "point A = (0, 0) frozen\nmeasure x = A.x\nstep 100000"),
     ("ghost-points=1000", "point A = (0, 0) frozen, B = (1, 0)\nexpose every 1\nstep 100000"),
     ("plot-samples=1000", "for i in 1..100000 { sample \"a\" = i }"),
     ("recorded-frames=1000", "point A = (0, 0)\nrecord \"t.csv\"\nstep 100000"),

@@ -175,6 +175,7 @@ fn a_command_touches_four_files() {
             Section::Changing => "changing",
             Section::Running => "running",
             Section::Looking => "looking",
+            Section::Measuring => "measuring",
             Section::Pictures => "drawing",
             Section::Building => "building",
             Section::Constraints | Section::Topics => unreachable!("it is a command"),

@@ -39,6 +39,8 @@ pub enum Section {
     Running,
     /// Asking questions.
     Looking,
+    /// Measuring.
+    Measuring,
     /// Pictures and data.
     Pictures,
     /// Building big things from small ones.
@@ -49,12 +51,13 @@ pub enum Section {
 
 impl Section {
     /// Every heading, in order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Points,
         Self::Constraints,
         Self::Changing,
         Self::Running,
         Self::Looking,
+        Self::Measuring,
         Self::Pictures,
         Self::Building,
         Self::Topics,
@@ -68,6 +71,7 @@ impl Section {
             Self::Changing => "changing a live mechanism",
             Self::Running => "running",
             Self::Looking => "looking",
+            Self::Measuring => "measuring",
             Self::Pictures => "pictures and data",
             Self::Building => "building big things",
             Self::Topics => "subjects",

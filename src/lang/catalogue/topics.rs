@@ -46,12 +46,14 @@ pub(super) const TOPICS: &[Entry] = &[
     Entry {
         keyword: "members",
         section: Section::Topics,
-        usage: "crank.angle, coupler.value, coupler.residual, c.radius",
+        usage: "crank.angle, coupler.value, coupler.residual, c.radius, d.max",
         summary: "what a thing says of itself",
         help: "`.angle` is that of a motor with its phase; it goes on past half a turn. `.value` is what a\n\
              constraint measures now, whatever is asked of it; `.residual` is by how much it is missed,\n\
-             with its sign. What is declared under such a name comes first.\n\
-             A constraint may follow an angle, a value, or the `.radius` of a circle; a residual drives none.",
+             with its sign. A measure has `.min .max .span .mean .first .last .at_min .at_max .count`. What is\n\
+             declared under such a name comes first.\n\
+             A constraint may follow an angle, a value, or the `.radius` of a circle; a residual and a\n\
+             measure drive none.",
         example: "length A B = 3 + sin(2 * crank.angle)\n\
              print coupler.value, coupler.residual",
     },
@@ -85,7 +87,8 @@ pub(super) const TOPICS: &[Entry] = &[
              dead-points where a motor cannot go on: hold, stop or reverse\n\
              live        on: each edit is followed by a solution; off\n\
              cog         wheels that are made from here on: holonomic, or the paper's velocity form\n\
-             receipt     what is said after a run: short, or long",
+             receipt     what is said after a run: short, or long\n\
+             measures    extremes between frames: refined, or those of the frames: sampled",
         example: "set tolerance 1e-9",
     },
     Entry {

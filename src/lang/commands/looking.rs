@@ -63,14 +63,22 @@ pub enum ListWhat {
     Traces,
     /// `list parameters`
     Parameters,
+    /// `list measures`
+    Measures,
     /// `list definitions`
     Definitions,
 }
 
 impl ListWhat {
     /// Every list, in the order of the reference.
-    pub const ALL: [Self; 5] =
-        [Self::Points, Self::Constraints, Self::Traces, Self::Parameters, Self::Definitions];
+    pub const ALL: [Self; 6] = [
+        Self::Points,
+        Self::Constraints,
+        Self::Traces,
+        Self::Parameters,
+        Self::Measures,
+        Self::Definitions,
+    ];
 
     /// How it is asked for.
     pub const fn word(self) -> &'static str {
@@ -79,6 +87,7 @@ impl ListWhat {
             Self::Constraints => "constraints",
             Self::Traces => "traces",
             Self::Parameters => "parameters",
+            Self::Measures => "measures",
             Self::Definitions => "definitions",
         }
     }
@@ -102,7 +111,7 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "list",
             section: Section::Looking,
-            usage: "list [points | constraints | traces | parameters | definitions]",
+            usage: "list [points | constraints | traces | parameters | measures | definitions]",
             summary: "say what there is",
             help: "",
             example: "list\n\
@@ -336,18 +345,13 @@ fn print_items(c: &mut Cursor) -> Result<Vec<PrintItem>, Diagnostic> {
             PrintItem::Text(c.text()?)
         } else {
             let value = c.expr()?;
-            match c.unit_if_any() {
+            match c.unit_if_any()? {
                 None => PrintItem::Value(value),
-                Some(unit) => PrintItem::InUnit(value, named_unit(&unit)?),
+                Some(unit) => PrintItem::InUnit(value, unit),
             }
         });
     }
     Ok(items)
-}
-
-fn named_unit(word: &Ident) -> Result<Unit, Diagnostic> {
-    let unit = Unit::ALL.into_iter().find(|unit| unit.suffix() == &*word.text);
-    unit.ok_or_else(|| refusal::unknown_unit(word))
 }
 
 fn list_what(c: &mut Cursor) -> Result<Option<ListWhat>, Diagnostic> {

@@ -5,6 +5,7 @@ mod changing;
 mod drawing;
 mod looking;
 mod making;
+mod measuring;
 mod running;
 
 use std::fmt::{self, Formatter};
@@ -22,6 +23,7 @@ pub use changing::Changing;
 pub use drawing::{Drawing, Expose, PlotPart};
 pub use looking::{ListWhat, Looking, PrintItem};
 pub use making::{Binding, DragTarget, Making, PointDecl};
+pub use measuring::{Label, Measuring, ResultItem};
 pub use running::Running;
 
 /// One command and its place in the text.
@@ -55,6 +57,8 @@ pub enum Command {
     Running(Running),
     /// To answer a question.
     Looking(Looking),
+    /// To measure, and to say what came of it.
+    Measuring(Measuring),
     /// To draw and to record.
     Drawing(Drawing),
     /// To build big things from small ones.
@@ -68,11 +72,12 @@ pub(super) struct Verb {
 }
 
 /// The families in the order of the reference, in which constraints come second.
-pub(super) const FAMILIES: [&[Verb]; 6] = [
+pub(super) const FAMILIES: [&[Verb]; 7] = [
     making::VERBS,
     changing::VERBS,
     running::VERBS,
     looking::VERBS,
+    measuring::VERBS,
     drawing::VERBS,
     building::VERBS,
 ];
@@ -85,6 +90,7 @@ impl Command {
             Self::Making(it) => it.is_edit(),
             Self::Changing(it) => it.is_edit(),
             Self::Building(it) => it.is_edit(),
+            Self::Measuring(it) => it.is_edit(),
             Self::Running(_) | Self::Looking(_) | Self::Drawing(_) => false,
         }
     }
@@ -112,6 +118,9 @@ impl Command {
         if let Some(it) = Looking::read(rule, c)? {
             return Ok(Self::Looking(it));
         }
+        if let Some(it) = Measuring::read(rule, c)? {
+            return Ok(Self::Measuring(it));
+        }
         if let Some(it) = Drawing::read(rule, c)? {
             return Ok(Self::Drawing(it));
         }
@@ -129,6 +138,7 @@ impl Command {
             Self::Changing(it) => it.write(f),
             Self::Running(it) => it.write(f),
             Self::Looking(it) => it.write(f),
+            Self::Measuring(it) => it.write(f),
             Self::Drawing(it) => it.write(f),
             Self::Building(it) => it.write(f, level),
         }
@@ -147,7 +157,7 @@ macro_rules! from_family {
     };
 }
 
-from_family! { Making Changing Running Looking Drawing Building }
+from_family! { Making Changing Running Looking Measuring Drawing Building }
 
 /// The items `item` of all the `rule`s that follow.
 fn each<'a, T>(

@@ -6,7 +6,7 @@ use pest::iterators::{Pair as Parsed, Pairs};
 
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{
-    Expr, Ident, Name, NamePart, Pair, PartKind, Promise, Range, Relation, Selection, Text,
+    Expr, Ident, Name, NamePart, Pair, PartKind, Promise, Range, Relation, Selection, Text, Unit,
 };
 
 use super::Reader;
@@ -121,11 +121,13 @@ impl<'a> Cursor<'a> {
         self.ident_of(&pair)
     }
 
-    /// The word of a unit, if a clause with one is what follows.
-    pub fn unit_if_any(&mut self) -> Option<Ident> {
-        let clause = self.take(Rule::in_unit)?;
+    /// The unit that a value is counted in, if a clause with one is what follows.
+    pub fn unit_if_any(&mut self) -> Result<Option<Unit>> {
+        let Some(clause) = self.take(Rule::in_unit) else { return Ok(None) };
         let pair = self.within(clause).must(Rule::unit);
-        Some(self.ident_of(&pair))
+        let word = self.ident_of(&pair);
+        let unit = Unit::ALL.into_iter().find(|unit| unit.suffix() == &*word.text);
+        unit.map(Some).ok_or_else(|| refusal::unknown_unit(&word))
     }
 
     pub fn ident_if_any(&mut self) -> Option<Ident> {

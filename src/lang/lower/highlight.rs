@@ -149,8 +149,11 @@ fn read_pair(
 ) {
     let start = base + pair.as_span().start();
     let is_first = pair.as_span().start() == parent.as_span().start();
-    let is_new =
-        is_first && matches!(parent.as_rule(), Rule::point_decl | Rule::binding | Rule::defined);
+    let is_new = match parent.as_rule() {
+        Rule::point_decl | Rule::binding | Rule::defined | Rule::result_item => is_first,
+        Rule::measure => true,
+        _ => false,
+    };
     match pair.as_rule() {
         Rule::name if is_new => drop(told.insert(start, Class::NewName)),
         Rule::name => drop(told.insert(start, Class::Name)),
@@ -201,7 +204,7 @@ fn guessed(text: &str, range: &Range<usize>, previous: Option<usize>) -> Class {
     let said = previous.map(|end| &text[..end]).filter(|_| !begins);
     let verb = said.map_or("", |said| said.rsplit(|c| !is_word_char(c)).next().unwrap_or(""));
     let defines = |word: ConstraintWord| word.pattern().slots.contains(&Slot::Defined);
-    let names_next = matches!(verb, "point" | "let" | "for" | "define")
+    let names_next = matches!(verb, "point" | "let" | "for" | "define" | "measure" | "result")
         || ConstraintWord::named(verb).is_some_and(defines);
     if names_next || (before.ends_with(',') && behind.starts_with('=')) {
         return Class::NewName;

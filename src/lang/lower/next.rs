@@ -136,10 +136,11 @@ fn meant(rule: Rule, verb: &str, last: &str, is_first: bool) -> Vec<Next> {
         | Rule::touching
         | Rule::touched
         | Rule::binding
+        | Rule::result_item
         | Rule::ident => name().into_iter().collect(),
         Rule::setting => vec![Next::Setting],
         Rule::unit => vec![Next::Unit],
-        Rule::string if !matches!(verb, "print" | "sample") => vec![Next::Path],
+        Rule::string if !matches!(verb, "print" | "sample" | "result") => vec![Next::Path],
         _ => {
             let spelt = format!("{rule:?}");
             let word = spelt.strip_prefix("kw_");
@@ -153,7 +154,7 @@ fn meant(rule: Rule, verb: &str, last: &str, is_first: bool) -> Vec<Next> {
 fn name_of(verb: &str, last: &str, is_first: bool) -> Option<NameOf> {
     Some(match verb {
         "use" if is_first => NameOf::Definition,
-        "point" | "for" | "define" | "restore" | "use" => return None,
+        "point" | "for" | "define" | "restore" | "use" | "measure" | "result" => return None,
         "let" => NameOf::Parameter,
         "freeze" | "thaw" | "move" | "drag" | "pull" | "trace" | "untrace" => NameOf::Point,
         "off" | "on" => NameOf::Constraint,

@@ -21,6 +21,10 @@ impl Execution<'_> {
                 }
                 _ => Err(self.resolve().no_such_part(name, "a parameter takes `= value`")),
             },
+            Entity::Measure(_) => {
+                let begin = "`measure NAME = ...` begins a measure anew";
+                Err(self.resolve().no_such_part(name, begin))
+            }
             Entity::Point(id) => match parts {
                 [Part::Relation(Relation::Equal(at))] => {
                     let at = self.resolve().place(at)?;

@@ -79,6 +79,7 @@ impl Execution<'_> {
             match entity {
                 Entity::Constraint(id) => self.edit(Edit::Constraint(id, None)),
                 Entity::Parameter(id) => self.edit(Edit::Parameter(id, None)),
+                Entity::Measure(id) => self.edit(Edit::Measure(id, None)),
                 Entity::Point(_) => {}
             }
         }
@@ -109,6 +110,7 @@ impl Execution<'_> {
         self.stop_recording();
         self.set_memory(Memory::default());
         self.change(Change::Series(Box::default()));
+        self.change(Change::Results(Box::default()));
         self.change(Change::Restoring(false));
         let definitions: Vec<_> = self.state.definitions.keys().cloned().collect();
         for name in definitions {
@@ -133,7 +135,7 @@ impl State {
         let mut members: Vec<Entity> = self.world.names().members(instance).collect();
         members.sort_by_key(|entity| match entity {
             Entity::Constraint(_) => 0,
-            Entity::Parameter(_) => 1,
+            Entity::Parameter(_) | Entity::Measure(_) => 1,
             Entity::Point(_) => 2,
         });
         members

@@ -438,6 +438,13 @@ impl Execution<'_> {
                 )
                 .at(name.span, format!("this is a parameter: `{text}`")));
             }
+            Entity::Measure(_) => {
+                return Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    "`why` asks about a constraint or a point",
+                )
+                .at(name.span, "this is a measure"));
+            }
         };
         lines.iter().for_each(|line| self.host.print(line));
         Ok(())

@@ -44,11 +44,12 @@ impl State {
     /// What of an entity could drive the mechanism.
     pub(super) fn driver(&self, entity: Entity) -> Result<Source, NoDriver> {
         match entity {
-            Entity::Point(_) => {
+            Entity::Point(_) | Entity::Measure(_) => {
                 let message = "`limits` asks how far something that drives can go".to_owned();
                 let help =
                     "name a motor, a constraint with a value, or a parameter that one follows";
-                Err(NoDriver::new(message, "this is a point").help(help))
+                let label = format!("this is a {}", entity.noun());
+                Err(NoDriver::new(message, label).help(help))
             }
             Entity::Constraint(id) => {
                 let record = self.world.constraint(id).expect("a named constraint lives");

@@ -12,6 +12,7 @@ pub mod driver_range;
 mod effect_table;
 pub mod effects;
 pub mod hands;
+pub mod measure;
 mod pace;
 pub mod plot;
 pub mod points;

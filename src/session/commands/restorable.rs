@@ -27,6 +27,8 @@ pub enum Restorable {
     Trace,
     /// The places of a trace that missed the tolerance, by index.
     Missed,
+    /// What a measure has kept.
+    Measure,
     /// A ghost: number of a point, its place, and so on.
     Ghost,
     /// What the solver remembers.
@@ -39,7 +41,7 @@ pub enum Restorable {
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 13] = [
+    const ALL: [Self; 14] = [
         Self::Clock,
         Self::Start,
         Self::State,
@@ -49,6 +51,7 @@ impl Restorable {
         Self::Values,
         Self::Trace,
         Self::Missed,
+        Self::Measure,
         Self::Ghost,
         Self::Memory,
         Self::Version,
@@ -67,6 +70,7 @@ impl Restorable {
             Self::Values => "values",
             Self::Trace => "trace",
             Self::Missed => "missed",
+            Self::Measure => "measure",
             Self::Ghost => "ghost",
             Self::Memory => "memory",
             Self::Version => "version",

@@ -7,7 +7,9 @@ use crate::errors;
 use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
-use crate::world::{Clock, Edit, Ghost, Record, Sample, TurnCount, Turning, Value};
+use crate::world::{
+    Clock, Edit, Entity, Ghost, Measure, Record, Sample, Tally, TurnCount, Turning, Value,
+};
 
 /// Why something cannot be restored.
 enum Unfit {
@@ -86,6 +88,7 @@ impl Execution<'_> {
             (Restorable::Values, Some(name)) => self.restore_values(name, values),
             (Restorable::Trace, Some(name)) => self.restore_trace(name, values),
             (Restorable::Missed, Some(name)) => self.restore_missed(name, values),
+            (Restorable::Measure, Some(name)) => self.restore_measure(name, values),
             (Restorable::Ghost, None) => self.restore_ghost(values),
             (Restorable::Turn, None) => self.restore_turn(values),
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
@@ -107,7 +110,8 @@ impl Execution<'_> {
                 | Restorable::Captured
                 | Restorable::Values
                 | Restorable::Trace
-                | Restorable::Missed,
+                | Restorable::Missed
+                | Restorable::Measure,
                 None,
             ) => Err(Unfit::Values),
         }
@@ -151,6 +155,14 @@ impl Execution<'_> {
             ghost.at.push((id, Point::new(v.x, v.y)));
         }
         self.edit(Edit::Ghost(Some(Box::new(ghost))));
+        Ok(())
+    }
+
+    fn restore_measure(&mut self, name: &Name, values: &[Value]) -> Restored {
+        let Entity::Measure(id) = self.resolve().entity(name)? else { return Err(Unfit::Values) };
+        let tally = Tally::from_numbers(&numbers(values)?).ok_or(Unfit::Values)?;
+        let measure = self.state.world.measure(id).expect("it is named").clone();
+        self.edit(Edit::Measure(id, Some(Box::new(Measure { tally, ..measure }))));
         Ok(())
     }
 

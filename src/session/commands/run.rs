@@ -144,7 +144,9 @@ impl Execution<'_> {
         let (n_before, n_missed_before) = (summary.n_frames, summary.n_missed);
         let mut flow = Flow::On;
         let begun = self.host.seconds();
+        self.begin_measures()?;
         let leaves_nothing = self.state.world.traces().is_empty()
+            && !self.state.world.has_measures()
             && self.state.recorders.is_empty()
             && self.state.preferences.expose_every.is_none();
         let mut way_back = None;
@@ -165,7 +167,7 @@ impl Execution<'_> {
                 break;
             }
             if pace.is_due() && n - k > 1 {
-                let stretch = self.stretch(n - k, &limits, summary.error_on_the_way);
+                let stretch = self.stretch(n - k, &limits, summary.error_on_the_way)?;
                 pace.note(stretch.n_frames);
                 if stretch.n_frames > 0 {
                     k += stretch.n_frames;
@@ -342,7 +344,7 @@ impl Execution<'_> {
     }
 
     /// Adds to an error in which frame it came up.
-    fn in_frame(&self, why: Diagnostic) -> Diagnostic {
+    pub(super) fn in_frame(&self, why: Diagnostic) -> Diagnostic {
         let clock = self.state.world.clock();
         why.note(format!("at frame {}, time {}", clock.frame, format_number(clock.time())))
     }

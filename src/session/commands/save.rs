@@ -57,6 +57,7 @@ impl State {
         restore(&mut script, Restorable::Past, None, numbers(&[1.0]));
         self.save_parameters(&mut script);
         self.save_constraints(&mut script);
+        self.save_measures(&mut script);
         self.save_late_parameters(&mut script);
         self.save_late_values(&mut script);
         self.save_start_states(&mut script);
@@ -176,7 +177,11 @@ impl State {
     fn is_late(&self, id: ParameterId, formula: &Formula) -> bool {
         let mut is_late = self.world.mentions_members(formula);
         formula.mentions(&mut |mention| {
-            is_late |= matches!(mention, Mention::Parameter(used) if used > id);
+            is_late |= match mention {
+                Mention::Parameter(used) => used > id,
+                Mention::Measure(_) => true,
+                Mention::Point(_) | Mention::Member(..) => false,
+            };
         });
         is_late
     }
@@ -195,6 +200,19 @@ impl State {
             } else {
                 script.push_str(&Unbind::of(&self.world).parameter_text(id));
                 script.push('\n');
+            }
+        }
+    }
+
+    /// Begins the measures, and gives them what they have kept.
+    fn save_measures(&self, script: &mut String) {
+        for (_, measure) in self.world.measures() {
+            line(script, Unbind::of(&self.world).measure_statement(measure));
+        }
+        for (_, measure) in self.world.measures() {
+            let kept = measure.tally.to_numbers();
+            if !kept.is_empty() {
+                restore(script, Restorable::Measure, Some(&measure.name), numbers(&kept));
             }
         }
     }

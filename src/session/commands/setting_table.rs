@@ -8,7 +8,7 @@ use crate::session::preferences::{AtDeadPoint, Preferences, Receipt};
 use crate::session::state::State;
 use crate::session::undo::journal::Change;
 use crate::solve::{CogForm, Method};
-use crate::world::{Edit, Entity};
+use crate::world::{Edit, Entity, Extremes};
 
 /// Something that is set for the whole session.
 pub struct Setting {
@@ -40,7 +40,7 @@ pub struct OwnSetting {
 }
 
 /// The settings, in the order in which they are printed.
-pub static SETTINGS: [Setting; 9] = [
+pub static SETTINGS: [Setting; 10] = [
     Setting {
         name: "dt",
         what: "time of one frame",
@@ -127,6 +127,19 @@ pub static SETTINGS: [Setting; 9] = [
         },
     },
     Setting {
+        name: "measures",
+        what: "extremes between frames `refined`, or those of the frames: `sampled`",
+        is_of_scene: false,
+        text: |state| state.preferences.measures.word().to_owned(),
+        words: || Extremes::ALL.map(Extremes::word).to_vec(),
+        set: |command, value| {
+            let what = "how extremes are found";
+            let extremes = word_of(value, &Extremes::ALL, Extremes::word, what)?;
+            command.prefer(|preferences| preferences.measures = extremes);
+            Ok(())
+        },
+    },
+    Setting {
         name: "receipt",
         what: "what is said after a run: `short` or `long`",
         is_of_scene: false,
@@ -203,6 +216,10 @@ impl Execution<'_> {
     fn prefer(&mut self, change: impl FnOnce(&mut Preferences)) {
         let mut new = self.state.preferences.clone();
         change(&mut new);
+        if new.solve == self.state.preferences.solve {
+            // The solver asks for nothing of it.
+            return self.change(Change::Preferences(Box::new(new)));
+        }
         // What was edited before is taken in as it was set then; what counted as solved may not
         // any more, and that is part of this command.
         self.sync();

@@ -19,8 +19,8 @@ use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
 use crate::solve::{Method, present};
-use crate::terms::{Function, Unit};
-use crate::world::{ConstraintId, Entity, PointId, Value, World};
+use crate::terms::{Function, Statistic, Unit};
+use crate::world::{ConstraintId, Entity, Measure, PointId, Value, World};
 
 /// A value as `print` writes it.
 pub(crate) fn format_value(value: Value) -> String {
@@ -80,7 +80,9 @@ impl Execution<'_> {
             return self.show(name);
         }
         match self.resolve().meaning(name) {
-            Ok((Meaning::Entity(Entity::Constraint(_)), None)) => self.show(name),
+            Ok((Meaning::Entity(Entity::Constraint(_) | Entity::Measure(_)), None)) => {
+                self.show(name)
+            }
             _ => self.print(items).map_err(|problem| {
                 let word = name.as_simple().map_or("", |word| &*word.text);
                 let is_free = self.state.world.names().is_free(word);
@@ -206,6 +208,9 @@ impl Execution<'_> {
                 }
             }));
         }
+        if is_asked(ListWhat::Measures) {
+            lines.extend(self.state.world.measures().map(|(_, it)| self.state.measure_line(it)));
+        }
         if is_asked(ListWhat::Definitions) {
             lines.extend(self.state.definitions.values().map(|definition| {
                 let names: Vec<&str> = definition.parameters.iter().map(|p| &*p.text).collect();
@@ -220,6 +225,7 @@ impl Execution<'_> {
                 Some(ListWhat::Constraints) => "no constraints",
                 Some(ListWhat::Traces) => "no traces",
                 Some(ListWhat::Parameters) => "no parameters",
+                Some(ListWhat::Measures) => "no measures",
                 Some(ListWhat::Definitions) => "no definitions",
             };
             self.note(nothing);
@@ -239,6 +245,11 @@ impl Execution<'_> {
             for (id, record) in self.state.world.constraints() {
                 if record.name.starts_with(&prefix) {
                     lines.push(self.state.constraint_line(&now, id));
+                }
+            }
+            for (_, measure) in self.state.world.measures() {
+                if measure.name.starts_with(&prefix) {
+                    lines.push(self.state.measure_line(measure));
                 }
             }
             lines.iter().for_each(|line| self.host.print(line));
@@ -264,6 +275,12 @@ impl Execution<'_> {
                         .into_iter()
                         .map(|l| format!("  {l}")),
                 );
+                lines.iter().for_each(|line| self.host.print(line));
+            }
+            Entity::Measure(id) => {
+                let measure = self.state.world.measure(id).expect("it is named");
+                let mut lines = vec![self.state.measure_line(measure)];
+                lines.extend(measure_details(measure));
                 lines.iter().for_each(|line| self.host.print(line));
             }
             Entity::Parameter(id) => {
@@ -332,6 +349,15 @@ impl State {
                 format!("{text}  # {}", format_value_in(value, unit))
             }
             _ => text,
+        }
+    }
+
+    fn measure_line(&self, measure: &Measure) -> String {
+        tick(LINE);
+        let text = Unbind::of(&self.world).measure_statement(measure);
+        match measure.tally.readings().len() {
+            1 => format!("{text}  # 1 value"),
+            n => format!("{text}  # {n} values"),
         }
     }
 
@@ -408,6 +434,22 @@ impl State {
         }
         Ok(text)
     }
+}
+
+/// What a measure has kept, a line for what goes together.
+fn measure_details(measure: &Measure) -> Vec<String> {
+    let of = |which| measure.tally.get(which).map(format_number);
+    let line = |items: &[Statistic]| {
+        let items = items.iter().map(|&it| Some(format!("{} {}", it.word(), of(it)?)));
+        Some(format!("  {}", items.collect::<Option<Vec<_>>>()?.join(", ")))
+    };
+    let lines = [
+        line(&[Statistic::Min, Statistic::AtMin]),
+        line(&[Statistic::Max, Statistic::AtMax]),
+        line(&[Statistic::Span, Statistic::Mean]),
+        line(&[Statistic::First, Statistic::Last]),
+    ];
+    lines.into_iter().flatten().collect()
 }
 
 /// A command or subject in full.

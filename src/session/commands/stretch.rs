@@ -8,7 +8,7 @@ use crate::session::execution::Execution;
 use crate::session::preferences::AtDeadPoint;
 use crate::session::quotas::Quota;
 use crate::session::state::State;
-use crate::solve::{Budget, Report, Stretch};
+use crate::solve::{Along, Budget, Report, Stretch};
 
 /// Frames between which it is told how far a run is.
 const MOST_AT_ONCE: u64 = 1000;
@@ -31,17 +31,31 @@ impl Execution<'_> {
     }
 
     /// Lets up to `n` frames pass at once, as far as that goes.
-    pub(super) fn stretch(&mut self, n: u64, limits: &Limits, known_error: f64) -> Stretch {
+    ///
+    /// # Errors
+    /// Where a measure has no value.
+    pub(super) fn stretch(
+        &mut self,
+        n: u64,
+        limits: &Limits,
+        known_error: f64,
+    ) -> Result<Stretch, Diagnostic> {
         let most = self.input.quotas.of(Quota::TraceSamples);
+        let most_readings = self.input.quotas.of(Quota::MeasureSamples);
         let Self { state, host, deadline, .. } = &mut *self;
         let State { solver, world, preferences, .. } = &mut **state;
         // No more than traces may keep: the frame that exceeds that is told of by itself.
         let n_kept = world.traces().iter().map(|trace| trace.samples.len() as u64).sum();
         let n_left = most.saturating_sub(n_kept).checked_div(world.traces().len() as u64);
-        let n = n.min(n_left.unwrap_or(n)).min(MOST_AT_ONCE);
+        let n_measures = world.measures().count() as u64;
+        let n_readings = most_readings.saturating_sub(world.n_readings() as u64);
+        let n_readings = n_readings.checked_div(n_measures).unwrap_or(n);
+        let n = n.min(n_left.unwrap_or(n)).min(n_readings).min(MOST_AT_ONCE);
         let budget = Budget { tolerance: limits.tolerance, stop: None, known_error };
         let goes_on = || !host.is_interrupted() && !deadline.has_passed(&**host);
-        solver.stretch(world, &preferences.solve, &budget, n, &goes_on)
+        let on = Along { n, extremes: preferences.measures, goes_on: &goes_on };
+        let stretch = solver.stretch(world, &preferences.solve, &budget, &on);
+        stretch.map_err(|why| self.in_frame(why))
     }
 
     /// Lets frame `k` pass, unless the user stops it on its way: everything is then as it was at its

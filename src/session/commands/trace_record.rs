@@ -89,6 +89,7 @@ impl Execution<'_> {
         if !self.state.world.traces().is_empty() {
             self.state.world.sample_traces(missed);
         }
+        self.measure_frame(!missed).map_err(|why| self.in_frame(why))?;
         if let Some(every) = self.state.preferences.expose_every
             && self.state.world.clock().frame.is_multiple_of(every)
         {
@@ -105,6 +106,8 @@ impl Execution<'_> {
         let n_samples =
             self.state.world.traces().iter().map(|trace| trace.samples.len()).sum::<usize>();
         quotas.check(Quota::TraceSamples, n_samples as u64, span)?;
+        self.check_readings(span)?;
+        let quotas = &self.input.quotas;
         let n_frames = self.state.recorders.iter().map(Recorder::n_frames).sum::<usize>();
         quotas.check(Quota::RecordedFrames, n_frames as u64, span)?;
         quotas.check(Quota::RecordedBytes, n_taped, span)?;

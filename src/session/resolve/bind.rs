@@ -5,8 +5,8 @@ use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Member, Operator, Shape, Unit};
-use crate::world::{ConstraintId, Depends, Entity, Formula, Node, Rates, Value, operate};
+use crate::terms::{Operator, Shape, Unit};
+use crate::world::{Depends, Entity, Formula, Node, Rates, Value, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
@@ -275,6 +275,9 @@ impl Resolver<'_> {
                 };
             }
             Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
+            Meaning::Statistic(id, which) => {
+                return self.bind_statistic(id, which, span, mode);
+            }
             Meaning::Bound(Bound::Point(id)) => Entity::Point(id),
             Meaning::Entity(entity) => entity,
         };
@@ -299,39 +302,18 @@ impl Resolver<'_> {
                 let depends = Depends { on_parameters: true, ..Depends::default() };
                 (Node::Parameter(id), shape, depends)
             }
-            Entity::Constraint(_) => {
-                let name = self.state.world.name_of(entity);
-                return Err(Diagnostic::error(
-                    errors::WRONG_SORT,
-                    format!("`{name}` is a constraint"),
-                )
-                .at(span, "expected a point, a parameter or a number"));
+            Entity::Constraint(_) | Entity::Measure(_) => {
+                let (name, noun) = (self.state.world.name_of(entity), entity.noun());
+                let problem =
+                    Diagnostic::error(errors::WRONG_SORT, format!("`{name}` is a {noun}"))
+                        .at(span, "expected a point, a parameter or a number");
+                let is_measure = matches!(entity, Entity::Measure(_));
+                let statistics =
+                    format!("`{name}.last` is its last value, `{name}.max` its greatest");
+                return Err(if is_measure { problem.help(statistics) } else { problem });
             }
         };
         let formula = Formula::new(node, shape, depends, span);
-        match mode {
-            Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::plain),
-        }
-    }
-
-    fn bind_member(
-        &mut self,
-        id: ConstraintId,
-        member: Member,
-        span: Span,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let follows = member.follows();
-        let depends = Depends {
-            on_angles: member == Member::Angle,
-            // What it depends on is known where it is looked up, as of a parameter.
-            on_parameters: matches!(member, Member::Radius | Member::Value),
-            on_constraints: follows,
-            on_points: follows || member == Member::Value,
-            ..Depends::default()
-        };
-        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
             Mode::Now => self.evaluate(&formula).map(Term::plain),

@@ -1,17 +1,27 @@
 //! Members of things: which there are, and what they cannot be used for.
 
+use super::bind::{Mode, Term};
 use super::scope::{Meaning, Resolver};
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::session::quotas::{DEEPEST_EXPRESSION, Quota};
-use crate::terms::Member;
-use crate::world::{ConstraintId, Entity, Extent, Formula};
+use crate::terms::{Member, Shape, Statistic};
+use crate::world::{ConstraintId, Depends, Entity, Extent, Formula, MeasureId, Node};
 
 impl Resolver<'_> {
     /// The members that a constraint has.
     pub(super) fn members(&self, id: ConstraintId) -> impl Iterator<Item = Member> {
         let world = &self.state.world;
         Member::ALL.into_iter().filter(move |&member| world.has_member(id, member))
+    }
+
+    /// The words of the members of a thing that has some.
+    pub(super) fn member_words(&self, of: Entity) -> Option<Vec<&'static str>> {
+        match of {
+            Entity::Constraint(id) => Some(self.members(id).map(Member::word).collect()),
+            Entity::Measure(_) => Some(Statistic::ALL.map(Statistic::word).to_vec()),
+            Entity::Point(_) | Entity::Parameter(_) => None,
+        }
     }
 
     /// A member of something with a name.
@@ -45,6 +55,46 @@ impl Resolver<'_> {
             .help(format!("there is {}", others.join(" and "))))
     }
 
+    /// The term that a member of a constraint becomes.
+    pub(super) fn bind_member(
+        &mut self,
+        id: ConstraintId,
+        member: Member,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let follows = member.follows();
+        let depends = Depends {
+            on_angles: member == Member::Angle,
+            // What it depends on is known where it is looked up, as of a parameter.
+            on_parameters: matches!(member, Member::Radius | Member::Value),
+            on_constraints: follows,
+            on_points: follows || member == Member::Value,
+            ..Depends::default()
+        };
+        let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::plain),
+        }
+    }
+
+    /// The term that a statistic of a measure becomes.
+    pub(super) fn bind_statistic(
+        &mut self,
+        id: MeasureId,
+        which: Statistic,
+        span: Span,
+        mode: Mode,
+    ) -> Result<Term, Diagnostic> {
+        let depends = Depends { on_measures: true, ..Depends::default() };
+        let formula = Formula::new(Node::Statistic(id, which), Shape::Number, depends, span);
+        match mode {
+            Mode::Live => Ok(Term::Live(formula)),
+            Mode::Now => self.evaluate(&formula).map(Term::plain),
+        }
+    }
+
     /// Refuses an expression that is too long, or too deep, with all that it mentions: every level of
     /// members of members, each mentioned twice, doubles it.
     pub(super) fn refuse_too_long(&self, formula: &Formula, span: Span) -> Result<(), Diagnostic> {
@@ -74,6 +124,14 @@ impl Resolver<'_> {
                 "a velocity cannot drive a constraint",
             )
             .at(span, "velocities follow from the constraints"));
+        }
+        if depends.on_measures {
+            return Err(Diagnostic::error(
+                errors::NOT_A_DRIVER,
+                "a measure cannot drive a constraint",
+            )
+            .at(span, "what is measured follows from the motion")
+            .help("use it in `print`, `assert`, `result`, or a parameter that these use"));
         }
         let Some((id, member)) = self.state.world.following_member(formula) else { return Ok(()) };
         let name =

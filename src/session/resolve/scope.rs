@@ -7,8 +7,8 @@ use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::quotas::Quotas;
 use crate::session::state::State;
-use crate::terms::{Member, Unit};
-use crate::world::{ConstraintId, Entity, Formula, NameText, PointId, Turning};
+use crate::terms::{Member, Statistic, Unit};
+use crate::world::{ConstraintId, Entity, Formula, MeasureId, NameText, PointId, Turning};
 
 /// Names that have a meaning of their own in every expression.
 pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -115,6 +115,8 @@ pub enum Meaning {
     Entity(Entity),
     /// A member of a constraint.
     Member(ConstraintId, Member),
+    /// A statistic of a measure.
+    Statistic(MeasureId, Statistic),
 }
 
 impl<'a> Resolver<'a> {
@@ -218,15 +220,19 @@ impl<'a> Resolver<'a> {
             self.scopes.spelling = whole;
             return Ok((Meaning::Entity(entity), None));
         }
-        let member = match name.parts.last().map(|part| &part.kind) {
-            Some(PartKind::Member(member)) => Member::named(member),
-            _ => None,
+        let word = match name.parts.last().map(|part| &part.kind) {
+            Some(PartKind::Member(member)) => &**member,
+            _ => "",
         };
-        if axis.is_some() || member.is_some() {
+        let (member, statistic) = (Member::named(word), Statistic::named(word));
+        if axis.is_some() || member.is_some() || statistic.is_some() {
             let owner = self.spell(name, name.parts.len() - 1)?;
             let found = self.find(&owner);
             self.scopes.spelling = owner;
-            match (found, member) {
+            if let (Some(Entity::Measure(id)), Some(which)) = (found, statistic) {
+                return Ok((Meaning::Statistic(id, which), None));
+            }
+            match (found.filter(|_| statistic.is_none()), member) {
                 (Some(entity), None) => return Ok((Meaning::Entity(entity), axis)),
                 (Some(entity), Some(member)) => {
                     return Ok((self.member(entity, member, name.span)?, None));
@@ -239,7 +245,7 @@ impl<'a> Resolver<'a> {
 
     /// What has this name.
     pub(crate) fn entity(&mut self, name: &Name) -> Result<Entity, Diagnostic> {
-        self.entity_for(name, "a point, a constraint or a parameter")
+        self.entity_for(name, "a point, a constraint, a parameter or a measure")
     }
 
     /// What has this name, where `wanted` is expected.
@@ -258,7 +264,7 @@ impl<'a> Resolver<'a> {
                 )
                 .at(name.span, format!("expected the name of {wanted}")))
             }
-            (_, Some(_)) | (Meaning::Member(..), None) => {
+            (_, Some(_)) | (Meaning::Member(..) | Meaning::Statistic(..), None) => {
                 let whole = self.spell(name, name.parts.len())?;
                 Err(self.unknown(&whole, name.span))
             }
@@ -345,6 +351,7 @@ impl<'a> Resolver<'a> {
                 "constraint" => {
                     format!("`change {text} ...` changes it, `delete {text}` removes it")
                 }
+                "measure" => format!("`measure {text} = ...` begins it anew"),
                 "point" => format!("`move {text} to (x, y)` moves it, `delete {text}` removes it"),
                 _ => format!("`delete {text} cascade` removes it"),
             }))
@@ -359,10 +366,7 @@ impl<'a> Resolver<'a> {
         for (dot, _) in text.match_indices('.') {
             let owner = &text[..dot];
             if let Some(entity) = names.get(owner) {
-                if let (Entity::Constraint(id), Some(member)) =
-                    (entity, Member::named(&text[dot + 1..]))
-                    && self.state.world.has_member(id, member)
-                {
+                if self.has_member(entity, &text[dot + 1..]) {
                     return Err(Diagnostic::error(
                         errors::NAME_TAKEN,
                         format!("`{text}` is a member of `{owner}`"),
@@ -378,6 +382,17 @@ impl<'a> Resolver<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a thing has a member of this word.
+    fn has_member(&self, of: Entity, word: &str) -> bool {
+        match of {
+            Entity::Constraint(id) => {
+                Member::named(word).is_some_and(|member| self.state.world.has_member(id, member))
+            }
+            Entity::Measure(_) => Statistic::named(word).is_some(),
+            Entity::Point(_) | Entity::Parameter(_) => false,
+        }
     }
 
     /// The first free `{prefix}{stem}1`, `{prefix}{stem}2`, ...
@@ -413,13 +428,18 @@ impl<'a> Resolver<'a> {
             });
         }
         if let Some((owner, word)) = text.rsplit_once('.')
-            && let Some(Entity::Constraint(id)) = self.find(owner)
+            && let Some(members) = self.find(owner).and_then(|entity| self.member_words(entity))
         {
-            let members: Vec<&str> = self.members(id).map(Member::word).collect();
             return problem.help(match nearest(word, members.iter().copied()) {
                 Some(near) => format!("did you mean `{owner}.{near}`?"),
                 None => format!("its members are `.{}`", members.join("`, `.")),
             });
+        }
+        if let Some((owner, word)) = text.rsplit_once('.')
+            && Statistic::named(word).is_some()
+            && self.find(owner).is_none()
+        {
+            return problem.help(format!("`measure {owner} = ...` follows a value that has one"));
         }
         let prefix = &self.scope().prefix;
         let mut known: Vec<&str> = names.iter().map(|(name, _)| name).collect();

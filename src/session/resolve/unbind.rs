@@ -8,12 +8,14 @@ use crate::constraint::geometry::wrap;
 use crate::constraint::{Bounds, Constraint, ConstraintKind as _, Field, PointIdx, Quantity};
 use crate::diag::{SourceId, Span, format_number, format_rounded};
 use crate::lang::ast::{
-    Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Making, Name, Node as Syntax,
-    Pair, Part, Range, Relation, Role, Text,
+    Axis, Command, Constraint as Stated, ConstraintDecl, Expr, Ident, Making, Measuring, Name,
+    Node as Syntax, Pair, Part, Range, Relation, Role, Text,
 };
 use crate::lang::catalogue::Slot;
 use crate::terms::Unit;
-use crate::world::{ConstraintId, Entity, Formula, Node, ParameterId, PointId, Record, World};
+use crate::world::{
+    ConstraintId, Entity, Formula, Measure, Node, ParameterId, PointId, Record, World,
+};
 
 /// The place of what no text says.
 pub(crate) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
@@ -214,6 +216,12 @@ impl<'a> Unbind<'a> {
         text_of(&Making::Let(vec![binding]).into())
     }
 
+    /// The statement that begins a measure.
+    pub(crate) fn measure_statement(&self, measure: &Measure) -> Command {
+        let (name, value) = (named(&measure.name), self.unbind(&measure.formula));
+        Measuring::Measure { name, value, unit: measure.unit }.into()
+    }
+
     /// What else there is to know of a constraint.
     pub(crate) fn constraint_details(&self, id: ConstraintId) -> Vec<String> {
         let record = self.world.constraint(id).expect("a listed constraint lives");
@@ -273,6 +281,10 @@ impl<'a> Unbind<'a> {
             Node::Member(id, member) => {
                 let name = self.world.name_of(Entity::Constraint(*id));
                 Syntax::Name(named(&format!("{name}.{}", member.word())))
+            }
+            Node::Statistic(id, which) => {
+                let name = self.world.name_of(Entity::Measure(*id));
+                Syntax::Name(named(&format!("{name}.{}", which.word())))
             }
             Node::Vector(x, y) => Syntax::Vector(two(x, y)),
             Node::Negate(a) => Syntax::Negate(Box::new(self.unbind(a))),

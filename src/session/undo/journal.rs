@@ -7,6 +7,7 @@ use super::recorder::{Recorder, Reel};
 use crate::lang::ast::Definition;
 use crate::session::preferences::Preferences;
 use crate::session::quotas::{Quota, Quotas};
+use crate::session::results::Results;
 use crate::session::series::{SeriesList, n_bytes};
 use crate::solve::Recall;
 use crate::world::{ConstraintId, Edit, ParameterId, PointId};
@@ -29,6 +30,8 @@ pub enum Change {
     Sample(Box<(Arc<str>, Option<f64>)>),
     /// Sets all series.
     Series(Box<SeriesList>),
+    /// Sets what `result` has said.
+    Results(Box<Results>),
     /// Sets what the recorders have taken.
     Reels(Box<[Reel]>),
     /// Says whether what is stated was there before.
@@ -47,6 +50,7 @@ impl Change {
             Self::Recorder(_, recorder) => recorder.as_ref().map_or(0, |r| r.n_bytes()),
             Self::Sample(sample) => size_of_val(&**sample),
             Self::Series(series) => n_bytes(series),
+            Self::Results(results) => results.n_bytes(),
             Self::Reels(reels) => reels.iter().map(Reel::n_bytes).sum(),
             Self::Restoring(_) => 0,
         };

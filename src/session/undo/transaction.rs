@@ -42,6 +42,9 @@ impl State {
             Change::Series(new) => {
                 Change::Series(Box::new(std::mem::replace(&mut self.series, *new)))
             }
+            Change::Results(new) => {
+                Change::Results(Box::new(std::mem::replace(&mut self.results, *new)))
+            }
             Change::Restoring(is_restoring) => {
                 Change::Restoring(std::mem::replace(&mut self.is_restoring, is_restoring))
             }
@@ -61,6 +64,7 @@ impl State {
                     && self.recorders.iter().zip(reels).all(|(r, reel)| r.is_at(reel))
             }
             Change::Memory(recall) => self.solver.is_at(recall),
+            Change::Results(results) => **results == self.results,
             _ => false,
         }
     }

@@ -4,7 +4,7 @@ mod changes;
 mod stretch;
 mod visits;
 
-pub use stretch::Stretch;
+pub use stretch::{Along, Stretch};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -1,12 +1,15 @@
 //! Many frames at once, where nothing but motors drives the scene and each pose has a closed form.
 
 use super::Solver;
+use crate::constraint::Vector;
+use crate::diag::Diagnostic;
 use crate::solve::closed_form::{ClosedForm, Compiled, Found};
 use crate::solve::dispatch::write_back;
 use crate::solve::island::Island;
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
-use crate::world::{ConstraintId, World};
+use crate::solve::velocity;
+use crate::world::{ConstraintId, Extremes, Measuring, Rates, World};
 
 /// What frames came to that passed at once. Each was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,6 +22,16 @@ pub struct Stretch {
     pub residual: f64,
     /// The largest position error that was found next to a singular pose; else what was known.
     pub position_error: f64,
+}
+
+/// How far a stretch goes, and what is kept on the way.
+pub struct Along<'a> {
+    /// The most frames.
+    pub n: u64,
+    /// How the extremes of measures are found.
+    pub extremes: Extremes,
+    /// Whether it goes on after a frame.
+    pub goes_on: &'a dyn Fn() -> bool,
 }
 
 /// An island on its way through a stretch, with what it is driven by.
@@ -34,40 +47,47 @@ struct Rider {
 }
 
 impl Solver {
-    /// Lets frames pass, up to `n`, as long as each goes as most do: motors turn, and the closed
+    /// Lets frames pass as long as each goes as most do: motors turn, and the closed
     /// forms of what they drive give the pose. Ends before the first that does not, and after the
     /// first after which `goes_on` says no. What comes out is what frame by frame would.
+    ///
+    /// # Errors
+    /// Where a measure has no value in a frame.
     pub fn stretch(
         &mut self,
         world: &mut World,
         settings: &Settings,
         budget: &Budget,
-        n: u64,
-        goes_on: &dyn Fn() -> bool,
-    ) -> Stretch {
+        on: &Along,
+    ) -> Result<Stretch, Diagnostic> {
         let mut stretch = Stretch { position_error: budget.known_error, ..Stretch::default() };
         let is_plain = settings.method == Method::Auto
             && self.is_up_to_date(world, settings)
             && self.unsolved.is_empty()
             && self.unsatisfiable.is_empty();
         if !is_plain {
-            return stretch;
+            return Ok(stretch);
         }
         let dt = world.clock().dt;
         let mut riders = self.riders(world, dt);
         if riders.is_empty() {
-            return stretch;
+            return Ok(stretch);
         }
-        let is_traced = !world.traces().is_empty();
+        let is_measured = world.has_measures();
+        let is_traced = !world.traces().is_empty() || is_measured;
+        let mut failure = None;
         let course = Course { dt, tolerance: budget.tolerance_of(settings), budget };
-        while stretch.n_frames < n && course.frame(&mut riders, &mut stretch) {
+        while stretch.n_frames < on.n && course.frame(&mut riders, &mut stretch) {
             stretch.n_frames += 1;
             if is_traced {
                 riders.iter().for_each(|rider| write_back(&rider.island, world));
                 world.pass(1);
                 world.sample_traces(false);
             }
-            if !goes_on() {
+            if is_measured {
+                failure = measure(&mut riders, world, on.extremes).err();
+            }
+            if failure.is_some() || !(on.goes_on)() {
                 break;
             }
         }
@@ -80,7 +100,7 @@ impl Solver {
             let k = rider.k;
             self.partition.give_back(k, rider.dismount(stretch.n_frames, world));
         }
-        stretch
+        failure.map_or(Ok(stretch), Err)
     }
 
     /// All islands that are awake, if each is at rest but for motors, and these are all that turn;
@@ -113,6 +133,23 @@ impl Solver {
         }
         riders
     }
+}
+
+/// Measures the pose of a frame, which the world has all of but how far motors have turned.
+fn measure(riders: &mut [Rider], world: &mut World, extremes: Extremes) -> Result<(), Diagnostic> {
+    for Rider { island, form, .. } in riders.iter() {
+        form.hand_over(&island.constraints, &island.ids, world);
+    }
+    let mut rates = |world: &mut World| {
+        let still = || vec![Vector::ZERO; world.points().column().len()];
+        let mut rates = Rates { velocity: still(), acceleration: still() };
+        for rider in riders.iter_mut() {
+            // Nothing but motors changes in time.
+            velocity::add_rates(&mut rider.island, &[], &mut rates);
+        }
+        Ok(rates)
+    };
+    world.take_readings(false, &mut Measuring { extremes, is_met: true, rates: &mut rates })
 }
 
 /// What all frames of a stretch have in common.

@@ -24,7 +24,7 @@ const EDGES: [&str; 14] = [
 ];
 
 /// What is asked, and what has an end of its own.
-const OTHERS: [&str; 36] = [
+const OTHERS: [&str; 41] = [
     "check",
     "effects",
     "list",
@@ -53,6 +53,11 @@ const OTHERS: [&str; 36] = [
     "record \"c.csv\"",
     "record stop",
     "record \"d.svg\"",
+    "list measures",
+    "d1",
+    "result a = d1.max, \"b c\" = C in deg",
+    "print d1.mean, d2.count, d2.at_min",
+    "set measures sampled",
     "sample \"s\" = B.x",
     "plot \"p.svg\"",
     "accuracy",

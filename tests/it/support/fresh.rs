@@ -2,9 +2,11 @@
 //! from one command to the next.
 
 use linkwork::constraint::{Constraint, ConstraintKind as _, Field, Point, Vec2};
-use linkwork::diag::Diagnostic;
-use linkwork::terms::Member;
-use linkwork::world::{ConstraintId, Environment, ParameterId, PointId, Turning, Value, World};
+use linkwork::diag::{Diagnostic, Span};
+use linkwork::terms::{Member, Statistic};
+use linkwork::world::{
+    ConstraintId, Environment, MeasureId, ParameterId, PointId, Turning, Value, World,
+};
 
 /// A world as its formulas see it: each parameter is what its own formula gives now.
 struct Fresh<'a>(&'a World);
@@ -45,6 +47,10 @@ impl Environment<f64> for Fresh<'_> {
             Some(Constraint::Motor(motor)) if member == Member::Angle => Ok(motor.total()),
             other => unreachable!("{member:?} of {other:?} drives nothing"),
         }
+    }
+
+    fn statistic(&self, id: MeasureId, which: Statistic, _: Span) -> Result<f64, Diagnostic> {
+        unreachable!("{which:?} of {id:?} drives nothing")
     }
 
     fn rates(&self, _id: PointId) -> Option<(Vec2<f64>, Vec2<f64>)> {

@@ -47,6 +47,7 @@ fn simple_command() -> BoxedStrategy<Command> {
         12 => changing().prop_map(Command::from),
         6 => running().prop_map(Command::from),
         12 => looking().prop_map(Command::from),
+        4 => measuring().prop_map(Command::from),
         8 => pictures().prop_map(Command::from),
         6 => building().prop_map(Command::from),
     ]
@@ -217,6 +218,22 @@ fn looking() -> BoxedStrategy<Looking> {
         of(ident()).prop_map(Looking::Examples),
         Just(Looking::History),
         Just(Looking::Quit),
+    ]
+    .boxed()
+}
+
+fn measuring() -> BoxedStrategy<Measuring> {
+    let unit = || prop_oneof![Just(Unit::None), select(Unit::ALL.to_vec())];
+    let label = prop_oneof![name().prop_map(Label::Name), text().prop_map(Label::Text)];
+    let item =
+        (label, expr(), unit()).prop_map(|(label, value, unit)| ResultItem { label, value, unit });
+    prop_oneof![
+        (name(), expr(), unit()).prop_map(|(name, value, unit)| Measuring::Measure {
+            name,
+            value,
+            unit
+        }),
+        vec(item, 1..4).prop_map(Measuring::Result),
     ]
     .boxed()
 }

@@ -78,7 +78,7 @@ fn every_position_is_completed_by_what_fits_it() {
         ("print crank.an", "print crank.angle"),
         ("print crank.angle in re", "print crank.angle in rev"),
         ("point Q = (0, 0) fr", "point Q = (0, 0) frozen "),
-        ("set me", "set method"),
+        ("set met", "set method"),
         ("set method ne", "set method ne"),
         ("set method new", "set method newton"),
         ("set dead-points st", "set dead-points stop"),

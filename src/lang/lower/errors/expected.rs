@@ -48,7 +48,7 @@ impl Expected {
                 Rule::example => expected.add("the name of an example"),
                 Rule::string => {
                     let is_path = match verb {
-                        "print" | "sample" => false,
+                        "print" | "sample" | "result" => false,
                         "plot" => is_first,
                         _ => true,
                     };
@@ -61,6 +61,7 @@ impl Expected {
                 | Rule::pair
                 | Rule::binding
                 | Rule::point_decl
+                | Rule::result_item
                 | Rule::drag_target => expected.add(noun(verb, is_first)),
                 Rule::selection => {
                     expected.add(noun(verb, is_first));

@@ -190,7 +190,10 @@ pub(crate) fn unknown_list(word: &Ident, known: &[&str]) -> Diagnostic {
         errors::UNKNOWN_LIST,
         format!("there is no list of `{}`", brief(&word.text)),
     )
-    .at(word.span, "expected `points`, `constraints`, `traces`, `parameters` or `definitions`");
+    .at(
+        word.span,
+        "expected `points`, `constraints`, `traces`, `parameters`, `measures` or `definitions`",
+    );
     match nearest(&word.text, known.iter().copied()) {
         Some(near) => problem.help(format!("did you mean `{near}`?")),
         None => problem.help(format!("to see one thing, write `show {}`", brief(&word.text))),
