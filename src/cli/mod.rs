@@ -17,6 +17,7 @@ pub(crate) mod output;
 mod process_host;
 mod progress;
 mod run;
+mod seen;
 mod spool;
 mod watch;
 mod wrap;

@@ -199,7 +199,7 @@ pub fn draw(what: Drawable) {
     flush();
     progress::clear();
     let (n_columns, n_rows) = page_size();
-    if let Some(picture) = graphics::picture(what, n_columns, n_rows) {
+    if let Some(picture) = graphics::picture(what, [n_columns, n_rows], wants_colours()) {
         let mut answers = answers();
         answers.n_bytes += picture.len() as u64;
         return answers.write(|out| out.write_all(&picture));

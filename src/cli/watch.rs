@@ -2,14 +2,13 @@
 //!
 //! On a terminal each run ends with a picture of what it came to.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::thread::sleep;
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use super::args::WatchArguments;
 use super::process_host::ProcessHost;
 use super::run::{self, ExitStatus};
+use super::seen::Seen;
 use super::{files, interrupt, output};
 
 /// How long a change goes unnoticed at most: short beside the time it takes to look up.
@@ -32,7 +31,7 @@ pub fn watch(arguments: &WatchArguments) -> ExitStatus {
         }
         let seen = host.seen();
         if !arguments.host.quiet {
-            let what = match seen.files.len() {
+            let what = match seen.n_files() {
                 1 => "it changes".to_owned(),
                 n => format!("one of {n} files changes"),
             };
@@ -45,30 +44,5 @@ pub fn watch(arguments: &WatchArguments) -> ExitStatus {
             }
             sleep(PAUSE);
         }
-    }
-}
-
-/// The files that a run read, and when they were written before that.
-#[derive(Debug, Default)]
-pub struct Seen {
-    files: BTreeMap<PathBuf, Stamp>,
-}
-
-/// When a file was written and how long it is; none while it is missing.
-type Stamp = Option<(SystemTime, u64)>;
-
-fn stamp(file: &Path) -> Stamp {
-    let about = std::fs::metadata(file).ok()?;
-    Some((about.modified().ok()?, about.len()))
-}
-
-impl Seen {
-    /// Notes how a file is before it is read: a change that comes while it is read is one.
-    pub fn note(&mut self, file: &Path) {
-        self.files.entry(file.to_path_buf()).or_insert_with(|| stamp(file));
-    }
-
-    fn has_changed(&self) -> bool {
-        self.files.iter().any(|(file, seen)| stamp(file) != *seen)
     }
 }

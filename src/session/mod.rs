@@ -38,6 +38,7 @@ mod state;
 mod summary;
 mod transcript;
 mod undo;
+mod value_text;
 
 use std::path::PathBuf;
 

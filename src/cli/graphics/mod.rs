@@ -13,7 +13,6 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::ValueEnum;
 
-use super::output;
 use crate::render::{Drawable, Pixels};
 
 /// How pictures are shown in a terminal.
@@ -61,8 +60,12 @@ const CELL: [usize; 2] = [10, 20];
 const FINE_CELL: [usize; 2] = [16, 32];
 
 /// What shows a picture, for a terminal of so many columns and rows; none where letters have to do.
-pub fn picture(of: Drawable, n_columns: usize, n_rows: usize) -> Option<Vec<u8>> {
-    let screen = screen();
+pub fn picture(
+    of: Drawable,
+    [n_columns, n_rows]: [usize; 2],
+    wants_colours: bool,
+) -> Option<Vec<u8>> {
+    let screen = screen(wants_colours);
     let protocol = screen.protocol?;
     let [wide, high] = screen.cell;
     let pixels = Pixels::of(&of.svg(), [n_columns * wide, n_rows * high]);
@@ -75,7 +78,7 @@ pub fn picture(of: Drawable, n_columns: usize, n_rows: usize) -> Option<Vec<u8>>
 }
 
 /// What is known of the terminal; it is asked once.
-fn screen() -> Screen {
+fn screen(wants_colours: bool) -> Screen {
     static KNOWN: Mutex<Option<Screen>> = Mutex::new(None);
     let letters = Screen { protocol: None, cell: CELL };
     let fine = |protocol| Screen { protocol: Some(protocol), cell: FINE_CELL };
@@ -87,7 +90,7 @@ fn screen() -> Screen {
         Graphics::Kitty => fine(Protocol::Kitty),
         Graphics::Iterm => fine(Protocol::Iterm),
         Graphics::Sixel => Screen { protocol: Some(Protocol::Sixel), cell: CELL },
-        Graphics::Auto if !output::wants_colours() => letters,
+        Graphics::Auto if !wants_colours => letters,
         Graphics::Auto => {
             let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(screen) = *known {

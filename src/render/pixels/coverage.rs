@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::{Paint, Pixels};
+use super::image::{Paint, Pixels};
 use crate::constraint::Point;
 
 /// What of overlapping areas counts.
@@ -110,7 +110,7 @@ impl Coverage {
         let rows = std::mem::replace(&mut self.rows, self.height..0);
         for row in rows {
             let steps = &mut self.steps[row * (self.width + 2)..][..self.width + 2];
-            let pixels = &mut onto.rgb[3 * row * self.width..][..3 * self.width];
+            let pixels = onto.row_mut(row);
             let mut sum = 0.0;
             for (step, pixel) in steps.iter().zip(pixels.chunks_exact_mut(3)) {
                 sum += step;

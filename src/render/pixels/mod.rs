@@ -5,28 +5,17 @@
 //! (`coverage`).
 
 mod coverage;
+mod image;
 mod letters;
 mod markup;
 mod outline;
 
 use coverage::{Coverage, Rule};
+use image::Paint;
+pub use image::Pixels;
 use letters::Font;
 use markup::{Element, Look};
 use outline::{Contour, Transform};
-
-/// A picture, three bytes a pixel, red, green and blue, rows from the top.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Pixels {
-    width: usize,
-    rgb: Vec<u8>,
-}
-
-/// A colour and how much of what lies below it hides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Paint {
-    rgb: [u8; 3],
-    opacity: f32,
-}
 
 /// The longest side of a picture, pixels.
 const MOST: f64 = 8192.0;
@@ -53,23 +42,13 @@ impl Pixels {
         let side = |px: f64| ((px * scale).round() as usize).max(1);
         let (width, height) = (side(width), side(height));
         let mut canvas = Canvas {
-            pixels: Self { width, rgb: vec![255; 3 * width * height] },
+            pixels: Self::white(width, height),
             coverage: Coverage::new(width, height),
             contours: Vec::new(),
         };
         let all = Transform::scaling(scale);
         document.visit(&mut |element, look| canvas.draw(element, look, all));
         canvas.pixels
-    }
-
-    /// Columns and rows.
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.rgb.len() / 3 / self.width]
-    }
-
-    /// Its bytes, three a pixel.
-    pub fn rgb(&self) -> &[u8] {
-        &self.rgb
     }
 }
 

@@ -4,9 +4,7 @@ use std::fmt::Write;
 
 use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{
-    Diagnostic, Kind, Span, format_counted, format_digits, format_number, format_rounded, suggest,
-};
+use crate::diag::{Diagnostic, Kind, Span, format_counted, format_number, format_rounded, suggest};
 use crate::errors;
 use crate::interrupt::tick;
 use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
@@ -18,28 +16,10 @@ use crate::session::execution::Execution;
 use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::Unbind;
 use crate::session::state::State;
+use crate::session::value_text::{format_value, format_value_in};
 use crate::solve::{Method, present};
 use crate::terms::{Function, Statistic, Unit};
 use crate::world::{ConstraintId, Entity, Measure, PointId, Value, World};
-
-/// A value as `print` writes it.
-pub(crate) fn format_value(value: Value) -> String {
-    match value {
-        Value::Number(n) => format_number(n),
-        Value::Vector(v) => format!("({}, {})", format_number(v.x), format_number(v.y)),
-    }
-}
-
-/// A value for readers, a number in a unit that is not the number's own.
-fn format_value_in(value: Value, unit: Unit) -> String {
-    match value {
-        Value::Number(n) if unit != Unit::None => {
-            // Fifteen digits are what a product of two numbers keeps.
-            format!("{}{}", format_digits(n / unit.scale(), 15), unit.suffix())
-        }
-        value => format_value(value),
-    }
-}
 
 /// What the writing of a line takes, in ticks.
 const LINE: usize = 1000;
