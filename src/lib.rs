@@ -59,6 +59,7 @@ mod interrupt;
 pub mod lang;
 #[doc(hidden)]
 pub mod linalg;
+pub mod live;
 #[doc(hidden)]
 pub mod mobility;
 pub mod render;

@@ -63,6 +63,9 @@ pub enum Invocation {
     Fmt(Deferred<FormatArguments>),
     /// Run a script again whenever it is saved, or a file that it includes.
     Watch(Deferred<WatchArguments>),
+    /// Run a script, show the mechanism in a browser, and go on at the prompt: what is typed shows at
+    /// once, and what the mouse does is written as statements.
+    View(Deferred<ViewArguments>),
     /// Print what completes the command line in a shell.
     Completions(Deferred<CompletionArguments>),
     /// Print the manual page.
@@ -180,6 +183,20 @@ pub struct WatchArguments {
     /// The script. It need not be there yet.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    /// How it talks and where it writes.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
+/// A session to be looked at.
+#[derive(Debug, Args)]
+pub struct ViewArguments {
+    /// The script; without one the world is empty.
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Serve the page at this port of this machine, not at any that is free.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub port: Option<u16>,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -313,6 +330,7 @@ impl Invocation {
             | Self::Effects(Deferred(ExamineArguments { host, .. }))
             | Self::Examples(Deferred(ExampleArguments { host, .. }))
             | Self::Watch(Deferred(WatchArguments { host, .. }))
+            | Self::View(Deferred(ViewArguments { host, .. }))
             | Self::Help(Deferred(HelpArguments { host, .. })) => Some(host),
             Self::Fmt(_) | Self::Completions(_) | Self::Man | Self::Lsp => None,
         }

@@ -14,11 +14,12 @@ mod language_server;
 mod lines;
 mod manual;
 pub(crate) mod output;
-mod process_host;
+pub(crate) mod process_host;
 mod progress;
 mod run;
 mod seen;
 mod spool;
+pub(crate) mod view;
 mod watch;
 mod wrap;
 
@@ -41,6 +42,7 @@ pub fn run() -> ExitCode {
         Some(Invocation::Help(Deferred(wish))) => inform::help(&wish),
         Some(Invocation::Fmt(Deferred(arguments))) => format::format_all(&arguments),
         Some(Invocation::Watch(Deferred(arguments))) => watch::watch(&arguments),
+        Some(Invocation::View(Deferred(arguments))) => run::view(&arguments),
         Some(Invocation::Completions(Deferred(arguments))) => {
             manual::completions(&arguments, args::command())
         }

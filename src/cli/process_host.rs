@@ -11,6 +11,7 @@ use super::journal::{self, Journal};
 use super::progress::ProgressBar;
 use super::seen::Seen;
 use super::spool::FileSpool;
+use super::view::View;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Drawable;
@@ -36,6 +37,10 @@ pub struct ProcessHost {
     bar: ProgressBar,
     /// What was read, where somebody wants to know.
     seen: Option<Seen>,
+    /// Whether it goes on after a statement, so that pages may look at the session.
+    pub(super) may_view: bool,
+    /// The pages that do.
+    pub(super) view: Option<View>,
 }
 
 /// Where what an example includes is looked for: no folder, it comes with the program.
@@ -59,6 +64,8 @@ impl ProcessHost {
             begun: Instant::now(),
             bar: ProgressBar::default(),
             seen: None,
+            may_view: false,
+            view: None,
         }
     }
 
@@ -75,6 +82,18 @@ impl ProcessHost {
 }
 
 impl ProcessHost {
+    /// Lets pages look at the session, at a port or at any that is free; gives where.
+    ///
+    /// # Errors
+    /// Where the port is not to be had.
+    pub fn open_view(&mut self, port: Option<u16>) -> io::Result<String> {
+        let view = match self.view.take() {
+            Some(view) => view,
+            None => View::open(port)?,
+        };
+        Ok(self.view.insert(view).address().to_owned())
+    }
+
     /// From here on what is typed is kept in a journal; where that cannot be, it is not.
     pub fn begin_journal(&mut self) {
         self.journal = Journal::begin().ok();
@@ -231,6 +250,10 @@ impl Host for ProcessHost {
         if !self.is_quiet {
             self.bar.show(share);
         }
+    }
+
+    fn view(&mut self) -> io::Result<String> {
+        if self.may_view { self.open_view(None) } else { Err(io::ErrorKind::Unsupported.into()) }
     }
 
     fn seconds(&self) -> Option<f64> {

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::sync_channel;
 
-use super::args::{HostArguments, Scripts, command_names};
+use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output};
+use super::{files, init, interrupt, journal, output, view};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, format_counted, nearest};
 use crate::errors;
 use crate::lang::Growing;
@@ -253,7 +253,35 @@ pub fn session(host: &HostArguments) -> ExitStatus {
     converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
 }
 
+/// A session that a page looks at, after a script if there is one.
+pub fn view(arguments: &ViewArguments) -> ExitStatus {
+    let host = &arguments.host;
+    let mut session = begin(host);
+    let folder = arguments.file.as_deref().map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    if let Some(file) = &arguments.file {
+        match add(file, &mut session) {
+            Ok(source) if session.run_text(source, &mut process).flow == Flow::Quit => {
+                return end(&mut session, &mut process);
+            }
+            Ok(_) => {}
+            Err(status) => return status,
+        }
+    }
+    match process.open_view(arguments.port) {
+        Ok(address) => output::answer(&address),
+        Err(e) => {
+            let why = format!("no page can be shown: {}", reason(&e));
+            output::show(&Diagnostic::error(errors::NO_PAGE, why), session.sources());
+            return ExitStatus::Unreadable;
+        }
+    }
+    output::flush();
+    converse(&mut session, &mut process, host)
+}
+
 fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArguments) -> ExitStatus {
+    process.may_view = true;
     let status = if io::stdin().is_terminal() {
         prompt(session, process, host);
         ExitStatus::Fine
@@ -272,7 +300,7 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if !host.no_init {
         init::run(session, process);
     }
-    kept(session, process, host, |session, process| crate::repl::converse(session, process));
+    kept(session, process, host, crate::repl::converse);
 }
 
 /// A conversation of which a journal is kept, unless the user wants none: each statement is written down
@@ -305,7 +333,7 @@ pub(super) fn kept<T>(
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
-fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
+fn typed_ahead(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
     let mut status = ExitStatus::Fine;
     let mut piece = Growing::default();
@@ -318,7 +346,7 @@ fn typed_ahead(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
         ExitStatus::Unreadable
     };
     loop {
-        let line = match lines.next() {
+        let line = match view::meanwhile(session, host, || lines.next()) {
             Ok(line) => line,
             Err(e) => return unreadable(&e, session),
         };

@@ -115,6 +115,11 @@ impl Sources {
         Some((SourceId(self.all.len() as u32 - 1), source))
     }
 
+    /// What the next text will be called.
+    pub fn next_id(&self) -> SourceId {
+        SourceId(u32::try_from(self.all.len()).expect("fewer than 2^32 texts"))
+    }
+
     /// The text that was added first.
     pub fn first(&self) -> Option<&Source> {
         self.get(SourceId(0))

@@ -85,4 +85,11 @@ super::kinds! {
         wrong: "",
         right: "",
     }
+    714 NO_PAGE {
+        title: "no page can be shown",
+        help: "`view` is for a session that goes on: a prompt, or `linkwork view FILE`. Where a port is\n\
+             taken, `--port` names another, and without it any that is free will do.",
+        wrong: "view",
+        right: "",
+    }
 }

@@ -47,6 +47,9 @@ mod text;
 mod pixels;
 mod sketch;
 
+// Figures for who draws them.
+mod drawing;
+
 // Figures in motion.
 mod animation;
 mod animation_tracks;
@@ -56,9 +59,12 @@ mod trace_animation;
 pub use animation::{Animation, is_shown};
 pub use document::{FIRST_WORDS, Options};
 pub use drawable::Drawable;
+pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
+pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 #[cfg(feature = "terminal")]
 pub use pixels::Pixels;
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
+pub(crate) use style::PAPER;
 pub use view::View;

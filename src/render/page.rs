@@ -19,6 +19,11 @@ pub struct BoundingBox {
 }
 
 impl BoundingBox {
+    /// The lower left and the upper right corner, if there is anything in it.
+    pub const fn corners(&self) -> Option<(Point, Point)> {
+        self.corners
+    }
+
     /// Grows to hold a point.
     pub fn include(&mut self, p: Point) {
         let (lo, hi) = self.corners.unwrap_or((p, p));
@@ -77,6 +82,20 @@ impl Page {
         }
     }
 
+    /// What lies in `bounds` at a scale of its own, without a page around it: places are px from the
+    /// origin, or from the middle of what lies too far from there. A scale that is none is that of the
+    /// page that shows all.
+    pub fn at_scale(bounds: &BoundingBox, scale: Option<f64>) -> Self {
+        /// px that single precision tells apart to a hundredth.
+        const FAR: f64 = 1e5;
+        let fitted = Self::fit(bounds);
+        let scale = scale.filter(|scale| scale.is_normal() && *scale > 0.0);
+        let scale = scale.unwrap_or(fitted.scale);
+        let is_near = fitted.centre.to_vector().norm() * scale < FAR;
+        let centre = if is_near { Point::ORIGIN } else { fitted.centre };
+        Self { scale, centre, width: 0.0, height: 0.0, ..fitted }
+    }
+
     /// The same page with marks and strokes in proportion to bars of `typical` length, world
     /// units, so that a crowd of short bars does not become a blot.
     #[must_use]
@@ -96,6 +115,11 @@ impl Page {
     /// How long something is on the page, px.
     pub fn length(&self, world: f64) -> f64 {
         world * self.scale
+    }
+
+    /// What lies in the middle of the drawing.
+    pub const fn centre(&self) -> Point {
+        self.centre
     }
 
     /// px per world unit.

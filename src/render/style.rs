@@ -120,13 +120,19 @@ pub enum Class {
 
 /// How a class is drawn; widths and dashes in px.
 #[derive(Debug, Clone, Copy)]
-struct Look {
-    name: &'static str,
-    fill: &'static str,
-    stroke: &'static str,
-    width: f64,
-    dash: &'static [f64],
-    opacity: f64,
+pub struct Look {
+    /// The name that classes of this look have in common.
+    pub name: &'static str,
+    /// The colour of the area, or `none`.
+    pub fill: &'static str,
+    /// The colour of the line, or `none`.
+    pub stroke: &'static str,
+    /// How wide the line is.
+    pub width: f64,
+    /// How long its dashes and gaps are in turn; nothing where it is not dashed.
+    pub dash: &'static [f64],
+    /// From 0, not there, to 1.
+    pub opacity: f64,
 }
 
 const fn line(name: &'static str, stroke: &'static str, width: f64) -> Look {
@@ -151,7 +157,8 @@ pub const fn colour_number(idx: usize) -> u8 {
 }
 
 impl Class {
-    const fn look(self) -> Look {
+    /// How it is drawn at full size.
+    pub const fn look(self) -> Look {
         match self {
             Self::RodEdge => line("rod-edge", INK, 2.0 * HALF_ROD),
             Self::Rod => line("rod", STEEL, 2.0 * HALF_ROD - 2.6),

@@ -63,6 +63,11 @@ impl View {
         Ok(Self { page, lettering: lettering::place(&probes, &page) })
     }
 
+    /// A page on which names stand so.
+    pub(super) const fn new(page: Page, lettering: Lettering) -> Self {
+        Self { page, lettering }
+    }
+
     pub(super) const fn page(&self) -> &Page {
         &self.page
     }
@@ -109,7 +114,7 @@ impl View {
 }
 
 /// The length of a bar that a quarter of all bars fall short of; 0 if there is none.
-fn typical_bar(pose: &DrawnPose) -> f64 {
+pub(super) fn typical_bar(pose: &DrawnPose) -> f64 {
     let mut lengths: Vec<f64> = pose.bar_lengths().collect();
     lengths.sort_by(f64::total_cmp);
     lengths.get(lengths.len() / 4).copied().unwrap_or(0.0)

@@ -8,7 +8,9 @@ use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
 use crate::cli::output;
-use crate::session::{Flow, Host, PROMPT, Session, Transcript, without_prompts};
+use crate::cli::process_host::ProcessHost;
+use crate::cli::view;
+use crate::session::{Flow, PROMPT, Session, Transcript, without_prompts};
 
 /// Says who is there, and what to type first.
 pub fn greet() {
@@ -21,7 +23,7 @@ pub fn greet() {
 }
 
 /// Talks with the user until they leave.
-pub fn converse(session: &mut Session, host: &mut dyn Host) {
+pub fn converse(session: &mut Session, host: &mut ProcessHost) {
     let mut editor = match editor::open() {
         Ok(editor) => editor,
         Err(e) => {
@@ -34,7 +36,8 @@ pub fn converse(session: &mut Session, host: &mut dyn Host) {
     let mut transcript = Transcript::conversation("<prompt>");
     loop {
         editor::prepare(&mut editor, session);
-        match interrupt::at_prompt(|| editor.readline(PROMPT)) {
+        let line = || interrupt::at_prompt(|| editor.readline(PROMPT));
+        match view::meanwhile(session, host, line) {
             _ if interrupt::is_ending() => return,
             Ok(line) => {
                 let line = look::without_marks(&line);

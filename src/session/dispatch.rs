@@ -118,6 +118,7 @@ impl Execution<'_> {
             Looking::Help(topic) => self.help(topic.as_ref())?,
             Looking::History => self.tell_history(),
             Looking::Examples(name) => self.examples(name.as_ref())?,
+            Looking::View => self.view(span)?,
             Looking::Quit => return Ok(Flow::Quit),
         }
         Ok(Flow::On)

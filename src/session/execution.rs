@@ -114,10 +114,7 @@ impl<'a> Execution<'a> {
         });
         match result {
             Ok(flow) => {
-                self.history.last_motion.end(self.state.world.revision());
-                self.report_run();
-                let label = self.input.label(statement.span);
-                self.history.commit(self.state, &label, &self.input.quotas);
+                self.complete(statement);
                 Ok(flow)
             }
             Err(problem) => {
@@ -125,6 +122,14 @@ impl<'a> Execution<'a> {
                 Err(problem)
             }
         }
+    }
+
+    /// The command has done all that its statement says: it can be taken back from here on.
+    pub fn complete(&mut self, statement: &Statement) {
+        self.history.last_motion.end(self.state.world.revision());
+        self.report_run();
+        let label = self.input.label(statement.span);
+        self.history.commit(self.state, &label, &self.input.quotas);
     }
 
     /// Ends recordings that still run and writes them.

@@ -141,6 +141,15 @@ pub trait Host {
         Ok(Box::new(Vec::new()))
     }
 
+    /// Lets a page look at the session from here on; gives its address.
+    ///
+    /// # Errors
+    /// [`Unsupported`](io::ErrorKind::Unsupported) where nothing follows the statement, or there are
+    /// no pages.
+    fn view(&mut self) -> io::Result<String> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+
     /// Told how much of a long piece of work is done, from 0 to 1.
     fn progress(&self, _share: f64) {}
 

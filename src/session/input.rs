@@ -16,8 +16,8 @@ pub struct Input {
     folders: HashMap<SourceId, PathBuf>,
     /// Values that the user gave from outside; they win over a `let`.
     pub overrides: BTreeMap<String, Override>,
-    /// The statements that were typed and carried out.
-    typed: Vec<Span>,
+    /// The statements that were typed and carried out, and whether they changed something.
+    typed: Vec<(Span, bool)>,
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
@@ -64,13 +64,24 @@ impl Input {
     }
 
     /// Remembers a statement that was typed and carried out.
-    pub fn note_typed(&mut self, statement: Span) {
-        self.typed.push(statement);
+    pub fn note_typed(&mut self, statement: Span, leaves_a_mark: bool) {
+        self.typed.push((statement, leaves_a_mark));
+    }
+
+    /// How many were typed and carried out.
+    pub fn n_typed(&self) -> usize {
+        self.typed.len()
+    }
+
+    /// Those from the `n`th on that changed something.
+    pub fn changes_since(&self, n: usize) -> impl Iterator<Item = &str> {
+        let since = self.typed[n.min(self.typed.len())..].iter();
+        since.filter(|(_, leaves_a_mark)| *leaves_a_mark).map(|&(span, _)| self.sources.slice(span))
     }
 
     /// What was typed and carried out, statement by statement.
     pub fn typed(&self) -> impl Iterator<Item = &str> {
-        self.typed.iter().map(|&span| self.sources.slice(span))
+        self.typed.iter().map(|&(span, _)| self.sources.slice(span))
     }
 
     /// Where what a text includes is looked for.

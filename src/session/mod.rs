@@ -10,6 +10,7 @@
 mod advice;
 mod answer;
 mod ask;
+mod attempt;
 mod commands;
 mod completion;
 mod culprits;
@@ -22,6 +23,7 @@ mod host;
 mod input;
 mod json;
 mod output_file;
+mod overview;
 mod parcel;
 mod preferences;
 mod quotas;
@@ -44,13 +46,16 @@ use std::path::PathBuf;
 
 pub use answer::Answer;
 pub use ask::evaluate_binding;
+pub use attempt::Attempt;
 pub use commands::accuracy::Telling;
 pub use commands::diagnose::{Check, FromHere, Unsatisfiable};
 pub use commands::effects::{EffectRow, Effects};
+pub use commands::ongoing::Ongoing;
 pub use completion::{Candidate, Completion, Offer, Piece};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
 pub use host::{Clock, Host, Kept, Nowhere, contained, reason};
+pub use overview::{ConstraintView, Offence, ParameterView, Standing};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
 pub use results::Results;
@@ -280,6 +285,16 @@ impl Session {
         self.input.typed()
     }
 
+    /// How many statements were typed and carried out.
+    pub fn n_typed(&self) -> usize {
+        self.input.n_typed()
+    }
+
+    /// Those of them from the `n`th on that changed something.
+    pub fn changes_since(&self, n: usize) -> impl Iterator<Item = &str> {
+        self.input.changes_since(n)
+    }
+
     /// Tells the host's journal all there is: what follows is told statement by statement.
     pub fn keep_whole(&mut self, host: &mut dyn Host) {
         if host.is_keeping() {
@@ -289,9 +304,10 @@ impl Session {
 
     /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
     fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
-        self.input.note_typed(statement.span);
+        let leaves_a_mark = transcript::leaves_a_mark(&statement.command);
+        self.input.note_typed(statement.span, leaves_a_mark);
         let is_unrepeatable = std::mem::take(&mut self.input.is_unrepeatable);
-        if !host.is_keeping() || !transcript::leaves_a_mark(&statement.command) {
+        if !host.is_keeping() || !leaves_a_mark {
             return;
         }
         if flow == Flow::Stopped {

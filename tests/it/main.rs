@@ -41,6 +41,7 @@ mod support;
 #[cfg(unix)]
 mod terminal;
 mod touches;
+mod view;
 mod watch;
 mod well_formed;
 mod words;

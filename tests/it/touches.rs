@@ -37,10 +37,11 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // Where its point is needs no solving.
     (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
     (Kind::Hinge, &["session/commands/touch.rs"]),
-    // What of a circle others name; an SVG document has circles of its own.
+    // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
         Kind::Curve,
         &[
+            "live/drawn.rs",
             "render/document.rs",
             "render/symbols/round.rs",
             "session/commands/touch.rs",

@@ -176,6 +176,11 @@ impl Changing {
         matches!(self, Self::Delete { .. } | Self::Off(_) | Self::On(_) | Self::Change { .. })
     }
 
+    /// Whether it gives something that is there another value.
+    pub(super) const fn is_adjustment(&self) -> bool {
+        matches!(self, Self::Off(_) | Self::On(_) | Self::Change { .. } | Self::Set { .. })
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {

@@ -48,6 +48,8 @@ pub enum Looking {
     History,
     /// `examples`, `examples four-bar`
     Examples(Option<Ident>),
+    /// `view`
+    View,
     /// `quit`, `exit`
     Quit,
 }
@@ -259,6 +261,18 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         },
     },
     Verb {
+        rule: Rule::view,
+        entry: Entry {
+            keyword: "view",
+            section: Section::Looking,
+            usage: "view",
+            summary: "show the mechanism in a browser, to be looked at and taken hold of",
+            help: "Prints the address of a page on this machine. What is typed shows there at once; what the\n\
+                 mouse does is written as statements. In a session only: `linkwork view FILE` begins one.",
+            example: "view",
+        },
+    },
+    Verb {
         rule: Rule::quit,
         entry: Entry {
             keyword: "quit",
@@ -302,6 +316,7 @@ impl Looking {
             Rule::help => Self::Help(c.setting_if_any()),
             Rule::history => Self::History,
             Rule::examples => Self::Examples(c.example_if_any()),
+            Rule::view => Self::View,
             Rule::bare => Self::Bare(print_items(c)?),
             Rule::quit => Self::Quit,
             _ => return Ok(None),
@@ -328,6 +343,7 @@ impl Looking {
             Self::Help(Some(word)) => write!(f, "help {word}"),
             Self::History => f.write_str("history"),
             Self::Examples(name) => write!(f, "examples{}", Clause(" ", name)),
+            Self::View => f.write_str("view"),
             Self::Quit => f.write_str("quit"),
         }
     }

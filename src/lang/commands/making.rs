@@ -174,6 +174,11 @@ impl Making {
         !matches!(self, Self::Drag { .. } | Self::Pull { .. })
     }
 
+    /// Whether it gives something that is there another value.
+    pub(super) const fn is_adjustment(&self) -> bool {
+        matches!(self, Self::Let(_) | Self::Move { .. })
+    }
+
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {

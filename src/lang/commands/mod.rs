@@ -95,6 +95,15 @@ impl Command {
         }
     }
 
+    /// Whether it does no more than to give something that is there another value.
+    pub const fn is_adjustment(&self) -> bool {
+        match self {
+            Self::Making(it) => it.is_adjustment(),
+            Self::Changing(it) => it.is_adjustment(),
+            _ => false,
+        }
+    }
+
     /// The command whose statement `rule` has read.
     pub(super) fn read(
         rule: Rule,

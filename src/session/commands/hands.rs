@@ -15,7 +15,7 @@ use crate::world::{Edit, PointId};
 
 /// What a hand does to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Grip {
+pub(super) enum Grip {
     /// Holds it, whatever that tears.
     Firm,
     /// Takes it as far as the constraints allow.
@@ -27,6 +27,14 @@ impl Grip {
         match self {
             Self::Firm => "dragged",
             Self::Soft => "pulled",
+        }
+    }
+
+    /// The command that does so.
+    pub const fn verb(self) -> &'static str {
+        match self {
+            Self::Firm => "drag",
+            Self::Soft => "pull",
         }
     }
 }
@@ -92,9 +100,7 @@ impl Execution<'_> {
         let status = self.settle(&Limits::default())?.status;
         let n_stops = hands.iter().map(Hand::n_pieces).max().unwrap_or(0);
         for k in 0..n_stops {
-            let pulled: Vec<_> = hands.iter().map(|hand| (hand.point, hand.stop(k))).collect();
-            let State { solver, world, preferences, .. } = &mut *self.state;
-            solver.pull(world, &preferences.solve, &Budget::default(), &pulled)?;
+            self.lead(&stops(&hands, k), Grip::Soft)?;
         }
         self.tell_unless_solved(status, &[]);
         Ok(Flow::On)
@@ -112,14 +118,33 @@ impl Execution<'_> {
                 ));
                 return Ok(Flow::Stopped);
             }
-            self.sync();
-            for hand in hands {
-                self.edit(Edit::Move(hand.point, hand.stop(k)));
-            }
-            status = self.settle(&Limits::default())?.status;
+            status = self.lead(&stops(hands, k), Grip::Firm)?.unwrap_or(status);
         }
         self.tell_unless_solved(status, hands);
         Ok(Flow::On)
+    }
+
+    /// Leads points to places while the clock stands still; gives how solving ended where those
+    /// that hold their points left something to solve.
+    pub(super) fn lead(
+        &mut self,
+        places: &[(PointId, Point)],
+        grip: Grip,
+    ) -> Result<Option<Status>, Diagnostic> {
+        match grip {
+            Grip::Soft => {
+                let State { solver, world, preferences, .. } = &mut *self.state;
+                solver.pull(world, &preferences.solve, &Budget::default(), places)?;
+                Ok(None)
+            }
+            Grip::Firm => {
+                self.sync();
+                for &(point, to) in places {
+                    self.edit(Edit::Move(point, to));
+                }
+                Ok(Some(self.settle(&Limits::default())?.status))
+            }
+        }
     }
 
     /// The hands of a statement, and how many frames they take.
@@ -173,4 +198,9 @@ impl Execution<'_> {
         }
         Ok((n, hands))
     }
+}
+
+/// Where hands stop at the end of their piece `k`.
+fn stops(hands: &[Hand], k: usize) -> Vec<(PointId, Point)> {
+    hands.iter().map(|hand| (hand.point, hand.stop(k))).collect()
 }

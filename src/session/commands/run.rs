@@ -1,7 +1,6 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
-use super::dead_point::{Next, WayBack};
-use super::pace::Pace;
+use super::dead_point::WayBack;
 use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_counted, format_digits, format_number,
     format_rounded,
@@ -15,7 +14,6 @@ use crate::session::host::NO_CLOCK;
 use crate::session::quotas::Quota;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::session::state::State;
-use crate::session::summary::Summary;
 use crate::solve::{Budget, Report, Settings, Status, Verdict, least_tolerance, verdict};
 use crate::study::{Hand, move_by};
 use crate::world::{PointId, World};
@@ -43,8 +41,8 @@ pub(super) struct Hands<'a> {
 /// So many frames, and the hands that are at work in them.
 #[derive(Clone, Copy)]
 pub(super) struct Frames<'a> {
-    n: u64,
-    hands: Hands<'a>,
+    pub n: u64,
+    pub hands: Hands<'a>,
 }
 
 /// What a user who wants to stop does to a frame on its way.
@@ -124,134 +122,9 @@ impl Execution<'_> {
         Ok(flow)
     }
 
-    /// Lets `n` frames pass, in which hands go their ways; gives how many did.
-    pub(super) fn frames(
-        &mut self,
-        n: u64,
-        limits: Limits,
-        span: Span,
-        hands: Hands,
-    ) -> Result<(Flow, u64), Diagnostic> {
-        let clock = self.state.world.clock();
-        if !(clock.time() + n as f64 * clock.dt).is_finite() {
-            return Err(Diagnostic::error(errors::OUT_OF_RANGE, "the clock does not go that far")
-                .at(span, format!("time would be beyond {}", format_number(f64::MAX))));
-        }
-        self.begin_motion();
-        let settings = self.state.preferences.solve;
-        let mut summary = self.run.take().unwrap_or(Summary::new());
-        summary.begin(&settings, limits.tolerance.unwrap_or(settings.tolerance));
-        let (n_before, n_missed_before) = (summary.n_frames, summary.n_missed);
-        let mut flow = Flow::On;
-        let begun = self.host.seconds();
-        self.begin_measures()?;
-        let leaves_nothing = self.state.world.traces().is_empty()
-            && !self.state.world.has_measures()
-            && self.state.recorders.is_empty()
-            && self.state.preferences.expose_every.is_none();
-        let mut way_back = None;
-        let mut last = Status::Converged;
-        // Of the frame before; what a command begins with it goes back to by itself.
-        let mut n_evaluations = (summary.n_frames > 0).then_some(0);
-        let frames = Frames { n, hands };
-        let is_told = n > 1 && self.begin_work();
-        let mut pace = Pace::new(self.may_stretch(&limits, hands));
-        let mut k = 0;
-        while k < n {
-            if is_told {
-                self.host.progress(k as f64 / n as f64);
-            }
-            if self.is_to_stop() {
-                flow = Flow::Stopped;
-                self.note_stop(format!("stopped after {k} of {}", format_counted(n, "frame")));
-                break;
-            }
-            if pace.is_due() && n - k > 1 {
-                let stretch = self.stretch(n - k, &limits, summary.error_on_the_way)?;
-                pace.note(stretch.n_frames);
-                if stretch.n_frames > 0 {
-                    k += stretch.n_frames;
-                    summary.add_stretch(&stretch, span);
-                    last = Status::Converged;
-                    continue;
-                }
-            }
-            k += 1;
-            // Frames that the time decides about are not the same when done again.
-            self.keep_way_back(&mut way_back, k, limits.seconds.is_some());
-            let limits = Limits { known_error: summary.error_on_the_way, ..limits };
-            let Ok(report) = self.frame_unless_stopped(k, frames, &limits, n_evaluations) else {
-                flow = Flow::Stopped;
-                self.note_stop(format!(
-                    "stopped after {} of {}",
-                    k - 1,
-                    format_counted(n, "frame")
-                ));
-                break;
-            };
-            let mut report = report?;
-            n_evaluations = Some(report.counters.evaluations);
-            if report.status != Status::Converged {
-                let next = self.met(way_back.is_some(), k, n);
-                if next != Next::On
-                    && let Some(way) = way_back.take()
-                {
-                    self.go_back_to(k, way, frames, &limits)?;
-                }
-                match next {
-                    Next::On => {}
-                    Next::Again(motors) => {
-                        motors.into_iter().for_each(|id| self.reverse(id));
-                        report = self.one_frame(k, frames, &limits, Stop::Allowed)?;
-                    }
-                    Next::Stop => break,
-                }
-            }
-            self.hold_to_promise(&mut report, &limits);
-            last = report.status;
-            summary.add(&report, self.state.world.clock().frame, span);
-            if !leaves_nothing {
-                self.keep_frame(is_missed(&report), span)?;
-            }
-        }
-        if is_told {
-            self.end_work();
-        }
-        summary.add_time(begun, self.host.seconds());
-        if let Some(tolerance) = limits.tolerance
-            && last == Status::Converged
-            && summary.n_frames > n_before
-        {
-            // What sleeps had no frame that could have missed.
-            let found = self.verdict_within(tolerance);
-            if !found.is_met() {
-                last = found.status.max(Status::Stalled);
-                summary.own_up(&found, self.state.world.clock().frame);
-            }
-        }
-        let is_asked = self.host.is_listening() || limits.tolerance.is_some();
-        if last != Status::Converged && summary.culprits.is_none() && is_asked {
-            let held: Vec<PointId> = hands.firm.iter().map(|hand| hand.point).collect();
-            summary.culprits = Some(self.state.culprits(last, &held));
-        }
-        let broken = summary.broken(n_missed_before).filter(|_| limits.tolerance.is_some());
-        let n_done = summary.n_frames - n_before;
-        let result = match broken {
-            None => Ok((flow, n_done)),
-            Some((message, label)) => {
-                let problem = Diagnostic::error(errors::BROKEN_PROMISE, message)
-                    .kind(Kind::Promise)
-                    .at(span, label);
-                Err(summary.culprits.iter().fold(problem, |problem, it| it.explain(problem)))
-            }
-        };
-        self.run = Some(summary);
-        result
-    }
-
     /// What a frame left is to be within the tolerance that was promised, also where rounding
     /// would have it otherwise.
-    fn hold_to_promise(&self, report: &mut Report, limits: &Limits) {
+    pub(super) fn hold_to_promise(&self, report: &mut Report, limits: &Limits) {
         let Some(tolerance) = limits.tolerance else { return };
         if report.status == Status::Converged && report.residual > tolerance {
             let found = self.verdict_within(tolerance);
@@ -263,7 +136,7 @@ impl Execution<'_> {
     }
 
     /// How the present pose stands by a tolerance.
-    fn verdict_within(&self, tolerance: f64) -> Verdict {
+    pub(super) fn verdict_within(&self, tolerance: f64) -> Verdict {
         verdict(&self.state.world, &Settings { tolerance, ..self.state.preferences.solve })
     }
 
@@ -326,7 +199,7 @@ impl Execution<'_> {
 
     /// Goes a way back, and does the frames from there up to `k` again. Each took its time
     /// already, so none is cut short: what comes out is what was.
-    fn go_back_to(
+    pub(super) fn go_back_to(
         &mut self,
         k: u64,
         way: WayBack,
@@ -481,6 +354,6 @@ impl Execution<'_> {
 }
 
 /// Whether a frame counts as missed.
-fn is_missed(report: &Report) -> bool {
+pub(super) fn is_missed(report: &Report) -> bool {
     report.status != Status::Converged || report.is_interrupted
 }

@@ -132,6 +132,11 @@ impl Journal {
         }
     }
 
+    /// The texts of the command that would be taken back next, and of the one that would be done again.
+    pub fn next_labels(&self) -> [Option<&str>; 2] {
+        [&self.done, &self.undone].map(|list| list.back().map(|(entry, _)| &*entry.label))
+    }
+
     /// The number that the command under way will have.
     pub const fn next_number(&self) -> u64 {
         self.n_commands

@@ -252,6 +252,13 @@ impl History {
         label
     }
 
+    /// Takes back the last command as if it had never been.
+    pub fn revoke(&mut self, state: &mut State) {
+        if let Some(entry) = self.journal.pop_done() {
+            invert(state, entry);
+        }
+    }
+
     fn step_back(&mut self, state: &mut State) -> Option<String> {
         let inverse = invert(state, self.journal.pop_done()?);
         let label = inverse.label.clone();

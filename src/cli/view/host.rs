@@ -1,0 +1,91 @@
+//! The process as a session sees it while it works for pages.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::server::Shared;
+use crate::cli::process_host::ProcessHost;
+use crate::diag::{Diagnostic, Sources};
+use crate::session::{Clock, Host, Kept, Spool, Wish};
+
+/// Files, clock and journal are those of the process; a page may stop what it asked for.
+pub struct PageHost<'a> {
+    pub process: &'a mut ProcessHost,
+    pub shared: Arc<Shared>,
+    /// Where the page is.
+    pub address: &'a str,
+}
+
+impl Host for PageHost<'_> {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn is_keeping(&self) -> bool {
+        self.process.is_keeping()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        self.process.keep(kept);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.shared.is_stopped() || self.process.is_interrupted()
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        let (shared, process) = (self.shared.clone(), self.process.wish_to_stop());
+        Some(Rc::new(move || shared.is_stopped() || process.as_ref().is_some_and(|wish| wish())))
+    }
+
+    fn forget_stop(&mut self) {
+        self.shared.forget_stop();
+        self.process.forget_stop();
+    }
+
+    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        self.process.resolve(path)
+    }
+
+    fn read(&mut self, path: &Path) -> io::Result<String> {
+        self.process.read(path)
+    }
+
+    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
+        self.process.find(folder, path)
+    }
+
+    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
+        self.process.opening(path)
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.process.write(path, bytes)
+    }
+
+    fn write_in_pieces(
+        &mut self,
+        path: &Path,
+        content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.process.write_in_pieces(path, content)
+    }
+
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        self.process.spool()
+    }
+
+    fn view(&mut self) -> io::Result<String> {
+        Ok(self.address.to_owned())
+    }
+
+    fn seconds(&self) -> Option<f64> {
+        self.process.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.process.clock()
+    }
+}

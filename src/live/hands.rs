@@ -1,0 +1,146 @@
+//! What goes on until it is told to end: a point that a page leads, and time that passes.
+
+use serde_json::{Value, json};
+
+use super::listener::{Listener, told};
+use super::{ClientId, Live, PAGE};
+use crate::constraint::Point;
+use crate::session::{Flow, Host, Ongoing, Session};
+use crate::world::PointId;
+
+/// Places of a gesture that are written in one statement; one that goes on is written in several.
+const MOST_PLACES: u64 = 5000;
+
+/// A point that a page holds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grip {
+    pub client: ClientId,
+    pub point: PointId,
+    /// Where it was led last.
+    pub place: Option<Point>,
+    /// Whether it is to be led there still.
+    pub is_to_move: bool,
+}
+
+impl Live {
+    pub(super) fn grab(
+        &mut self,
+        client: ClientId,
+        point: PointId,
+        session: &mut Session,
+        host: &mut dyn Host,
+    ) -> Value {
+        let refused =
+            |why: &str| json!({ "ok": false, "said": [{ "kind": "error", "text": why }] });
+        if self.grip.is_some() {
+            return refused("a point is held already");
+        }
+        self.close(session, host);
+        self.keep(session, host);
+        match session.take_hold(point, self.pace.is_some()) {
+            Ok(_) => {
+                self.grip = Some(Grip { client, point, place: None, is_to_move: false });
+                self.note_change();
+                json!({ "ok": true, "said": [] })
+            }
+            Err(problem) => refused(&problem.message),
+        }
+    }
+
+    pub(super) fn hold_still(&mut self, session: &Session) {
+        if let Some(grip) = &mut self.grip
+            && session.world().points().is_alive(grip.point)
+        {
+            grip.place = Some(session.world().points().at(grip.point));
+        }
+    }
+
+    /// One step of what goes on; whether another may follow.
+    pub(super) fn go_on(
+        &mut self,
+        to: Option<Point>,
+        session: &mut Session,
+        host: &mut dyn Host,
+    ) -> bool {
+        if self.ongoing.as_ref().is_some_and(|it| it.point().is_some() && it.len() >= MOST_PLACES) {
+            self.close(session, host);
+        }
+        if self.ongoing.is_none() {
+            self.ongoing = match self.grip {
+                None => Some(Ongoing::time()),
+                Some(grip) => session.take_hold(grip.point, self.pace.is_some()).ok(),
+            };
+        }
+        let Some(ongoing) = &mut self.ongoing else {
+            // It was deleted meanwhile.
+            self.grip = None;
+            return false;
+        };
+        let mut listener = Listener::new(host);
+        let result = session.go_on(ongoing, to, &mut listener);
+        let mut said = listener.said;
+        self.pose_number += 1;
+        let goes_on = matches!(result, Ok(Flow::On));
+        if let Err(problem) = result {
+            said.push(told(&problem, session.sources(), None));
+        }
+        self.say_to_all(&said);
+        if !goes_on {
+            host.forget_stop();
+            self.pace = None;
+            self.close(session, host);
+        }
+        goes_on
+    }
+
+    /// Writes what goes on as a statement; gives it.
+    pub(super) fn close(&mut self, session: &mut Session, host: &mut dyn Host) -> Option<String> {
+        let ongoing = self.ongoing.take()?;
+        let mut listener = Listener::new(host);
+        let result = session.end_ongoing(ongoing, PAGE, &mut listener);
+        let mut said = listener.said;
+        let statement = result.unwrap_or_else(|problem| {
+            said.push(told(&problem, session.sources(), None));
+            None
+        });
+        // A receipt is part of the state.
+        said.retain(|what| what["kind"] != "note" || statement.is_none());
+        self.say_to_all(&said);
+        self.note_change();
+        statement
+    }
+
+    /// Lets go of what is held.
+    pub(super) fn let_go(&mut self, session: &mut Session, host: &mut dyn Host) -> Value {
+        self.lead(session, host);
+        let statement = self.close(session, host);
+        self.grip = None;
+        self.note_change();
+        json!({ "ok": true, "said": [], "statement": statement })
+    }
+
+    pub(super) fn pause(&mut self, session: &mut Session, host: &mut dyn Host) {
+        if self.pace.take().is_some() {
+            self.close(session, host);
+            self.note_change();
+        }
+    }
+}
+
+/// Part of a px that nobody can point at.
+const FINEST: f64 = 0.05;
+
+/// A place with as many digits as can be pointed at where so many px are a world unit: its statement
+/// is then one that can be read.
+pub(super) fn rounded(place: Point, scale: f64) -> Point {
+    let mut factor = 1.0;
+    while factor * FINEST < scale && factor < 1e12 {
+        factor *= 10.0;
+    }
+    let round = |x: f64| {
+        let whole = (x * factor).round();
+        // Beyond that every digit is needed.
+        if whole.abs() < 1e15 { whole / factor } else { x }
+    };
+    Point::new(round(place.x), round(place.y))
+}

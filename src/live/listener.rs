@@ -1,0 +1,147 @@
+//! Takes what a session says while a page has it do something, for the page.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::units::to_utf16;
+use crate::diag::{Diagnostic, Paint, Severity, SourceId, Sources, render};
+use crate::session::{Clock, Host, Kept, Spool, Wish};
+
+/// A host that keeps what is said, and hands on the rest.
+pub struct Listener<'a> {
+    inner: &'a mut dyn Host,
+    /// What was said, as the page is told.
+    pub said: Vec<Value>,
+    /// Files that were written, as scripts name them.
+    pub wrote: Vec<String>,
+    /// The text that the page sent, if places in it are to be told.
+    pub source: Option<SourceId>,
+    n_bytes: u64,
+}
+
+/// Bytes of an answer beyond which no more lines are taken.
+const MOST_BYTES: u64 = 1 << 20;
+
+impl<'a> Listener<'a> {
+    /// Nothing was said yet.
+    pub fn new(inner: &'a mut dyn Host) -> Self {
+        Self { inner, said: Vec::new(), wrote: Vec::new(), source: None, n_bytes: 0 }
+    }
+}
+
+/// A note, a warning or an error, as a page is told; with its place if it lies in `source`.
+pub fn told(what: &Diagnostic, sources: &Sources, source: Option<SourceId>) -> Value {
+    let kind = match what.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    let mut told = json!({
+        "kind": kind,
+        "text": render(what, sources, Paint::Plain),
+        "message": &*what.message,
+    });
+    if let Some(code) = &what.code {
+        told["code"] = json!(code.to_string());
+    }
+    if !what.helps.is_empty() {
+        told["helps"] = json!(what.helps);
+    }
+    let place = what.place().filter(|place| Some(place.source) == source);
+    if let Some((place, text)) = place.and_then(|it| Some((it, &sources.get(it.source)?.text))) {
+        told["from"] = json!(to_utf16(text, place.range().start));
+        told["to"] = json!(to_utf16(text, place.range().end));
+    }
+    told
+}
+
+impl Host for Listener<'_> {
+    fn print(&mut self, line: &str) {
+        let before = self.n_bytes;
+        self.n_bytes += line.len() as u64 + 1;
+        if self.n_bytes <= MOST_BYTES {
+            self.said.push(json!({ "kind": "line", "text": line }));
+        } else if before <= MOST_BYTES {
+            self.said
+                .push(json!({ "kind": "warning", "text": "the rest is too long to be shown" }));
+        }
+    }
+
+    fn n_printed(&self) -> u64 {
+        self.n_bytes
+    }
+
+    fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
+        self.said.push(told(what, sources, self.source));
+    }
+
+    fn is_keeping(&self) -> bool {
+        self.inner.is_keeping()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        self.inner.keep(kept);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.inner.is_interrupted()
+    }
+
+    fn wish_to_stop(&self) -> Option<Wish> {
+        self.inner.wish_to_stop()
+    }
+
+    fn forget_stop(&mut self) {
+        self.inner.forget_stop();
+    }
+
+    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        self.inner.resolve(path)
+    }
+
+    fn read(&mut self, path: &Path) -> io::Result<String> {
+        self.inner.read(path)
+    }
+
+    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
+        self.inner.find(folder, path)
+    }
+
+    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
+        self.inner.opening(path)
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.inner.write(path, bytes)?;
+        self.wrote.push(path.display().to_string());
+        Ok(())
+    }
+
+    fn write_in_pieces(
+        &mut self,
+        path: &Path,
+        content: &mut dyn FnMut(&mut dyn io::Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.inner.write_in_pieces(path, content)?;
+        self.wrote.push(path.display().to_string());
+        Ok(())
+    }
+
+    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
+        self.inner.spool()
+    }
+
+    fn view(&mut self) -> io::Result<String> {
+        self.inner.view()
+    }
+
+    fn seconds(&self) -> Option<f64> {
+        self.inner.seconds()
+    }
+
+    fn clock(&self) -> Option<Clock> {
+        self.inner.clock()
+    }
+}

@@ -1,0 +1,7 @@
+//! `linkwork view` over real sockets, and what lies behind it without any.
+
+mod browser;
+mod following;
+mod gestures;
+mod hostile;
+mod sessions;
