@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::builder::Resettable;
+use clap::{ArgMatches, Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use super::graphics::Graphics;
 use super::output::MessageFormat;
 
 use crate::diag::visible;
@@ -28,43 +30,83 @@ pub struct Arguments {
     /// How errors, warnings and notes are written.
     #[arg(long, global = true, value_name = "FORMAT", default_value = "full")]
     pub message_format: MessageFormat,
+    /// How pictures are shown in a terminal.
+    #[arg(
+        long,
+        global = true,
+        value_name = "HOW",
+        default_value = "auto",
+        env = "LINKWORK_GRAPHICS"
+    )]
+    pub graphics: Graphics,
 }
 
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Invocation {
     /// Run scripts, one after the other, each in a world of its own.
-    Run(RunArguments),
+    Run(Deferred<RunArguments>),
     /// Tell what accuracy costs in time on a script's own motion: a table, `accuracy.csv` and
     /// `accuracy.svg`.
-    Accuracy(AccuracyArguments),
+    Accuracy(Deferred<AccuracyArguments>),
     /// Run a script and examine what is there at its end: freedoms, redundant and conflicting
     /// constraints, singular poses. Exit status 1 if something conflicts.
-    Check(ExamineArguments),
+    Check(Deferred<ExamineArguments>),
     /// Run a script and tell which effects its scene has switched on at the end, why, and what
     /// each costs.
-    Effects(ExamineArguments),
+    Effects(Deferred<ExamineArguments>),
     /// List the mechanisms that come with the program; print one, or run it.
-    Examples(ExampleArguments),
+    Examples(Deferred<ExampleArguments>),
     /// Say how a command is written and what it does: one of the language, or of the shell.
-    Help(HelpArguments),
+    Help(Deferred<HelpArguments>),
     /// Set scripts in canonical form; comments and line breaks are kept.
-    Fmt(FormatArguments),
+    Fmt(Deferred<FormatArguments>),
     /// Run a script again whenever it is saved, or a file that it includes.
-    Watch(WatchArguments),
+    Watch(Deferred<WatchArguments>),
     /// Run a script for every combination of the values that `--set` gives, into one table: what
     /// `result` says, how it ended, dead points.
-    Sweep(SweepArguments),
+    Sweep(Deferred<SweepArguments>),
     /// Run a script, show the mechanism in a browser, and go on at the prompt: what is typed shows at
     /// once, and what the mouse does is written as statements.
-    View(ViewArguments),
+    View(Deferred<ViewArguments>),
     /// Print what completes the command line in a shell.
-    Completions(CompletionArguments),
+    Completions(Deferred<CompletionArguments>),
     /// Print the manual page.
     Man,
     /// Serve an editor as a language server, on standard input and output: mistakes, help,
     /// completion, form.
     Lsp,
+}
+
+/// Arguments of a command that are set up only where it is the one: the rest costs a start nothing.
+#[derive(Debug)]
+pub struct Deferred<T>(pub T);
+
+impl<T: Args> Args for Deferred<T> {
+    fn augment_args(command: Command) -> Command {
+        command.defer(set_up::<T>)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        command.defer(set_up::<T>)
+    }
+}
+
+impl<T: FromArgMatches> FromArgMatches for Deferred<T> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        T::from_arg_matches(matches).map(Self)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        self.0.update_from_arg_matches(matches)
+    }
+}
+
+/// Adds the arguments; what the command does was said of it, not of them.
+fn set_up<T: Args>(command: Command) -> Command {
+    let about = command.get_about().cloned();
+    let long_about = command.get_long_about().cloned();
+    T::augment_args(command).about(Resettable::from(about)).long_about(Resettable::from(long_about))
 }
 
 /// A script to be examined.
@@ -320,15 +362,15 @@ impl Invocation {
     /// The options behind the command, if it takes any.
     fn host_mut(&mut self) -> Option<&mut HostArguments> {
         match self {
-            Self::Run(RunArguments { host, .. })
-            | Self::Accuracy(AccuracyArguments { host, .. })
-            | Self::Check(ExamineArguments { host, .. })
-            | Self::Effects(ExamineArguments { host, .. })
-            | Self::Examples(ExampleArguments { host, .. })
-            | Self::Sweep(SweepArguments { host, .. })
-            | Self::Watch(WatchArguments { host, .. })
-            | Self::View(ViewArguments { host, .. })
-            | Self::Help(HelpArguments { host, .. }) => Some(host),
+            Self::Run(Deferred(RunArguments { host, .. }))
+            | Self::Accuracy(Deferred(AccuracyArguments { host, .. }))
+            | Self::Check(Deferred(ExamineArguments { host, .. }))
+            | Self::Effects(Deferred(ExamineArguments { host, .. }))
+            | Self::Examples(Deferred(ExampleArguments { host, .. }))
+            | Self::Sweep(Deferred(SweepArguments { host, .. }))
+            | Self::Watch(Deferred(WatchArguments { host, .. }))
+            | Self::View(Deferred(ViewArguments { host, .. }))
+            | Self::Help(Deferred(HelpArguments { host, .. })) => Some(host),
             Self::Fmt(_) | Self::Completions(_) | Self::Man | Self::Lsp => None,
         }
     }
@@ -385,7 +427,7 @@ pub fn help_on(name: Option<&str>) -> Option<String> {
 }
 
 /// The command line as data.
-pub fn command() -> clap::Command {
+pub fn command() -> Command {
     let mut command = Arguments::command();
     // Usage lines begin with the name of the program.
     command.build();

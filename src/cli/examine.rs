@@ -34,7 +34,7 @@ pub fn effects(arguments: &ExamineArguments) -> ExitStatus {
     if arguments.host.json {
         output::answer(&effects.to_json());
     } else {
-        effects.lines().iter().for_each(|line| output::answer_fitted(line));
+        effects.lines(output::page_size().0).iter().for_each(|line| output::answer_fitted(line));
     }
     ExitStatus::Fine
 }

@@ -5,6 +5,7 @@ mod examine;
 mod files;
 pub(crate) mod folders;
 mod format;
+mod graphics;
 mod inform;
 mod init;
 pub(crate) mod interrupt;
@@ -16,6 +17,7 @@ pub(crate) mod output;
 pub(crate) mod process_host;
 mod progress;
 mod run;
+mod seen;
 mod spool;
 mod sweep;
 mod view;
@@ -24,25 +26,26 @@ mod wrap;
 
 use std::process::ExitCode;
 
-use args::Invocation;
+use args::{Deferred, Invocation};
 
 /// Runs the program with the arguments of the process; gives its exit status.
 pub fn run() -> ExitCode {
     let args = args::parse();
     interrupt::listen();
     output::set_format(args.message_format);
+    graphics::set(args.graphics);
     let status = match args.command {
-        Some(Invocation::Run(batch)) => run::batch(&batch.scripts, &batch.host),
-        Some(Invocation::Accuracy(wish)) => examine::accuracy(&wish),
-        Some(Invocation::Check(arguments)) => examine::check(&arguments),
-        Some(Invocation::Effects(arguments)) => examine::effects(&arguments),
-        Some(Invocation::Examples(wish)) => inform::examples(&wish),
-        Some(Invocation::Help(wish)) => inform::help(&wish),
-        Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
-        Some(Invocation::Sweep(wish)) => sweep::sweep(&wish),
-        Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
-        Some(Invocation::View(arguments)) => run::view(&arguments),
-        Some(Invocation::Completions(arguments)) => {
+        Some(Invocation::Run(Deferred(batch))) => run::batch(&batch.scripts, &batch.host),
+        Some(Invocation::Accuracy(Deferred(wish))) => examine::accuracy(&wish),
+        Some(Invocation::Check(Deferred(arguments))) => examine::check(&arguments),
+        Some(Invocation::Effects(Deferred(arguments))) => examine::effects(&arguments),
+        Some(Invocation::Examples(Deferred(wish))) => inform::examples(&wish),
+        Some(Invocation::Help(Deferred(wish))) => inform::help(&wish),
+        Some(Invocation::Fmt(Deferred(arguments))) => format::format_all(&arguments),
+        Some(Invocation::Sweep(Deferred(wish))) => sweep::sweep(&wish),
+        Some(Invocation::Watch(Deferred(arguments))) => watch::watch(&arguments),
+        Some(Invocation::View(Deferred(arguments))) => run::view(&arguments),
+        Some(Invocation::Completions(Deferred(arguments))) => {
             manual::completions(&arguments, args::command())
         }
         Some(Invocation::Man) => manual::manual(&args::command()),

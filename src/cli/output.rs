@@ -7,10 +7,10 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use clap::ValueEnum;
 use terminal_size::{Height, Width, terminal_size_of};
 
-use super::progress;
 use super::wrap::wrapped;
+use super::{graphics, progress};
 use crate::diag::{Diagnostic, Paint, Sources, render_within, short, visible};
-use crate::render::{Cell, Ink, Sketch};
+use crate::render::{Cell, Drawable, Ink};
 
 /// Answers not yet written: to a file or a pipe they go in large pieces. Nothing once they cannot be
 /// written any more.
@@ -113,6 +113,11 @@ pub fn set_format(format: MessageFormat) {
     FORMAT.get_or_init(|| format);
 }
 
+/// Whether answers go to a terminal.
+pub fn is_terminal() -> bool {
+    io::stdout().is_terminal()
+}
+
 /// Begins on an empty page; what is no terminal keeps all.
 pub fn clear_page() {
     flush();
@@ -189,8 +194,17 @@ pub fn page_size() -> (usize, usize) {
     }
 }
 
-/// Draws a picture, on a terminal in colours.
-pub fn draw(sketch: &Sketch) {
+/// Draws a picture: as the terminal can, on one in colours at least.
+pub fn draw(what: Drawable) {
+    flush();
+    progress::clear();
+    let (n_columns, n_rows) = page_size();
+    if let Some(picture) = graphics::picture(what, [n_columns, n_rows], wants_colours()) {
+        let mut answers = answers();
+        answers.n_bytes += picture.len() as u64;
+        return answers.write(|out| out.write_all(&picture));
+    }
+    let sketch = what.sketch(n_columns, n_rows);
     if io::stdout().is_terminal() && wants_colours() {
         // The colours are ours, what is written in the picture is not.
         let lines: String = sketch.rows().map(|row| coloured(row) + "\n").collect();

@@ -9,11 +9,12 @@ use std::time::Instant;
 use super::args::HostArguments;
 use super::journal::{self, Journal};
 use super::progress::ProgressBar;
+use super::seen::Seen;
 use super::spool::FileSpool;
 use super::view::View;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::render::Sketch;
+use crate::render::Drawable;
 use crate::session::{Clock, Example, Host, Kept, Session, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
@@ -34,6 +35,8 @@ pub struct ProcessHost {
     journal: Option<Journal>,
     begun: Instant,
     bar: ProgressBar,
+    /// What was read, where somebody wants to know.
+    seen: Option<Seen>,
     /// Whether it goes on after a statement, so that pages may look at the session.
     pub(super) may_view: bool,
     /// The pages that do.
@@ -60,9 +63,21 @@ impl ProcessHost {
             journal: None,
             begun: Instant::now(),
             bar: ProgressBar::default(),
+            seen: None,
             may_view: false,
             view: None,
         }
+    }
+
+    /// From here on it is noted which files are read. Nobody is there to turn pages.
+    pub fn watch(&mut self, seen: Seen) {
+        self.seen = Some(seen);
+        self.has_pager = false;
+    }
+
+    /// The files that were read since then.
+    pub fn seen(self) -> Seen {
+        self.seen.unwrap_or_default()
     }
 }
 
@@ -130,8 +145,8 @@ impl Host for ProcessHost {
         output::page_size()
     }
 
-    fn draw(&mut self, sketch: &Sketch) {
-        output::draw(sketch);
+    fn draw(&mut self, what: Drawable) {
+        output::draw(what);
     }
 
     fn n_printed(&self) -> u64 {
@@ -212,6 +227,9 @@ impl Host for ProcessHost {
             return example
                 .map(|example| example.text.to_owned())
                 .map_err(|_| io::ErrorKind::NotFound.into());
+        }
+        if let Some(seen) = &mut self.seen {
+            seen.note(path);
         }
         if files::is_regular(path)? {
             files::read(path)

@@ -10,7 +10,7 @@ use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
 use super::{files, init, interrupt, journal, output};
-use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
+use crate::diag::{Diagnostic, Kind, SourceId, Sources, format_counted, nearest};
 use crate::errors;
 use crate::lang::Growing;
 use crate::session::{
@@ -372,8 +372,8 @@ pub(super) fn kept<T>(
     }
     if let Some(remains) = journal::remains() {
         let news = Diagnostic::note_only(format!(
-            "the last session did not end in order; its {} lines bring it back: load \"{}\"",
-            remains.n_lines,
+            "the last session did not end in order; to bring back its {}: load \"{}\"",
+            format_counted(remains.n_lines as u64, "line"),
             remains.path.display()
         ));
         process.tell(&news, &Sources::new());

@@ -19,8 +19,8 @@ pub use nearest::{Likeness, nearest, suggest};
 pub use number::format_number;
 #[doc(hidden)]
 pub use number::{
-    format_count, format_decimals, format_degrees, format_digits, format_exponent, format_fraction,
-    format_rounded, format_seconds, push_decimals, push_integer,
+    format_count, format_counted, format_decimals, format_degrees, format_digits, format_exponent,
+    format_fraction, format_rounded, format_seconds, push_decimals, push_integer,
 };
 pub use render::{Paint, render, render_within, short};
 pub use source::{Place, Source, SourceId, Sources, Span};

@@ -7,12 +7,14 @@ use super::Diagnostic;
 /// Nearness is the optimal string alignment distance (insert, delete, replace, swap of
 /// neighbours) with letters of either case taken as equal. A candidate may differ in one
 /// place for every three characters of the longer word, and at least in one. Of equally
-/// near ones the first is taken, one that differs in case alone before all.
+/// near ones that is taken of which only letters were left out, then the first; one that differs in
+/// case alone before all.
 ///
 /// ```
 /// use linkwork::diag::nearest;
 ///
 /// assert_eq!(nearest("lenght", ["list", "length"]), Some("length"));
+/// assert_eq!(nearest("lst", ["let", "list"]), Some("list"));
 /// assert_eq!(nearest("banana", ["list", "length"]), None);
 /// ```
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -58,7 +60,7 @@ impl Likeness {
     }
 
     fn nearest<'a>(&self, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-        let mut best: Option<(usize, &str)> = None;
+        let mut best: Option<((usize, bool), &str)> = None;
         for candidate in candidates.into_iter().filter(|candidate| self.may_be(candidate)) {
             let folded = fold(candidate);
             let limit = self.limit(folded.len());
@@ -68,8 +70,9 @@ impl Likeness {
             let distance = distance(&self.word, &folded);
             // A one-letter word is one replacement from every other: that is no likeness.
             let alike = distance <= limit && distance < self.word.len().max(folded.len());
-            if alike && best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, candidate));
+            let rank = (distance, !is_within(&self.word, &folded));
+            if alike && best.is_none_or(|(least, _)| rank < least) {
+                best = Some((rank, candidate));
             }
         }
         best.map(|(_, candidate)| candidate)
@@ -99,6 +102,12 @@ const LONGEST: usize = 64;
 fn fold(word: &str) -> Vec<char> {
     // One more than the longest is enough to know that it is too long.
     word.chars().flat_map(char::to_lowercase).take(LONGEST + 1).collect()
+}
+
+/// Whether all letters of the one are in the other, in their order.
+fn is_within(few: &[char], many: &[char]) -> bool {
+    let mut many = many.iter();
+    few.iter().all(|c| many.any(|d| c == d))
 }
 
 fn distance(a: &[char], b: &[char]) -> usize {

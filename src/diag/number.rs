@@ -101,6 +101,19 @@ pub fn format_count(value: f64) -> String {
     if value.abs() >= 1e6 { format!("{value:e}") } else { format_number(value) }
 }
 
+/// So many things: `1 frame`, `2 frames`.
+///
+/// ```
+/// use linkwork::diag::format_counted;
+///
+/// assert_eq!(format_counted(1, "frame"), "1 frame");
+/// assert_eq!(format_counted(0, "frame"), "0 frames");
+/// ```
+pub fn format_counted(n: u64, noun: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{n} {noun}{plural}")
+}
+
 /// An angle, given in radians, in degrees with its unit, to 1e-9.
 pub fn format_degrees(radians: f64) -> String {
     let rounded = (radians.to_degrees() * 1e9).round() / 1e9;

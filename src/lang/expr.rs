@@ -36,15 +36,6 @@ impl Expr {
         }
     }
 
-    /// The unit that it is typed in, if it is a number: `-90deg` is in degrees.
-    pub fn unit(&self) -> Unit {
-        match &self.node {
-            Node::Number(number) => number.unit,
-            Node::Negate(of) => of.unit(),
-            _ => Unit::None,
-        }
-    }
-
     /// The literal `value` in a unit, where that reads back to the same bits; without it
     /// otherwise.
     pub fn literal_in(value: f64, unit: Unit, span: Span) -> Self {

@@ -38,6 +38,7 @@ pub mod chart;
 
 // Figures that stand still, as a document.
 mod document;
+mod drawable;
 mod still;
 mod text;
 mod unmet;
@@ -49,7 +50,9 @@ pub mod raster;
 #[doc(hidden)]
 pub mod export;
 
-// Figures in characters.
+// Figures in characters, documents in pixels.
+#[cfg(feature = "terminal")]
+mod pixels;
 mod sketch;
 
 // Figures for who draws them.
@@ -63,8 +66,11 @@ mod trace_animation;
 
 pub use animation::{Animation, is_shown, shown_for};
 pub use document::{FIRST_WORDS, Options};
+pub use drawable::Drawable;
 pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
 pub(crate) use figure::{Figure, FigureShape, Key, Outline};
+#[cfg(feature = "terminal")]
+pub use pixels::Pixels;
 pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};

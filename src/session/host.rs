@@ -8,7 +8,7 @@ use super::finding::Finding;
 use super::spool::Spool;
 use crate::diag::{Diagnostic, Sources, Span};
 use crate::interrupt::Wish;
-use crate::render::Sketch;
+use crate::render::Drawable;
 use crate::world::World;
 
 /// What a journal is told of a session.
@@ -51,9 +51,10 @@ pub trait Host {
         (72, 24)
     }
 
-    /// Takes a picture in characters.
-    fn draw(&mut self, sketch: &Sketch) {
-        self.print_all(&sketch.lines());
+    /// Takes what is to be shown; by default in characters.
+    fn draw(&mut self, what: Drawable) {
+        let (n_columns, n_rows) = self.page();
+        self.print_all(&what.sketch(n_columns, n_rows).lines());
     }
 
     /// Bytes of the answer so far, where somebody wants that to have an end.

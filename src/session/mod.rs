@@ -44,6 +44,7 @@ mod summary;
 pub(crate) mod sweep;
 mod transcript;
 mod undo;
+mod value_text;
 
 use std::path::PathBuf;
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::culprits::Culprits;
 use super::preferences::Receipt;
-use crate::diag::{Span, format_number, format_rounded, format_seconds};
+use crate::diag::{Span, format_counted, format_number, format_rounded, format_seconds};
 use crate::solve::{Method, Report, Settings, Status, Stretch, Verdict};
 use crate::world::PointId;
 
@@ -269,7 +269,7 @@ impl Summary {
 }
 
 fn frames(n: u64) -> String {
-    if n == 1 { "1 frame".to_owned() } else { format!("{n} frames") }
+    format_counted(n, "frame")
 }
 
 impl std::fmt::Display for Way {

@@ -5,7 +5,7 @@ use super::reference::Reference;
 use super::repeatable_motion::{RepeatableMotion, Replay};
 use super::sample::Subject;
 use crate::constraint::{Constraint, Point};
-use crate::diag::{Diagnostic, format_digits};
+use crate::diag::{Diagnostic, format_counted, format_digits};
 use crate::mobility::{self, Analysis, ConstraintSystem, Directions, analyse, freedom};
 use crate::solve::{Budget, Method, Report, Settings, Status, verdict};
 use crate::world::{PointId, World};
@@ -95,7 +95,7 @@ pub(super) fn of_motion(
     }
     if best.n_bad > 0 {
         found.notes.push(format!(
-            "there is no reference: {} of its {} frames ended as {}, with residuals up to {}; \
+            "there is no reference: {} of its {} ended as {}, with residuals up to {}; \
              position errors are left out",
             best.n_bad,
             best.n_frames,
@@ -187,7 +187,7 @@ fn compared(
     if n_free == 0 {
         return Some(reference);
     }
-    let freedoms = if n_free == 1 { "1 freedom".to_owned() } else { format!("{n_free} freedoms") };
+    let freedoms = format_counted(n_free as u64, "freedom");
     let n_points = reference.points.len();
     if n_points <= MOST_POINTS {
         with_scene(world, held, |scene| {

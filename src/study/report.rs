@@ -1,7 +1,7 @@
 //! What a study found.
 
 use super::setting_ladder::Rung;
-use crate::diag::format_digits;
+use crate::diag::{format_counted, format_digits};
 use crate::solve::Settings;
 
 /// What came of a study.
@@ -148,7 +148,7 @@ impl Study {
         let what = if self.is_still {
             "one solve of the starting pose".to_owned()
         } else {
-            format!("{} frames", self.n_frames)
+            format_counted(self.n_frames, "frame")
         };
         let n_rounds = self.rows.iter().map(|row| row.n_rounds);
         let (least, most) = (n_rounds.clone().min(), n_rounds.max());

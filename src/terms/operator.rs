@@ -1,5 +1,7 @@
 //! The arithmetic operations.
 
+use super::Unit;
+
 /// An operation of two operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Operator {
@@ -24,6 +26,19 @@ impl Operator {
             Self::Multiply => "*",
             Self::Divide => "/",
             Self::Power => "^",
+        }
+    }
+
+    /// The unit that a result is best said in, from those of the operands: half of `90deg` is
+    /// `45deg`.
+    pub fn unit(self, left: Unit, right: Unit) -> Unit {
+        match self {
+            Self::Add | Self::Subtract if left == right => left,
+            Self::Add | Self::Subtract | Self::Multiply if left == Unit::None => right,
+            Self::Add | Self::Subtract | Self::Multiply | Self::Divide if right == Unit::None => {
+                left
+            }
+            _ => Unit::None,
         }
     }
 }

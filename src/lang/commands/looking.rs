@@ -127,7 +127,8 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
             section: Section::Looking,
             usage: "show [NAME]",
             summary: "draw the mechanism; a point with its constraints, a constraint with its residual",
-            help: "Alone it draws the mechanism in the terminal; `svg` draws it as it should look.",
+            help: "Alone it draws the mechanism: as `svg` does where the terminal shows pictures, in letters\n\
+                   elsewhere.",
             example: "show\n\
                  show C",
         },

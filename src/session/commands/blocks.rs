@@ -208,7 +208,7 @@ impl Execution<'_> {
             return Ok(Bound::Point(id));
         }
         match self.resolve().live(argument)? {
-            Term::Constant(Value::Number(n)) => Ok(Bound::Number(n)),
+            Term::Constant(Value::Number(n), unit) => Ok(Bound::Number(n, unit)),
             Term::Live(formula) if formula.shape() == Shape::Number => Ok(Bound::Formula(formula)),
             _ => Err(Diagnostic::error(errors::MIXED_SORTS, "expected a point or a number")
                 .at(argument.span, "this is a vector")

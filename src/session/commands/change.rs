@@ -6,9 +6,9 @@ use crate::diag::Diagnostic;
 use crate::errors;
 use crate::lang::ast::{Name, Part, Relation, Role};
 use crate::session::execution::Execution;
-use crate::session::resolve::said::{Said, flag_of, pattern_of, units_of};
+use crate::session::resolve::said::{Behind, Said, flag_of, pattern_of};
 use crate::session::resolve::scope::Resolver;
-use crate::world::{ConstraintId, Drivers, Edit, Entity, Record};
+use crate::world::{ConstraintId, Edit, Entity, Record};
 
 impl Execution<'_> {
     pub(crate) fn change_thing(&mut self, name: &Name, parts: &[Part]) -> Result<(), Diagnostic> {
@@ -16,7 +16,7 @@ impl Execution<'_> {
             Entity::Constraint(id) => self.change_constraint(id, name, parts),
             Entity::Parameter(id) => match parts {
                 [Part::Relation(Relation::Equal(value))] => {
-                    let formula = self.resolve().live(value)?.into_formula(value);
+                    let formula = self.resolve().live(value)?.into_formula(value.span);
                     self.redefine(id, formula, value)
                 }
                 _ => Err(self.resolve().no_such_part(name, "a parameter takes `= value`")),
@@ -105,23 +105,23 @@ impl Resolver<'_> {
         if slot.is_none() {
             return Err(self.no_such_part(name, pattern.takes));
         }
-        let mut drivers = Drivers::new();
+        let mut behind = Behind::default();
         let mut values = Vec::new();
         let mut is_made_anew = true;
         match part {
             Part::Points(_) | Part::Measure(_) | Part::Defined(_) | Part::Point(..) => {}
             Part::Relation(relation) if record.constraint.get(Field::ValueY).is_some() => {
-                let at = self.held_target(relation, &mut drivers)?;
+                let at = self.held_target(relation, &mut behind)?;
                 values.extend([(Field::X, at.x), (Field::Y, at.y)]);
             }
             Part::Relation(relation) => {
-                let Bounds { lo, hi } = self.bounds(relation, &mut drivers)?;
+                let Bounds { lo, hi } = self.bounds(relation, &mut behind)?;
                 values.extend([(Field::Lo, lo), (Field::Hi, hi)]);
             }
             Part::Value(_, value) => {
-                self.say_value(slot, value, &mut values, &mut drivers)?;
+                self.say_value(slot, value, &mut values, &mut behind)?;
             }
-            Part::Values(_, teeth) => values.extend(self.teeth(teeth, &mut drivers)?),
+            Part::Values(_, teeth) => values.extend(self.teeth(teeth, &mut behind)?),
             Part::Line(_, line) => {
                 let ends = self.ends(line)?;
                 let x = self.state.world.points().column();
@@ -170,8 +170,8 @@ impl Resolver<'_> {
             // A ratio takes the place of numbers of teeth, and these that of a ratio.
             changed = Field::ALL.into_iter().filter(|field| field.is_of_gearing()).collect();
         }
-        record.replace_drivers(&changed, drivers);
-        record.set_units(&changed, units_of(std::slice::from_ref(part)));
+        record.replace_drivers(&changed, behind.drivers);
+        record.set_units(&changed, behind.units);
         Ok(is_made_anew)
     }
 }

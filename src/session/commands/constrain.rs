@@ -10,11 +10,11 @@ use crate::lang::ast::{
 };
 use crate::lang::catalogue::{Pattern, Slot};
 use crate::session::execution::Execution;
-use crate::session::resolve::said::{Said, TEETH, field_of, flag_of, units_of};
+use crate::session::resolve::said::{Behind, Said, TEETH, field_of, flag_of};
 use crate::session::resolve::scope::Resolver;
 use crate::solve::CogForm;
-use crate::terms::Shape;
-use crate::world::{Drivers, Edit, Record, Value};
+use crate::terms::{Shape, Unit};
+use crate::world::{Edit, Record, Value};
 
 impl Execution<'_> {
     pub(crate) fn constrain(
@@ -23,7 +23,7 @@ impl Execution<'_> {
         span: Span,
     ) -> Result<(), Diagnostic> {
         let stated = &declaration.constraint;
-        let (constraint, drivers) = self.resolve().build(stated, span)?;
+        let (constraint, Behind { drivers, units }) = self.resolve().build(stated, span)?;
         if !self.state.is_restoring {
             self.note_slips(&constraint, &stated.parts, &drivers);
         }
@@ -44,7 +44,7 @@ impl Execution<'_> {
             None => self.resolve().numbered(stated.word.pattern().entry.keyword).into(),
         };
         let mut record = Record::new(name, constraint, drivers);
-        record.set_units(&[], units_of(&stated.parts));
+        record.set_units(&[], units);
         self.state.world.bind(&mut record);
         if !self.state.is_restoring {
             refuse_idle(&record.constraint, span)?;
@@ -62,14 +62,14 @@ impl Resolver<'_> {
         &mut self,
         Stated { word, parts }: &Stated,
         span: Span,
-    ) -> Result<(Constraint, Drivers), Diagnostic> {
+    ) -> Result<(Constraint, Behind), Diagnostic> {
         let pattern = word.pattern();
-        let mut drivers = Drivers::new();
-        let mut said = self.say(pattern, parts, &mut drivers)?;
+        let mut behind = Behind::default();
+        let mut said = self.say(pattern, parts, &mut behind)?;
         said.is_restored = self.state.is_restoring;
         let word = pattern.entry.keyword;
         if word == "tangent" || parts.iter().any(|part| matches!(part, Part::Point(Role::On, _))) {
-            self.say_touch(parts, &mut said, &mut drivers, span)?;
+            self.say_touch(parts, &mut said, &mut behind.drivers, span)?;
         }
         let kind = Kind::stated_by(word).expect("each word states a kind");
         let kind = match (kind, self.state.preferences.solve.cog) {
@@ -81,14 +81,14 @@ impl Resolver<'_> {
         let constraint = said
             .declare(kind, word, self.state.world.points().column())
             .map_err(|refusal| refused(&refusal, parts, span))?;
-        Ok((constraint, drivers))
+        Ok((constraint, behind))
     }
 
     fn say(
         &mut self,
         pattern: &Pattern,
         parts: &[Part],
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<Said, Diagnostic> {
         let mut said = Said::default();
         let held = parts.iter().find_map(|part| match part {
@@ -97,7 +97,7 @@ impl Resolver<'_> {
         });
         let mut shape = Shape::Number;
         if let Some(held) = held {
-            shape = self.say_held(held, &mut said.values, drivers)?;
+            shape = self.say_held(held, &mut said.values, behind)?;
         }
         for part in parts {
             match part {
@@ -112,15 +112,15 @@ impl Resolver<'_> {
                 }
                 Part::Line(_, pair) => said.groups.push(self.ends(pair)?.to_vec()),
                 Part::Relation(relation) if shape == Shape::Vector => {
-                    let at = self.held_target(relation, drivers)?;
+                    let at = self.held_target(relation, behind)?;
                     said.values.extend([(Field::X, at.x), (Field::Y, at.y)]);
                 }
-                Part::Relation(relation) => said.bounds = Some(self.bounds(relation, drivers)?),
+                Part::Relation(relation) => said.bounds = Some(self.bounds(relation, behind)?),
                 Part::Flag(role) => said.flags.push(flag_of(*role)),
                 Part::Value(_, value) => {
-                    self.say_value(pattern.slot(part), value, &mut said.values, drivers)?;
+                    self.say_value(pattern.slot(part), value, &mut said.values, behind)?;
                 }
-                Part::Values(_, teeth) => said.values.extend(self.teeth(teeth, drivers)?),
+                Part::Values(_, teeth) => said.values.extend(self.teeth(teeth, behind)?),
                 Part::Defined(_) | Part::Point(..) | Part::Measure(_) => {}
             }
         }
@@ -131,12 +131,12 @@ impl Resolver<'_> {
     pub(super) fn teeth(
         &mut self,
         teeth: &[Expr; 2],
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<[(Field, f64); 2], Diagnostic> {
         let [first, second] = TEETH;
         Ok([
-            (first, self.drive(&teeth[0], first, drivers)?),
-            (second, self.drive(&teeth[1], second, drivers)?),
+            (first, self.drive(&teeth[0], first, behind)?),
+            (second, self.drive(&teeth[1], second, behind)?),
         ])
     }
 
@@ -146,19 +146,19 @@ impl Resolver<'_> {
         slot: Option<Slot>,
         value: &Expr,
         values: &mut Vec<(Field, f64)>,
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<(), Diagnostic> {
         match slot {
             Some(Slot::Place(_)) => {
-                let at = self.target(value, drivers)?;
+                let at = self.target(value, behind)?;
                 values.extend([(Field::X, at.x), (Field::Y, at.y)]);
             }
             Some(Slot::Value(role) | Slot::Optional(role, _)) => {
                 let field = field_of(role);
-                values.push((field, self.drive(value, field, drivers)?));
+                values.push((field, self.drive(value, field, behind)?));
             }
             Some(Slot::Gearing) => {
-                values.push((Field::Ratio, self.drive(value, Field::Ratio, drivers)?));
+                values.push((Field::Ratio, self.drive(value, Field::Ratio, behind)?));
             }
             _ => {}
         }
@@ -170,7 +170,7 @@ impl Resolver<'_> {
         &mut self,
         held: &Expr,
         values: &mut Vec<(Field, f64)>,
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<Shape, Diagnostic> {
         let (value, formula) = self.measure(held)?;
         let fields = match value {
@@ -178,7 +178,7 @@ impl Resolver<'_> {
             Value::Vector(v) => vec![(Field::Value, v.x), (Field::ValueY, v.y)],
         };
         if let Some(formula) = formula {
-            drivers.extend(fields.iter().map(|(field, _)| (*field, formula.clone())));
+            behind.drivers.extend(fields.iter().map(|(field, _)| (*field, formula.clone())));
         }
         values.extend(fields);
         Ok(value.shape())
@@ -188,10 +188,10 @@ impl Resolver<'_> {
     pub(super) fn held_target(
         &mut self,
         relation: &Relation,
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<Point, Diagnostic> {
         match relation {
-            Relation::Equal(value) => self.target(value, drivers),
+            Relation::Equal(value) => self.target(value, behind),
             relation => Err(Diagnostic::error(errors::MIXED_SORTS, "vectors have no order")
                 .at(upper(relation).span, "only `=` can be held between vectors")
                 .help("hold a coordinate of it: `hold A.x <= 4`")),
@@ -208,11 +208,11 @@ impl Resolver<'_> {
     }
 
     /// A place for a coordinate constraint, live if it can change.
-    fn target(&mut self, at: &Expr, drivers: &mut Drivers) -> Result<Point, Diagnostic> {
+    fn target(&mut self, at: &Expr, behind: &mut Behind) -> Result<Point, Diagnostic> {
         let (value, formula) = self.driver(at, Shape::Vector)?;
         if let Some(formula) = formula {
-            drivers.push((Field::X, formula.clone()));
-            drivers.push((Field::Y, formula));
+            behind.drivers.push((Field::X, formula.clone()));
+            behind.drivers.push((Field::Y, formula));
         }
         match value {
             Value::Vector(v) => Ok(Point::new(v.x, v.y)),
@@ -221,15 +221,13 @@ impl Resolver<'_> {
     }
 
     /// A number of a constraint, live if it can change.
-    fn drive(
-        &mut self,
-        expr: &Expr,
-        field: Field,
-        drivers: &mut Drivers,
-    ) -> Result<f64, Diagnostic> {
+    fn drive(&mut self, expr: &Expr, field: Field, behind: &mut Behind) -> Result<f64, Diagnostic> {
         let driven = self.driven(expr)?;
+        if driven.unit != Unit::None {
+            behind.units.push((field, driven.unit));
+        }
         if let Some(formula) = driven.formula {
-            drivers.push((field, formula));
+            behind.drivers.push((field, formula));
         }
         Ok(driven.value)
     }
@@ -238,27 +236,30 @@ impl Resolver<'_> {
     pub(super) fn bounds(
         &mut self,
         relation: &Relation,
-        drivers: &mut Drivers,
+        behind: &mut Behind,
     ) -> Result<Bounds, Diagnostic> {
         let (least, most) = (f64::NEG_INFINITY, f64::INFINITY);
         Ok(match relation {
             Relation::Equal(e) => {
-                let n_drivers = drivers.len();
-                let value = self.drive(e, Field::Lo, drivers)?;
-                if let Some((_, formula)) = drivers.get(n_drivers).cloned() {
-                    drivers.push((Field::Hi, formula));
+                let (n_drivers, n_units) = (behind.drivers.len(), behind.units.len());
+                let value = self.drive(e, Field::Lo, behind)?;
+                if let Some((_, formula)) = behind.drivers.get(n_drivers).cloned() {
+                    behind.drivers.push((Field::Hi, formula));
+                }
+                if let Some(&(_, unit)) = behind.units.get(n_units) {
+                    behind.units.push((Field::Hi, unit));
                 }
                 Bounds::exactly(value)
             }
             Relation::Less(e) | Relation::LessEqual(e) => {
-                Bounds { lo: least, hi: self.drive(e, Field::Hi, drivers)? }
+                Bounds { lo: least, hi: self.drive(e, Field::Hi, behind)? }
             }
             Relation::Greater(e) | Relation::GreaterEqual(e) => {
-                Bounds { lo: self.drive(e, Field::Lo, drivers)?, hi: most }
+                Bounds { lo: self.drive(e, Field::Lo, behind)?, hi: most }
             }
             Relation::In(Range { from, to }) => {
-                let lo = self.drive(from, Field::Lo, drivers)?;
-                Bounds { lo, hi: self.drive(to, Field::Hi, drivers)? }
+                let lo = self.drive(from, Field::Lo, behind)?;
+                Bounds { lo, hi: self.drive(to, Field::Hi, behind)? }
             }
         })
     }

@@ -2,7 +2,7 @@
 
 use crate::constraint::geometry::wrap;
 use crate::constraint::{ConstraintKind as _, Field};
-use crate::diag::format_degrees;
+use crate::diag::{format_counted, format_degrees};
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::preferences::AtDeadPoint;
@@ -102,7 +102,11 @@ impl Execution<'_> {
         let told = told.join(", ");
         match self.state.preferences.dead_points {
             AtDeadPoint::Stop if has_way_back => {
-                self.note(format!("{told}: stopped after {} of {n} frames", k - 1));
+                self.note(format!(
+                    "{told}: stopped after {} of {}",
+                    k - 1,
+                    format_counted(n, "frame")
+                ));
                 Next::Stop
             }
             AtDeadPoint::Reverse if has_way_back => {

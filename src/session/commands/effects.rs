@@ -1,7 +1,7 @@
 //! `effects`: what this scene has switched on, because of which statements, and what each costs.
 
 use super::effect_table::{EFFECTS, Rehearsal, Work};
-use crate::diag::format_digits;
+use crate::diag::{format_counted, format_digits};
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::host::{Host, NO_CLOCK};
@@ -45,6 +45,9 @@ const TIMED_SECONDS: f64 = 0.3;
 
 /// Names told of those that call for an effect.
 const NAMES_TOLD: usize = 6;
+
+/// Columns of the table, most names left out.
+const WIDTH: usize = 68;
 
 impl State {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
@@ -192,59 +195,91 @@ impl Execution<'_> {
         if self.host.takes_findings() {
             return self.host.find_out(&Finding::Effects(&effects));
         }
-        effects.lines().iter().for_each(|line| self.host.print(line));
+        let (n_columns, _) = self.host.page();
+        effects.lines(n_columns).iter().for_each(|line| self.host.print(line));
     }
 }
 
 impl Effects {
-    /// The effects as lines of text.
-    pub fn lines(&self) -> Vec<String> {
-        let per_frame = |seconds: f64| seconds / self.n_frames.max(1) as f64 * 1e6;
-        let digits = |value: f64| format_digits(value, 3);
-        let is_timed = self.n_frames > 0;
-        let head = ("effect", "", "memory", "us a frame", "share");
-        let mut lines = vec![format!(
-            "{:<20}{:<5}{:>10}{:>12}{:>8}  because of",
-            head.0, head.1, head.2, head.3, head.4
-        )];
-        for row in &self.rows {
-            let share = 100.0 * row.seconds / self.seconds.max(f64::MIN_POSITIVE);
-            let because = match row.because.len() {
-                0 => String::new(),
-                n if n <= NAMES_TOLD => row.because.join(", "),
-                n => {
-                    format!("{} and {} more", row.because[..NAMES_TOLD].join(", "), n - NAMES_TOLD)
-                }
-            };
-            let line = if row.is_on {
-                let (time, share) = match share {
-                    _ if !is_timed => ("-".to_owned(), "-".to_owned()),
-                    share if share > 0.0 && share < 0.01 => {
-                        (digits(per_frame(row.seconds)), "<0.01%".to_owned())
-                    }
-                    share => (digits(per_frame(row.seconds)), format!("{}%", digits(share))),
-                };
-                format!(
-                    "{:<20}{:<5}{:>10}{time:>12}{share:>8}  {because}",
-                    row.name,
-                    "on",
-                    bytes(row.n_bytes),
-                )
-            } else {
-                format!("{:<20}off", row.name)
-            };
-            lines.push(line);
-        }
+    /// The effects as lines of text, as a table where that fits.
+    pub fn lines(&self, n_columns: usize) -> Vec<String> {
+        let mut lines = if n_columns < WIDTH { self.paragraphs() } else { self.table() };
         let (total, awake) = self.islands;
         lines.push(format!("islands: {total}, {awake} awake, {} asleep", total - awake.min(total)));
         lines.push(match self.n_frames {
             0 => format!("no frame is timed: {}", self.why_none),
             n => format!(
-                "a frame takes {} us, over {n} frames of a copy",
-                digits(per_frame(self.seconds))
+                "a frame takes {} us, over {} of a copy",
+                self.per_frame(self.seconds),
+                format_counted(n, "frame")
             ),
         });
         lines
+    }
+
+    fn table(&self) -> Vec<String> {
+        let head = ("effect", "", "memory", "us a frame", "share");
+        let head = format!(
+            "{:<20}{:<5}{:>10}{:>12}{:>8}  because of",
+            head.0, head.1, head.2, head.3, head.4
+        );
+        let row = |row: &EffectRow| {
+            if !row.is_on {
+                return format!("{:<20}off", row.name);
+            }
+            let (time, share) = self.cost(row).unwrap_or_else(|| ("-".to_owned(), "-".to_owned()));
+            format!(
+                "{:<20}{:<5}{:>10}{time:>12}{share:>8}  {}",
+                row.name,
+                "on",
+                bytes(row.n_bytes),
+                row.told_because()
+            )
+        };
+        std::iter::once(head).chain(self.rows.iter().map(row)).collect()
+    }
+
+    /// What a table says, for pages that have no room for one.
+    fn paragraphs(&self) -> Vec<String> {
+        let on = |row: &EffectRow| {
+            let cost = self.cost(row).map(|(time, share)| format!("{time} us a frame, {share}"));
+            let memory = (row.n_bytes > 0).then(|| bytes(row.n_bytes));
+            let what: Vec<String> = [cost, memory].into_iter().flatten().collect();
+            let says = if what.is_empty() { "on".to_owned() } else { what.join("; ") };
+            [format!("{}: {says}", row.name), format!("  because of {}", row.told_because())]
+        };
+        let off: Vec<&str> =
+            self.rows.iter().filter(|row| !row.is_on).map(|row| row.name).collect();
+        let mut lines: Vec<String> =
+            self.rows.iter().filter(|row| row.is_on).flat_map(on).collect();
+        if !off.is_empty() {
+            lines.push(format!("off: {}", off.join(", ")));
+        }
+        lines
+    }
+
+    /// The time of an effect in a frame and its share of that, if frames were timed.
+    fn cost(&self, row: &EffectRow) -> Option<(String, String)> {
+        let share = 100.0 * row.seconds / self.seconds.max(f64::MIN_POSITIVE);
+        let share = match share {
+            share if share > 0.0 && share < 0.01 => "<0.01%".to_owned(),
+            share => format!("{}%", format_digits(share, 3)),
+        };
+        (self.n_frames > 0).then(|| (self.per_frame(row.seconds), share))
+    }
+
+    /// Microseconds a frame.
+    fn per_frame(&self, seconds: f64) -> String {
+        format_digits(seconds / self.n_frames.max(1) as f64 * 1e6, 3)
+    }
+}
+
+impl EffectRow {
+    fn told_because(&self) -> String {
+        match self.because.len() {
+            n if n <= NAMES_TOLD => self.because.join(", "),
+            n => format!("{} and {} more", self.because[..NAMES_TOLD].join(", "), n - NAMES_TOLD),
+        }
     }
 }
 
@@ -272,8 +307,29 @@ mod tests {
         };
         let rows = [1e-9, 1.23e-5, 0.1234, 1.0].map(row).to_vec();
         let effects = Effects { rows, islands: (1, 1), n_frames: 240, why_none: "", seconds: 1.0 };
-        for line in &effects.lines()[1..5] {
+        for line in &effects.lines(WIDTH)[1..5] {
             assert_eq!(line.split_whitespace().count(), 7, "{line}");
         }
+    }
+
+    #[test]
+    fn a_narrow_page_gets_sentences() {
+        let row = |name, is_on| EffectRow {
+            name,
+            is_on,
+            because: if is_on { vec!["crank".to_owned()] } else { Vec::new() },
+            n_bytes: 480,
+            seconds: 0.25,
+        };
+        let rows = vec![row("clock", true), row("ghosts", false), row("traces", false)];
+        let effects = Effects { rows, islands: (1, 1), n_frames: 1, why_none: "", seconds: 1.0 };
+        let wanted = [
+            "clock: 250000 us a frame, 25%; 480 B",
+            "  because of crank",
+            "off: ghosts, traces",
+            "islands: 1, 1 awake, 0 asleep",
+            "a frame takes 1000000 us, over 1 frame of a copy",
+        ];
+        assert_eq!(effects.lines(40), wanted);
     }
 }

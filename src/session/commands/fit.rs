@@ -134,7 +134,7 @@ impl Execution<'_> {
         sign: f64,
         n_frames: Option<u64>,
     ) -> Result<Found, Diagnostic> {
-        let formula: Formula = self.resolve().live(value)?.into_formula(value);
+        let formula: Formula = self.resolve().live(value)?.into_formula(value.span);
         if formula.shape() != Shape::Number {
             return Err(Diagnostic::error(errors::MIXED_SORTS, "expected a number")
                 .at(value.span, "this is a vector"));

@@ -3,7 +3,7 @@
 
 use super::run::{Hands, Limits};
 use crate::constraint::Point;
-use crate::diag::{Diagnostic, Span};
+use crate::diag::{Diagnostic, Span, format_counted};
 use crate::errors;
 use crate::lang::ast::{DragTarget, Expr};
 use crate::session::execution::{Execution, Flow};
@@ -112,7 +112,10 @@ impl Execution<'_> {
         let mut status = Status::Converged;
         for k in 0..n_stops {
             if self.is_to_stop() {
-                self.note_stop(format!("stopped after {k} of {n_stops} places"));
+                self.note_stop(format!(
+                    "stopped after {k} of {}",
+                    format_counted(n_stops as u64, "place")
+                ));
                 return Ok(Flow::Stopped);
             }
             status = self.lead(&stops(hands, k), Grip::Firm)?.unwrap_or(status);

@@ -31,7 +31,7 @@ impl Execution<'_> {
                 problem
             }
         });
-        let formula = term?.into_formula(value);
+        let formula = term?.into_formula(value.span);
         if formula.shape() != Shape::Number {
             return Err(Diagnostic::error(errors::MIXED_SORTS, "a measure follows a number")
                 .at(value.span, "this is a vector")

@@ -3,7 +3,7 @@
 use super::dead_point::{Next, WayBack};
 use super::pace::Pace;
 use super::run::{Frames, Hands, Limits, is_missed};
-use crate::diag::{Diagnostic, Kind, Span, format_number};
+use crate::diag::{Diagnostic, Kind, Span, format_counted, format_number};
 use crate::errors;
 use crate::session::execution::{Execution, Flow};
 use crate::session::summary::Summary;
@@ -75,7 +75,11 @@ impl Execution<'_> {
                     Passed::Stopped => flow = Flow::Stopped,
                 }
             }
-            self.note_stop(format!("stopped after {} of {n} frames", passage.n_passed));
+            self.note_stop(format!(
+                "stopped after {} of {}",
+                passage.n_passed,
+                format_counted(n, "frame")
+            ));
             break;
         }
         if is_told {

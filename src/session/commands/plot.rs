@@ -7,7 +7,7 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Curves, Expr, Node, PlotPart, Text, Unit};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
-use crate::render::{Options, Sketch};
+use crate::render::{Drawable, Options};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
 use crate::session::quotas::Quota;
@@ -115,8 +115,7 @@ impl Execution<'_> {
         if let Some((file, kind)) = file {
             self.queue_still(file, kind, chart.svg(), &Options::default(), place)?;
         } else {
-            let (n_columns, n_rows) = self.host.page();
-            self.host.draw(&Sketch::of_chart(chart, n_columns, n_rows.min(20)));
+            self.host.draw(Drawable::Chart(chart));
         }
         Ok(())
     }

@@ -28,7 +28,7 @@ impl Execution<'_> {
 
     fn let_parameter(&mut self, name: &Name, value: &Expr) -> Result<(), Diagnostic> {
         let text = self.resolve().declared(name)?;
-        let mut formula = self.resolve().live(value)?.into_formula(value);
+        let mut formula = self.resolve().live(value)?.into_formula(value.span);
         if let Some(given) = self.input.overrides.get_mut(&text) {
             given.is_used = true;
             formula = Formula::constant(given.value);

@@ -2,7 +2,8 @@
 
 use super::dead_point::WayBack;
 use crate::diag::{
-    Diagnostic, Kind, Span, format_count, format_digits, format_number, format_rounded,
+    Diagnostic, Kind, Span, format_count, format_counted, format_digits, format_number,
+    format_rounded,
 };
 use crate::errors;
 use crate::interrupt::{self, Stopped};
@@ -229,7 +230,11 @@ impl Execution<'_> {
         let mut flow = Flow::On;
         while left > 0 {
             if self.is_to_stop() {
-                self.note_stop(format!("stopped after {} of {n} iterations", n - left));
+                self.note_stop(format!(
+                    "stopped after {} of {}",
+                    n - left,
+                    format_counted(n, "iteration")
+                ));
                 flow = Flow::Stopped;
                 break;
             }
@@ -329,10 +334,10 @@ impl Execution<'_> {
             culprits = Some(found);
         }
         let text = format!(
-            "{}: residual {} after {} iterations",
+            "{}: residual {} after {}",
             status.phrase(),
             format_rounded(verdict.residual),
-            report.iterations
+            format_counted(report.iterations, "iteration")
         );
         if limits.tolerance.is_some() && !verdict.is_met() {
             let problem =

@@ -3,29 +3,22 @@
 use std::fmt::Write;
 
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded};
+use crate::diag::{Diagnostic, Kind, Span, format_counted, format_number, format_rounded};
 use crate::errors;
 use crate::interrupt::tick;
 use crate::lang::ast::{Expr, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Trade};
 use crate::lang::nearest_command;
-use crate::render::{Scene, Sketch};
+use crate::render::{Drawable, Scene};
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::resolve::scope::Meaning;
 use crate::session::resolve::unbind::{Unbind, quoted};
 use crate::session::state::State;
+use crate::session::value_text::{format_value, format_value_in};
 use crate::solve::present;
-use crate::terms::Statistic;
+use crate::terms::{Statistic, Unit};
 use crate::world::{ConstraintId, Entity, Measure, PointId, Value, World};
-
-/// A value as `print` writes it.
-pub(crate) fn format_value(value: Value) -> String {
-    match value {
-        Value::Number(n) => format_number(n),
-        Value::Vector(v) => format!("({}, {})", format_number(v.x), format_number(v.y)),
-    }
-}
 
 /// What the writing of a line takes, in ticks.
 const LINE: usize = 1000;
@@ -204,7 +197,7 @@ impl Execution<'_> {
         if is_asked(ListWhat::Traces) {
             lines.extend(self.state.world.traces().iter().map(|trace| {
                 let name = self.state.world.points().name(trace.point);
-                let n = trace.samples.len();
+                let places = format_counted(trace.samples.len() as u64, "place");
                 let label = trace.label.as_deref().map(quoted);
                 let label = label.map_or_else(String::new, |label| format!(" as {label}"));
                 let every = match trace.every {
@@ -212,7 +205,7 @@ impl Execution<'_> {
                     every => format!(" every {every}"),
                 };
                 let ended = if trace.is_ended { ", ended" } else { "" };
-                format!("trace {name}{label}{every}  # {n} places{ended}")
+                format!("trace {name}{label}{every}  # {places}{ended}")
             }));
         }
         if is_asked(ListWhat::Measures) {
@@ -297,20 +290,25 @@ impl Execution<'_> {
                 let text = Unbind::of(&self.state.world).parameter_text(id);
                 let formula = self.state.world.parameter(id).expect("it is named").formula.clone();
                 let value = self.resolve().evaluate(&formula)?;
-                self.host.print(&format!("{text}  # {}", format_value(value)));
+                let unit = if formula.depends().is_constant() {
+                    // It stands there already.
+                    Unit::None
+                } else {
+                    Unbind::of(&self.state.world).unit(&formula)
+                };
+                self.host.print(&format!("{text}  # {}", format_value_in(value, unit)));
             }
         }
         Ok(())
     }
 
-    /// Draws the mechanism in characters.
+    /// Shows the mechanism.
     pub(crate) fn sketch(&mut self) {
         if self.state.world.points().ids().next().is_none() {
             return self.note("nothing here yet");
         }
-        let (n_columns, n_rows) = self.host.page();
-        let sketch = Sketch::of(&Scene::new(&self.state.world), n_columns, n_rows);
-        self.host.draw(&sketch);
+        let scene = Scene::new(&self.state.world);
+        self.host.draw(Drawable::Scene(&scene));
     }
 
     pub(crate) fn tell_history(&mut self) {
@@ -326,7 +324,8 @@ impl State {
         let parameter = self.world.parameter(id).expect("a listed parameter lives");
         match (parameter.depends.is_constant(), parameter.value) {
             (false, Some(value)) if !parameter.depends.is_live() => {
-                format!("{text}  # {}", format_value(value))
+                let unit = Unbind::of(&self.world).unit(&parameter.formula);
+                format!("{text}  # {}", format_value_in(value, unit))
             }
             _ => text,
         }

@@ -21,7 +21,7 @@ impl Execution<'_> {
     }
 
     fn table_column(&mut self, column: &Column) -> Result<TableColumn, Diagnostic> {
-        let formula = self.resolve().live(&column.value)?.into_formula(&column.value);
+        let formula = self.resolve().live(&column.value)?.into_formula(column.value.span);
         let words = Unbind::of(&self.state.world).unbind(&formula);
         let unit = match column.unit {
             Unit::None => String::new(),

@@ -5,15 +5,15 @@ use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Node as Syntax};
-use crate::terms::{Function, Operator, Shape, Unit};
-use crate::world::{Depends, Entity, Formula, Node, Rates, Value, call, operate};
+use crate::terms::{Operator, Shape, Unit};
+use crate::world::{Depends, Entity, Formula, Node, Rates, Value, operate};
 
 /// What an expression was bound to; constants are folded, so that only what can change
 /// makes a tree.
 #[derive(Debug, Clone)]
 pub enum Term {
-    /// A value that cannot change.
-    Constant(Value),
+    /// A value that cannot change, and the unit that it is said in.
+    Constant(Value, Unit),
     /// A formula over points, parameters or time.
     Live(Formula),
 }
@@ -32,35 +32,42 @@ pub(super) enum Mode {
 pub struct Driven {
     /// Its value now.
     pub value: f64,
+    /// The unit that it is said in, if it cannot.
+    pub unit: Unit,
     /// The expression, if it can change.
     pub formula: Option<Formula>,
 }
 
 impl Term {
-    fn shape(&self) -> Shape {
+    pub(super) fn shape(&self) -> Shape {
         match self {
-            Self::Constant(value) => value.shape(),
+            Self::Constant(value, _) => value.shape(),
             Self::Live(formula) => formula.shape(),
         }
     }
 
+    /// A value without a unit.
+    pub(super) const fn plain(value: Value) -> Self {
+        Self::Constant(value, Unit::None)
+    }
+
     /// The formula, of a constant too.
-    pub fn into_formula(self, expr: &Expr) -> Formula {
-        let constant = |node, shape| Formula::new(node, shape, Depends::default(), expr.span);
+    pub fn into_formula(self, span: Span) -> Formula {
+        let constant = |node, shape| Formula::new(node, shape, Depends::default(), span);
         let number = |n, unit| constant(Node::Number(n, unit), Shape::Number);
         match self {
             Self::Live(formula) => formula,
-            Self::Constant(Value::Number(n)) => number(n, expr.unit()),
-            Self::Constant(Value::Vector(v)) => {
+            Self::Constant(Value::Number(n), unit) => number(n, unit),
+            Self::Constant(Value::Vector(v), _) => {
                 let [x, y] = [v.x, v.y].map(|n| number(n, Unit::None));
                 constant(Node::Vector(x, y), Shape::Vector)
             }
         }
     }
 
-    fn depends(&self) -> Depends {
+    pub(super) fn depends(&self) -> Depends {
         match self {
-            Self::Constant(_) => Depends::default(),
+            Self::Constant(..) => Depends::default(),
             Self::Live(formula) => formula.depends(),
         }
     }
@@ -70,7 +77,7 @@ impl Resolver<'_> {
     /// The value of an expression now.
     pub(crate) fn value(&mut self, expr: &Expr) -> Result<Value, Diagnostic> {
         match self.bind(expr, Mode::Now)? {
-            Term::Constant(value) => Ok(value),
+            Term::Constant(value, _) => Ok(value),
             Term::Live(formula) => unreachable!("{formula:?} was to be evaluated"),
         }
     }
@@ -133,9 +140,9 @@ impl Resolver<'_> {
 
     /// A live number with its value now.
     pub(crate) fn driven(&mut self, expr: &Expr) -> Result<Driven, Diagnostic> {
-        match self.driver(expr, Shape::Number)? {
-            (Value::Number(value), formula) => Ok(Driven { value, formula }),
-            (Value::Vector(_), _) => unreachable!("the shape was asked for"),
+        match self.measured_as(expr, Shape::Number)? {
+            (Value::Number(value), unit, formula) => Ok(Driven { value, unit, formula }),
+            (Value::Vector(_), ..) => unreachable!("the shape was asked for"),
         }
     }
 
@@ -145,25 +152,43 @@ impl Resolver<'_> {
         expr: &Expr,
         shape: Shape,
     ) -> Result<(Value, Option<Formula>), Diagnostic> {
-        let (value, formula) = self.measure(expr)?;
+        let (value, _, formula) = self.measured_as(expr, shape)?;
+        Ok((value, formula))
+    }
+
+    /// A value of this shape, the unit that it is said in, and the expression if it can change.
+    fn measured_as(
+        &mut self,
+        expr: &Expr,
+        shape: Shape,
+    ) -> Result<(Value, Unit, Option<Formula>), Diagnostic> {
+        let (value, unit, formula) = self.measured_within(expr)?;
         if value.shape() != shape {
             return Err(wanted(expr, shape));
         }
-        Ok((value, formula))
+        Ok((value, unit, formula))
     }
 
     /// A value that a constraint may have or hold, with the expression behind it if it can change.
     pub(crate) fn measure(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
-        let (value, formula) = self.measured(expr)?;
-        if value.is_within(LARGEST) || self.state.is_restoring {
-            return Ok((value, formula));
-        }
-        Err(too_large(expr, value))
+        let (value, _, formula) = self.measured_within(expr)?;
+        Ok((value, formula))
     }
 
-    fn measured(&mut self, expr: &Expr) -> Result<(Value, Option<Formula>), Diagnostic> {
+    fn measured_within(
+        &mut self,
+        expr: &Expr,
+    ) -> Result<(Value, Unit, Option<Formula>), Diagnostic> {
+        let measured = self.measured(expr)?;
+        if measured.0.is_within(LARGEST) || self.state.is_restoring {
+            return Ok(measured);
+        }
+        Err(too_large(expr, measured.0))
+    }
+
+    fn measured(&mut self, expr: &Expr) -> Result<(Value, Unit, Option<Formula>), Diagnostic> {
         match self.live(expr)? {
-            Term::Constant(value) => Ok((value, None)),
+            Term::Constant(value, unit) => Ok((value, unit, None)),
             Term::Live(formula) => {
                 self.refuse_what_follows(&formula, expr.span)?;
                 let value = match self.state.world.evaluate(&formula, None) {
@@ -171,15 +196,16 @@ impl Resolver<'_> {
                     Err(_) if self.state.is_restoring => Value::zero(formula.shape()),
                     value => value?,
                 };
-                Ok((value, Some(formula)))
+                Ok((value, Unit::None, Some(formula)))
             }
         }
     }
 
-    fn bind(&mut self, expr: &Expr, mode: Mode) -> Result<Term, Diagnostic> {
-        let number = |n| Ok(Term::Constant(Value::Number(n)));
+    /// The value of an expression, or the formula that it is.
+    pub(super) fn bind(&mut self, expr: &Expr, mode: Mode) -> Result<Term, Diagnostic> {
+        let number = |n| Ok(Term::plain(Value::Number(n)));
         match &expr.node {
-            Syntax::Number(n) => number(n.value()),
+            Syntax::Number(n) => Ok(Term::Constant(Value::Number(n.value()), n.unit)),
             Syntax::Pi => number(std::f64::consts::PI),
             Syntax::Tau => number(std::f64::consts::TAU),
             Syntax::Time => match mode {
@@ -198,9 +224,9 @@ impl Resolver<'_> {
                 }
             }
             Syntax::Negate(inner) => Ok(match self.bind(inner, mode)? {
-                Term::Constant(Value::Number(n)) => Term::Constant(Value::Number(-n)),
-                Term::Constant(Value::Vector(v)) => {
-                    Term::Constant(Value::Vector(Vec2 { x: -v.x, y: -v.y }))
+                Term::Constant(Value::Number(n), unit) => Term::Constant(Value::Number(-n), unit),
+                Term::Constant(Value::Vector(v), _) => {
+                    Term::plain(Value::Vector(Vec2 { x: -v.x, y: -v.y }))
                 }
                 Term::Live(f) => {
                     let (shape, depends) = (f.shape(), f.depends());
@@ -220,12 +246,13 @@ impl Resolver<'_> {
                         return Err(wanted(part, Shape::Number));
                     }
                 }
-                if let (Term::Constant(x), Term::Constant(y)) = (&x, &y) {
+                if let (Term::Constant(x, _), Term::Constant(y, _)) = (&x, &y) {
                     let v = Vec2 { x: x.number(), y: y.number() };
-                    return Ok(Term::Constant(Value::Vector(v)));
+                    return Ok(Term::plain(Value::Vector(v)));
                 }
                 let depends = x.depends().or(y.depends());
-                let node = Node::Vector(x.into_formula(&parts[0]), y.into_formula(&parts[1]));
+                let node =
+                    Node::Vector(x.into_formula(parts[0].span), y.into_formula(parts[1].span));
                 Ok(Term::Live(Formula::new(node, Shape::Vector, depends, expr.span)))
             }
             Syntax::Component(inner, axis) => {
@@ -238,11 +265,13 @@ impl Resolver<'_> {
 
     fn bind_name(&mut self, meaning: Meaning, span: Span, mode: Mode) -> Result<Term, Diagnostic> {
         let entity = match meaning {
-            Meaning::Bound(Bound::Number(n)) => return Ok(Term::Constant(Value::Number(n))),
+            Meaning::Bound(Bound::Number(n, unit)) => {
+                return Ok(Term::Constant(Value::Number(n), unit));
+            }
             Meaning::Bound(Bound::Formula(formula)) => {
                 return match mode {
                     Mode::Live => Ok(Term::Live(formula)),
-                    Mode::Now => self.evaluate(&formula).map(Term::Constant),
+                    Mode::Now => self.evaluate(&formula).map(Term::plain),
                 };
             }
             Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
@@ -256,7 +285,7 @@ impl Resolver<'_> {
             Entity::Point(id) => {
                 if mode == Mode::Now {
                     let p = self.state.world.points().at(id);
-                    return Ok(Term::Constant(Value::Vector(Vec2 { x: p.x, y: p.y })));
+                    return Ok(Term::plain(Value::Vector(Vec2 { x: p.x, y: p.y })));
                 }
                 let depends = Depends { on_points: true, ..Depends::default() };
                 (Node::Point(id), Shape::Vector, depends)
@@ -268,7 +297,7 @@ impl Resolver<'_> {
                     && !parameter.depends.is_live()
                     && let Some(value) = parameter.value
                 {
-                    return Ok(Term::Constant(value));
+                    return Ok(Term::plain(value));
                 }
                 let depends = Depends { on_parameters: true, ..Depends::default() };
                 (Node::Parameter(id), shape, depends)
@@ -287,7 +316,7 @@ impl Resolver<'_> {
         let formula = Formula::new(node, shape, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+            Mode::Now => self.evaluate(&formula).map(Term::plain),
         }
     }
 
@@ -304,106 +333,13 @@ impl Resolver<'_> {
     fn rates(&mut self) -> Result<Rates, Diagnostic> {
         self.state.look(crate::solve::Solver::rates)
     }
-
-    fn bind_call(
-        &mut self,
-        function: Function,
-        arguments: &[Expr],
-        expr: &Expr,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let is_of_points = function.is_rate() || function.counts_turns();
-        let mut few = [const { Term::Constant(Value::Number(0.0)) }; 4];
-        let mut many = Vec::new();
-        let is_few = arguments.len() <= few.len();
-        let letters =
-            function.arguments().bytes().filter(|&b| b != b'*').chain(std::iter::repeat(b'n'));
-        for (k, (argument, letter)) in arguments.iter().zip(letters).enumerate() {
-            // Only a formula keeps the names of points.
-            let term = self.bind(argument, if is_of_points { Mode::Live } else { mode })?;
-            let shape = if letter == b'n' { Shape::Number } else { Shape::Vector };
-            if term.shape() != shape {
-                return Err(wanted(argument, shape));
-            }
-            if is_few {
-                few[k] = term;
-            } else {
-                many.push(term);
-            }
-        }
-        let terms = if is_few { &few[..arguments.len()] } else { &many[..] };
-        if is_of_points {
-            return self.bind_of_points(function, terms, arguments, expr, mode);
-        }
-        if terms.iter().all(|term| matches!(term, Term::Constant(_))) {
-            let constant = |term: &Term| match term {
-                Term::Constant(value) => *value,
-                Term::Live(_) => unreachable!("all are constant"),
-            };
-            let mut values = [Value::Number(0.0); 4];
-            let value = if is_few {
-                values.iter_mut().zip(terms).for_each(|(value, term)| *value = constant(term));
-                call(function, &values[..terms.len()], expr.span)?
-            } else {
-                call(function, &terms.iter().map(constant).collect::<Vec<_>>(), expr.span)?
-            };
-            return Ok(Term::Constant(value));
-        }
-        let depends = terms.iter().fold(Depends::default(), |all, term| all.or(term.depends()));
-        let formulas = terms.iter().zip(arguments).map(|(t, a)| t.clone().into_formula(a));
-        let node = Node::Call(function, formulas.collect());
-        Ok(Term::Live(Formula::new(node, function.result(), depends, expr.span)))
-    }
-
-    fn bind_of_points(
-        &mut self,
-        function: Function,
-        terms: &[Term],
-        arguments: &[Expr],
-        expr: &Expr,
-        mode: Mode,
-    ) -> Result<Term, Diagnostic> {
-        let points = points_of(function, terms, arguments)?;
-        if function.counts_turns() {
-            self.note_turning(&points);
-        }
-        let is_rate = function.is_rate();
-        let depends = Depends { on_rates: is_rate, on_points: !is_rate, ..Depends::default() };
-        let node = Node::Call(function, points);
-        let formula = Formula::new(node, function.result(), depends, expr.span);
-        match mode {
-            Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
-        }
-    }
-}
-
-/// The arguments of a function that takes the names of points.
-fn points_of(
-    function: Function,
-    terms: &[Term],
-    arguments: &[Expr],
-) -> Result<Box<[Formula]>, Diagnostic> {
-    let points = terms.iter().zip(arguments).map(|(term, argument)| match term {
-        Term::Live(formula) if matches!(formula.node(), Node::Point(_)) => Ok(formula.clone()),
-        _ => {
-            let wants =
-                if terms.len() == 1 { "the name of a point" } else { "the names of points" };
-            Err(Diagnostic::error(
-                errors::WRONG_SORT,
-                format!("`{}` takes {wants}", function.name()),
-            )
-            .at(argument.span, "this is not a point"))
-        }
-    });
-    points.collect()
 }
 
 fn component(term: Term, axis: Axis, span: Span) -> Result<Term, Diagnostic> {
     let letter = if axis == Axis::X { "x" } else { "y" };
     match term {
-        Term::Constant(Value::Vector(v)) => {
-            Ok(Term::Constant(Value::Number(if axis == Axis::X { v.x } else { v.y })))
+        Term::Constant(Value::Vector(v), _) => {
+            Ok(Term::plain(Value::Number(if axis == Axis::X { v.x } else { v.y })))
         }
         Term::Live(f) if f.shape() == Shape::Vector => {
             let depends = f.depends();
@@ -453,11 +389,15 @@ fn binary(
             });
         }
     };
-    if let (Term::Constant(a), Term::Constant(b)) = (&left, &right) {
-        return operate(operator, *a, *b, expr.span, sides[1].span).map(Term::Constant);
+    if let (Term::Constant(a, left), Term::Constant(b, right)) = (&left, &right) {
+        let value = operate(operator, *a, *b, expr.span, sides[1].span)?;
+        let unit = if shape == Number { operator.unit(*left, *right) } else { Unit::None };
+        return Ok(Term::Constant(value, unit));
     }
     let depends = left.depends().or(right.depends());
-    let node = Node::Binary(operator, left.into_formula(&sides[0]), right.into_formula(&sides[1]));
+    let [left, right] =
+        [(left, &sides[0]), (right, &sides[1])].map(|(t, of)| t.into_formula(of.span));
+    let node = Node::Binary(operator, left, right);
     Ok(Term::Live(Formula::new(node, shape, depends, expr.span)))
 }
 
@@ -472,7 +412,7 @@ fn too_large(expr: &Expr, value: Value) -> Diagnostic {
 }
 
 /// The error for an expression of the other shape.
-fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
+pub(super) fn wanted(expr: &Expr, shape: Shape) -> Diagnostic {
     let is = if shape == Shape::Number { Shape::Vector } else { Shape::Number };
     Diagnostic::error(errors::MIXED_SORTS, format!("expected a {}", shape.noun()))
         .at(expr.span, format!("this is a {}", is.noun()))

@@ -75,7 +75,7 @@ impl Resolver<'_> {
         let formula = Formula::new(Node::Member(id, member), Shape::Number, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+            Mode::Now => self.evaluate(&formula).map(Term::plain),
         }
     }
 
@@ -91,7 +91,7 @@ impl Resolver<'_> {
         let formula = Formula::new(Node::Statistic(id, which), Shape::Number, depends, span);
         match mode {
             Mode::Live => Ok(Term::Live(formula)),
-            Mode::Now => self.evaluate(&formula).map(Term::Constant),
+            Mode::Now => self.evaluate(&formula).map(Term::plain),
         }
     }
 

@@ -5,8 +5,18 @@ use crate::constraint::{
     Bounds, Constraint, ConstraintKind as _, Field, Flag, Given, Kind, Point, PointIdx, Refusal,
     Traits,
 };
-use crate::lang::ast::{ConstraintWord, Part, Relation, Role, Unit};
+use crate::lang::ast::{ConstraintWord, Role, Unit};
 use crate::lang::catalogue::{Pattern, Slot};
+use crate::world::Drivers;
+
+/// What stands behind the values of a constraint.
+#[derive(Default)]
+pub(crate) struct Behind {
+    /// The expressions of those that can change.
+    pub drivers: Drivers,
+    /// The units that the others are said in, where they have one.
+    pub units: Vec<(Field, Unit)>,
+}
 
 /// What the parts of a statement say, looked up and evaluated.
 #[derive(Default)]
@@ -107,23 +117,6 @@ pub(crate) fn flag_of(role: Role) -> Flag {
         Role::Unbounded => Flag::Unbounded,
         _ => unreachable!("`{}` does not stand alone", role.word()),
     }
-}
-
-/// The units in which values are typed that are plain numbers.
-pub(crate) fn units_of(parts: &[Part]) -> Vec<(Field, Unit)> {
-    let values = parts.iter().flat_map(|part| match part {
-        Part::Value(Role::At, _) | Part::Values(..) => Vec::new(),
-        Part::Value(role, value) => vec![(field_of(*role), value)],
-        Part::Relation(relation) => match relation {
-            Relation::Equal(value) => vec![(Field::Lo, value), (Field::Hi, value)],
-            Relation::Less(value) | Relation::LessEqual(value) => vec![(Field::Hi, value)],
-            Relation::Greater(value) | Relation::GreaterEqual(value) => vec![(Field::Lo, value)],
-            Relation::In(range) => vec![(Field::Lo, &range.from), (Field::Hi, &range.to)],
-        },
-        _ => Vec::new(),
-    });
-    let typed = values.map(|(field, value)| (field, value.unit()));
-    typed.filter(|(_, unit)| *unit != Unit::None).collect()
 }
 
 #[cfg(test)]

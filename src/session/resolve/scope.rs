@@ -7,7 +7,7 @@ use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::quotas::Quotas;
 use crate::session::state::State;
-use crate::terms::{Member, Statistic};
+use crate::terms::{Member, Statistic, Unit};
 use crate::world::{ConstraintId, Entity, Formula, MeasureId, NameText, PointId, Turning};
 
 /// Names that have a meaning of their own in every expression.
@@ -47,13 +47,13 @@ impl Scopes {
     /// Binds a loop variable in the innermost scope; gives its place there.
     pub fn bind(&mut self, name: Arc<str>, value: f64) -> usize {
         let bindings = &mut self.innermost_mut().bindings;
-        bindings.push((name, Bound::Number(value)));
+        bindings.push((name, Bound::Number(value, Unit::None)));
         bindings.len() - 1
     }
 
     /// Gives a loop variable of the innermost scope another value.
     pub fn rebind(&mut self, place: usize, value: f64) {
-        self.innermost_mut().bindings[place].1 = Bound::Number(value);
+        self.innermost_mut().bindings[place].1 = Bound::Number(value, Unit::None);
     }
 
     /// Forgets a loop variable of the innermost scope.
@@ -98,8 +98,8 @@ pub struct Scope {
 /// What a loop variable or a parameter of a definition stands for.
 #[derive(Debug, Clone)]
 pub enum Bound {
-    /// A value that does not change.
-    Number(f64),
+    /// A value that does not change, and the unit that it is said in.
+    Number(f64, Unit),
     /// A live expression.
     Formula(Formula),
     /// A point, itself.
@@ -205,7 +205,7 @@ impl<'a> Resolver<'a> {
             let bound = bound.clone();
             return match (name.parts.len(), axis) {
                 (0, _) => Ok((Meaning::Bound(bound), None)),
-                (1, Some(axis)) if !matches!(bound, Bound::Number(_)) => {
+                (1, Some(axis)) if !matches!(bound, Bound::Number(..)) => {
                     Ok((Meaning::Bound(bound), Some(axis)))
                 }
                 _ => Err(Diagnostic::error(
@@ -255,7 +255,7 @@ impl<'a> Resolver<'a> {
             (Meaning::Bound(Bound::Point(id)), None) => Ok(Entity::Point(id)),
             (Meaning::Bound(bound), _) => {
                 let value = match bound {
-                    Bound::Number(n) => format!("the number {}", format_number(n)),
+                    Bound::Number(n, _) => format!("the number {}", format_number(n)),
                     _ => "a value".to_owned(),
                 };
                 Err(Diagnostic::error(

@@ -12,6 +12,7 @@ use crate::lang::ast::{
     Node as Syntax, Pair, Part, Range, Relation, Role, Text,
 };
 use crate::lang::catalogue::Slot;
+use crate::terms::Unit;
 use crate::world::{
     ConstraintId, Entity, Formula, Measure, Node, ParameterId, PointId, Record, World,
 };
@@ -252,6 +253,20 @@ impl<'a> Unbind<'a> {
                 Syntax::Name(named(&format!("{name}.{letter}")))
             }
             _ => Syntax::Component(Box::new(of), axis),
+        }
+    }
+
+    /// The unit that the value of a formula is best said in.
+    pub(crate) fn unit(&self, formula: &Formula) -> Unit {
+        match formula.node() {
+            Node::Number(_, unit) => *unit,
+            Node::Negate(a) => self.unit(a),
+            Node::Binary(op, a, b) => op.unit(self.unit(a), self.unit(b)),
+            Node::Parameter(id) => self
+                .world
+                .parameter(*id)
+                .map_or(Unit::None, |parameter| self.unit(&parameter.formula)),
+            _ => Unit::None,
         }
     }
 

@@ -89,7 +89,8 @@ fn the_next_session_says_so_once_and_an_end_in_order_leaves_nothing() {
     terminal.wait_for("the last session did not end in order");
     terminal.wait_for_prompt();
     let screen = terminal.screen();
-    let load = screen.lines().find_map(|line| line.split_once("bring it back: ")).expect("how").1;
+    let load =
+        screen.lines().find_map(|line| line.split_once("bring back its 1 line: ")).expect("how").1;
     terminal.enter(load);
     terminal.enter("r + 0");
     terminal.wait_for("\n3\n");

@@ -218,3 +218,104 @@ fn keys_are_those_of_vi_where_the_user_has_them_so() {
     terminal.press("0x");
     terminal.wait_for(">  + 3");
 }
+
+#[test]
+fn ctrl_c_leaves_a_search_a_list_and_a_paste() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    // The search of the history.
+    terminal.press("\x12crank");
+    terminal.wait_for("reverse-i-search");
+    terminal.press(CTRL_C);
+    terminal.wait_for_prompt();
+    // A list of what completes a word.
+    terminal.press("off c\t\t");
+    terminal.wait_for("c      crank");
+    terminal.press(CTRL_C);
+    terminal.wait_for_prompt();
+    // A paste that is not carried out yet.
+    terminal.press("\x1b[200~for i in 1..2 {\r  step\r\x1b[201~");
+    terminal.wait_for("step");
+    terminal.press(CTRL_C);
+    terminal.wait_for_prompt();
+    terminal.enter("time");
+    terminal.wait_for("> time\n0\n");
+}
+
+#[test]
+fn ctrl_c_stops_whatever_takes_long_and_takes_back_what_is_half_done() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    for (long, said) in [
+        ("for i in 1..1e7 { let n = i }", "stopped"),
+        ("relax 1e9", "stopped after"),
+        ("drag A to (1, 0) over 1e9", "stopped after"),
+        ("accuracy", "stopped"),
+    ] {
+        terminal.type_in(long);
+        terminal.press("\r");
+        // It is under way for a while.
+        std::thread::sleep(std::time::Duration::from_millis(700));
+        terminal.press(CTRL_C);
+        terminal.wait(long, |it| it.line() == "> " && it.screen().contains(said));
+        terminal.enter("print \"next\"");
+        terminal.press("\x0c");
+        terminal.wait_for_prompt();
+    }
+    assert!(!terminal.screen().contains("unknown"), "{}", terminal.screen());
+}
+
+#[test]
+fn a_terminal_may_change_its_size_while_something_runs() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("step 1e9\r");
+    terminal.wait_for(" %, ");
+    terminal.resize(24, 40);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    terminal.press(CTRL_C);
+    terminal.wait_for("stopped after");
+    terminal.wait_for_prompt();
+    // What is said now fits the new width, its caret in place.
+    terminal.press("point Q = (1, 2), R = (3, 4), SSSS = (5 6)\r");
+    terminal.wait_for("expected");
+    terminal.wait_for_prompt();
+    let screen = terminal.screen();
+    let mut said = screen.lines().filter(|line| !line.starts_with("> "));
+    assert!(said.all(|line| line.chars().count() <= 40), "{screen}");
+}
+
+#[test]
+fn two_sessions_at_once_both_keep_what_is_typed() {
+    let home = tempdir().expect("a folder");
+    let first = Terminal::session(home.path());
+    let second = Terminal::session(home.path());
+    first.enter("let mine = 1");
+    second.enter("let yours = 2");
+    for terminal in [first, second] {
+        terminal.press("quit\r");
+        terminal.end();
+    }
+    let terminal = Terminal::session(home.path());
+    for known in ["let mine = 1", "let yours = 2"] {
+        terminal.press(&known[..6]);
+        terminal.wait_for(known);
+        terminal.clear();
+    }
+}
+
+#[test]
+fn long_blocks_are_pasted_whole() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    let lines: Vec<String> = (0..120).map(|i| format!("  point q[{i}] = (k, {i})\r")).collect();
+    let lines = lines.concat();
+    for piece in format!("\x1b[200~for k in 1..1 {{\r{lines}}}\x1b[201~").as_bytes().chunks(500) {
+        terminal.press(&String::from_utf8_lossy(piece));
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    terminal.press("\r");
+    terminal.wait_for_prompt();
+    terminal.enter("q[119]");
+    terminal.wait_for("(1, 119)");
+}

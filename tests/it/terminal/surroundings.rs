@@ -3,7 +3,8 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::process::Command;
+use std::io::Write;
+use std::process::{Command, Stdio};
 
 use tempfile::tempdir;
 
@@ -40,7 +41,7 @@ fn a_dumb_terminal_gets_letters_only() {
     let start = Start { env: &[("TERM", "dumb"), ("PAGER", "sed s/^/paged/")], ..Start::default() };
     let terminal = Terminal::start(home.path(), &start);
     terminal.wait_for("> ");
-    terminal.press("1 + 2\rhelp\rnonsense\r");
+    terminal.press("1 + 2\rhelp\rpoint A = (0, 0), B = (1, 0); show\rnonsense\r");
     terminal.wait_for("unknown name");
     let text = String::from_utf8_lossy(&terminal.bytes()).into_owned();
     assert!(!text.contains('\x1b') && !text.contains("paged"), "{text:?}");
@@ -186,4 +187,72 @@ fn an_example_is_run_and_played_with() {
     terminal.wait_for_prompt();
     terminal.enter("list definitions");
     terminal.wait_for("define dyad(");
+}
+
+#[test]
+fn without_a_terminal_there_is_no_prompt_no_greeting_and_no_order() {
+    let home = tempdir().expect("a folder");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .current_dir(home.path())
+        .env("HOME", home.path())
+        .env("TERM", "xterm-kitty")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let typed = "1 + 2\nnonsense\npoint A = (0, 0), B = (1, 0); length A B\nshow\nhelp\n";
+    program.stdin.take().expect("a pipe").write_all(typed.as_bytes()).expect("it reads");
+    let done = program.wait_with_output().expect("it ends");
+    let out = String::from_utf8(done.stdout).expect("text");
+    assert!(
+        out.starts_with("3\n")
+            && out.contains(['\u{2580}', '\u{2584}'])
+            && out.contains("says more"),
+        "{out}"
+    );
+    let said = String::from_utf8(done.stderr).expect("text");
+    for text in [&out, &said] {
+        assert!(
+            !text.contains('\x1b') && !text.contains("Ctrl-D") && !text.contains("> 1"),
+            "{text}"
+        );
+    }
+    assert_eq!(done.status.code(), Some(2));
+    // Nothing of a session is kept.
+    assert!(!home.path().join(".local").exists());
+}
+
+#[test]
+fn all_that_is_said_of_a_scene_fits_forty_columns() {
+    let home = tempdir().expect("a folder");
+    let narrow = Start { size: (200, 40), ..Start::default() };
+    let terminal = Terminal::start(home.path(), &narrow);
+    terminal.wait_for_prompt();
+    let statements = [
+        "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)",
+        "crank: motor A B speed 1rev; coupler: length B C = 3.5; length C D = 3",
+        "trace C; solve; step 60",
+        "list; show coupler; C; crank",
+        "effects; check; limits crank; set; why coupler",
+        "length B C = 9; solve",
+        "sample \"s\" = 1, 2, 3; plot; show",
+    ];
+    for statement in statements {
+        terminal.press(&format!("{statement}\r"));
+        terminal.wait_for_prompt();
+    }
+    terminal.enter("\"the end\"");
+    let text = String::from_utf8_lossy(&terminal.bytes()).into_owned();
+    assert!(text.contains("us a frame, "), "{text}");
+    // No line was broken by the terminal within a word: what is wider than it is one word.
+    let mut screen =
+        vt100::Parser::new(500.try_into().expect("rows"), 400.try_into().expect("columns"), 0);
+    screen.process(&terminal.bytes());
+    let said = screen.screen().contents();
+    let is_typed =
+        |line: &str| line.starts_with("> ") || statements.iter().any(|it| it.contains(line));
+    for line in said.lines().filter(|line| !is_typed(line.trim_end())) {
+        assert!(line.chars().count() <= 40 || !line.trim().contains(' '), "{line:?} in\n{said}");
+    }
 }
