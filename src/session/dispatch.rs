@@ -140,10 +140,11 @@ impl Execution<'_> {
             Drawing::UntraceLabel(label) => self.untrace_label(label)?,
             Drawing::Untrace(selection) => self.untrace(selection)?,
             Drawing::Expose(expose) => self.expose(expose)?,
-            Drawing::Svg(path) => self.svg(path)?,
-            Drawing::Record { path, columns, every } => {
-                self.record(path, columns, every.as_ref())?;
+            Drawing::Svg { path, parts } => self.svg(path, parts)?,
+            Drawing::Record { path, columns, every, parts } => {
+                self.record(path, columns, every.as_ref(), parts)?;
             }
+            Drawing::Export { path, parts } => self.export(path, parts, span)?,
             Drawing::Sample { series, values } => self.sample(series, values)?,
             Drawing::Plot { path, curves: None, parts } => {
                 self.plot(path.as_ref(), parts, span)?;

@@ -65,6 +65,6 @@ impl State {
             ("scene", format!("{:016x}", self.scene_hash())),
         ];
         let receipt = receipt.map(|(key, value)| (key.to_owned(), value)).to_vec();
-        Options { title: None, receipt }
+        Options { receipt, ..Options::default() }
     }
 }

@@ -20,7 +20,7 @@ use super::grammar::Rule;
 use super::lower::{self, Cursor};
 pub use building::{Building, Definition};
 pub use changing::Changing;
-pub use drawing::{Column, Curves, Drawing, Expose, PlotPart};
+pub use drawing::{Column, Curves, Drawing, ExportPart, Expose, PicturePart, PlotPart};
 pub use looking::{ListWhat, Looking, PrintItem};
 pub use making::{Binding, DragTarget, Making, PointDecl};
 pub use measuring::{FitRange, Goal, Label, Measuring, ResultItem};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Curves, Expr, Node, PlotPart, Text, Unit};
-use crate::render::Sketch;
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
+use crate::render::{Options, Sketch};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
 use crate::session::quotas::Quota;
@@ -32,7 +32,7 @@ impl Execution<'_> {
         parts: &[PlotPart],
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
+        let file = path.map(|path| self.still_file(path)).transpose()?;
         let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
@@ -49,8 +49,7 @@ impl Execution<'_> {
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
         say(&mut chart, parts);
-        self.show_chart(&chart, file, place);
-        Ok(())
+        self.show_chart(&chart, file, place)
     }
 
     /// Draws measures against another, or against time.
@@ -60,7 +59,7 @@ impl Execution<'_> {
         curves: &Curves,
         parts: &[PlotPart],
     ) -> Result<(), Diagnostic> {
-        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
+        let file = path.map(|path| self.still_file(path)).transpose()?;
         let against = match curves.against.node {
             Node::Time => None,
             _ => Some(self.plotted(&curves.against)?),
@@ -87,8 +86,7 @@ impl Execution<'_> {
         chart.y = axis(&names_of(&up));
         say(&mut chart, parts);
         let place = path.map_or(curves.against.span, |path| path.span);
-        self.show_chart(&chart, file, place);
-        Ok(())
+        self.show_chart(&chart, file, place)
     }
 
     /// The measure of this name.
@@ -108,13 +106,19 @@ impl Execution<'_> {
     }
 
     /// Writes a chart, or draws it in characters.
-    fn show_chart(&mut self, chart: &Chart, file: Option<PathBuf>, place: Span) {
-        if let Some(file) = file {
-            self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
+    fn show_chart(
+        &mut self,
+        chart: &Chart,
+        file: Option<(PathBuf, FileKind)>,
+        place: Span,
+    ) -> Result<(), Diagnostic> {
+        if let Some((file, kind)) = file {
+            self.queue_still(file, kind, chart.svg(), &Options::default(), place)?;
         } else {
             let (n_columns, n_rows) = self.host.page();
             self.host.draw(&Sketch::of_chart(chart, n_columns, n_rows.min(20)));
         }
+        Ok(())
     }
 }
 

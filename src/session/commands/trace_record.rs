@@ -1,13 +1,14 @@
-//! Traces, ghosts, pictures and recordings.
+//! Traces, ghosts and recordings.
 
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span, suggest};
 use crate::errors;
-use crate::lang::ast::{Column, Expose, Expr, Name, Selection, Text};
-use crate::render::{Scene, svg};
+use crate::lang::ast::{Column, Expose, Expr, Name, PicturePart, Selection, Text};
+use crate::render::Options;
+use crate::session::commands::picture::must_be_built_in;
 use crate::session::execution::Execution;
-use crate::session::file_kind::{FileKind, ends_in};
+use crate::session::file_kind::ends_in;
 use crate::session::output_file::frame_name;
 use crate::session::parcel::{Content, Parcel, unwritable};
 use crate::session::preferences::Preferences;
@@ -186,44 +187,46 @@ impl Execution<'_> {
         self.hold_quotas(span)
     }
 
-    pub(crate) fn svg(&mut self, path: &Text) -> Result<(), Diagnostic> {
-        let file = self.output_file(path, FileKind::Picture).map_err(|problem| {
-            if !path.value.ends_with('/') {
-                return problem;
-            }
-            problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
-        })?;
-        let scene = Scene::new(&self.state.world);
-        let picture = svg(
-            &scene,
-            &self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref())),
-        );
-        self.queue_file(file, FileKind::Picture, picture.into_bytes(), path.span);
-        Ok(())
-    }
-
     pub(crate) fn record(
         &mut self,
         path: &Text,
         columns: &[Column],
         every: Option<&Expr>,
+        parts: &[PicturePart],
     ) -> Result<(), Diagnostic> {
         let every = self.every(every)?;
+        let look = self.look(parts)?;
         let format = if path.value.ends_with('/') {
             Format::Frames
         } else if ends_in(&path.value, ".svg") {
             Format::Movie
+        } else if ends_in(&path.value, ".gif") {
+            must_be_built_in(path)?;
+            Format::Gif
         } else if ends_in(&path.value, ".csv") {
             Format::Table
         } else {
             self.output_path(path)?;
+            let problem =
+                Diagnostic::error(errors::NOT_A_FILE_NAME, "what is this recording to become?")
+                    .at(path.span, "expected a name that ends in `/`, `.svg`, `.gif` or `.csv`");
+            let still = ends_in(&path.value, ".png");
+            return Err(if still {
+                problem.help(format!("`svg \"{}\"` writes one picture", path.value))
+            } else {
+                problem.help(format!("`record \"{}/\"` makes a folder of frames", path.value))
+            });
+        };
+        if format == Format::Table
+            && let Some(part) = parts.first()
+        {
             return Err(Diagnostic::error(
                 errors::NOT_A_FILE_NAME,
-                "what is this recording to become?",
+                "a table does not look like anything",
             )
-            .at(path.span, "expected a name that ends in `/`, `.svg` or `.csv`")
-            .help(format!("`record \"{}/\"` makes a folder of frames", path.value)));
-        };
+            .at(path.span, format!("`{part}` is for pictures"))
+            .help("leave it out, or record an `.svg`"));
+        }
         if let Some(column) = columns.first().filter(|_| format != Format::Table) {
             return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "only a table has columns")
                 .at(path.span, "expected a name that ends in `.csv`")
@@ -237,7 +240,7 @@ impl Execution<'_> {
                 self.must_be_replaceable(&folder.join(frame_name(0)), format.kind(), path.span)?;
                 folder
             }
-            Format::Movie | Format::Table => self.output_file(path, kind)?,
+            Format::Movie | Format::Gif | Format::Table => self.output_file(path, kind)?,
         };
         if self.state.recorders.iter().any(|r| r.path == file) {
             return Err(Diagnostic::error(
@@ -248,7 +251,8 @@ impl Execution<'_> {
             .help("`record stop` ends and writes all recordings"));
         }
         let spool = self.host.spool().map_err(|e| unwritable(&file, path.span, &e))?;
-        let mut recorder = Recorder::new(file, path.span, every, format, Tape::new(spool));
+        let tape = Tape::new(spool);
+        let mut recorder = Recorder::new(file, path.span, every, format, look, tape);
         recorder.columns = columns.into();
         if !recorder.columns.is_empty() {
             // The row of now: what is counted in it is counted from now on.
@@ -286,7 +290,8 @@ impl Execution<'_> {
                 );
             }
             let (file, kind, span) = (recorder.path.clone(), recorder.kind(), recorder.span);
-            let content = Content::Recording(Box::new((recorder, options.clone())));
+            let options = Options { receipt: options.receipt.clone(), ..recorder.look.clone() };
+            let content = Content::Recording(Box::new((recorder, options)));
             self.outbox.push(Parcel { file, content, kind, span });
         }
         self.drop_recordings();

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
-use crate::render::{Animation, Options, Scene, View, is_shown};
+use crate::render::raster::{Motion, SHORTEST_FRAME};
+use crate::render::{Animation, Options, Scene, View, is_shown, shown_for, svg_with_view};
 use crate::session::file_kind::FileKind;
 use crate::session::spool::Tape;
 use crate::world::{Formula, World};
@@ -26,6 +27,8 @@ pub struct Recorder {
     pub every: u64,
     /// What it will become.
     pub format: Format,
+    /// How its pictures look.
+    pub look: Options,
     tape: Tape,
     shots: Vec<Shot>,
     /// The points of a table, in the order in which they came.
@@ -52,6 +55,8 @@ pub enum Format {
     Frames,
     /// One animated picture.
     Movie,
+    /// One animated picture in pixels.
+    Gif,
     /// A table of the traced points.
     Table,
 }
@@ -61,6 +66,7 @@ impl Format {
     pub const fn kind(self) -> FileKind {
         match self {
             Self::Frames | Self::Movie => FileKind::Picture,
+            Self::Gif => FileKind::Gif,
             Self::Table => FileKind::PathTable,
         }
     }
@@ -99,16 +105,33 @@ impl Reel {
 
 impl Recorder {
     /// A recording that has taken nothing yet.
-    pub fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
+    pub fn new(
+        path: PathBuf,
+        span: Span,
+        every: u64,
+        format: Format,
+        look: Options,
+        tape: Tape,
+    ) -> Self {
         let columns = Arc::new([]);
-        Self { path, span, every, format, tape, shots: Vec::new(), names: Vec::new(), columns }
+        Self {
+            path,
+            span,
+            every,
+            format,
+            look,
+            tape,
+            shots: Vec::new(),
+            names: Vec::new(),
+            columns,
+        }
     }
 
     /// Another in memory that takes the same and has taken nothing yet.
     pub fn emptied(&self) -> Self {
         let tape = Tape::new(Box::new(Vec::new()));
-        let columns = self.columns.clone();
-        let emptied = Self::new(self.path.clone(), self.span, self.every, self.format, tape);
+        let (look, columns) = (self.look.clone(), self.columns.clone());
+        let emptied = Self::new(self.path.clone(), self.span, self.every, self.format, look, tape);
         Self { columns, ..emptied }
     }
 
@@ -160,7 +183,7 @@ impl Recorder {
             return Ok(());
         }
         let (numbers, n_points, scene) = match self.format {
-            Format::Frames | Format::Movie => {
+            Format::Frames | Format::Movie | Format::Gif => {
                 // A scene shares with the one before it what did not change.
                 let last = self.shots.last().and_then(|shot| shot.scene.as_ref());
                 let scene = last.map_or_else(|| Scene::new(world), |last| last.next(world));
@@ -257,6 +280,37 @@ impl Recorder {
             }
         }
         Ok(Some(movie.finish()))
+    }
+
+    /// Writes all of its scenes as a GIF; gives whether it came to its end, which it does not where
+    /// `is_stopped` says so on the way.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn or written, or the tape cannot be read.
+    pub fn write_gif(
+        &self,
+        out: &mut dyn Write,
+        options: &Options,
+        is_stopped: impl Fn() -> bool,
+    ) -> io::Result<bool> {
+        let view = self.view()?;
+        let n = self.shots.len();
+        let span = match &self.shots[..] {
+            [first, .., last] => last.time - first.time,
+            _ => 0.0,
+        };
+        let duration = shown_for(span);
+        // Frames that are too short to be shown are left out evenly.
+        let stride = ((n as f64 * SHORTEST_FRAME / duration).ceil() as usize).max(1);
+        let seconds = duration / n.div_ceil(stride).max(1) as f64;
+        let mut motion = Motion::new(out, options.is_transparent);
+        for frame in (0..n).step_by(stride) {
+            if is_stopped() {
+                return Ok(false);
+            }
+            motion.add(&svg_with_view(&self.scene(frame)?, &view, options), seconds)?;
+        }
+        Ok(true)
     }
 
     /// Whether no row of a table says where a point is.

@@ -274,9 +274,11 @@ fn pictures() -> BoxedStrategy<Drawing> {
         Just(Drawing::Expose(Expose::Now)),
         expr().prop_map(|frames| Drawing::Expose(Expose::Every(frames))),
         Just(Drawing::Expose(Expose::Off)),
-        text().prop_map(Drawing::Svg),
-        (text(), vec(column(), 0..3), of(expr()))
-            .prop_map(|(path, columns, every)| Drawing::Record { path, columns, every }),
+        (text(), look()).prop_map(|(path, parts)| Drawing::Svg { path, parts }),
+        (text(), vec(column(), 0..3), of(expr()), look()).prop_map(
+            |(path, columns, every, parts)| { Drawing::Record { path, columns, every, parts } }
+        ),
+        (text(), export()).prop_map(|(path, parts)| Drawing::Export { path, parts }),
         Just(Drawing::RecordStop),
         (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Drawing::Sample { series, values }),
         (of(text()), of(curves()), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
@@ -292,6 +294,36 @@ fn pictures() -> BoxedStrategy<Drawing> {
         ),
     ]
     .boxed()
+}
+
+fn look() -> BoxedStrategy<Vec<PicturePart>> {
+    (of(expr()), any::<[bool; 3]>(), of(text()))
+        .prop_map(|(width, [is_dark, is_transparent, is_nameless], title)| {
+            let parts = [
+                width.map(PicturePart::Width),
+                is_dark.then_some(PicturePart::Dark),
+                is_transparent.then_some(PicturePart::Transparent),
+                is_nameless.then_some(PicturePart::WithoutNames),
+                title.map(PicturePart::Title),
+            ];
+            parts.into_iter().flatten().collect()
+        })
+        .boxed()
+}
+
+fn export() -> BoxedStrategy<Vec<ExportPart>> {
+    (of(ident()), of(expr()), of(expr()), of(expr()), of(expr()))
+        .prop_map(|(unit, scale, width, hole, kerf)| {
+            let parts = [
+                unit.map(ExportPart::In),
+                scale.map(ExportPart::Scale),
+                width.map(ExportPart::Width),
+                hole.map(ExportPart::Hole),
+                kerf.map(ExportPart::Kerf),
+            ];
+            parts.into_iter().flatten().collect()
+        })
+        .boxed()
 }
 
 fn building() -> BoxedStrategy<Building> {
