@@ -83,6 +83,9 @@ impl Reel {
     }
 }
 
+/// Rows of a table between two looks at whether it is still wanted.
+const ROWS_AT_ONCE: usize = 1024;
+
 impl Recorder {
     /// A recording that has taken nothing yet.
     pub const fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
@@ -236,7 +239,11 @@ impl Recorder {
     ///
     /// # Errors
     /// Where it cannot be written, or the tape cannot be read.
-    pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_table(
+        &self,
+        out: &mut dyn Write,
+        is_stopped: impl Fn() -> bool,
+    ) -> io::Result<()> {
         // What was taken back may have left names.
         let mut columns: Vec<usize> = Vec::new();
         for shot in self.shots.iter().filter(|shot| shot.n_points > 0) {
@@ -257,7 +264,10 @@ impl Recorder {
         }
         line.push('\n');
         out.write_all(line.as_bytes())?;
-        for shot in &self.shots {
+        for (k, shot) in self.shots.iter().enumerate() {
+            if k % ROWS_AT_ONCE == 0 && is_stopped() {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
             line.clear();
             line.push_str(&format_number(shot.time));
             let row = self.row(shot)?;
