@@ -1,4 +1,5 @@
-//! Prints the rates of docs/hard-cases.md: `cargo bench --bench truth -- 13000`.
+//! Prints the rates of docs/hard-cases.md: `cargo bench --bench truth -- 13000`, and some seeds of one
+//! study: `cargo bench --bench truth -- 621..622 conflict`.
 
 #![allow(clippy::disallowed_methods)]
 
@@ -30,18 +31,23 @@ const LONG: [&str; 9] = [
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let n = arguments.iter().find_map(|a| a.parse().ok()).unwrap_or(N_SCENES);
-    let names: Vec<&String> =
-        arguments.iter().filter(|a| !a.starts_with('-') && a.parse::<u64>().is_err()).collect();
+    let some = arguments.iter().find_map(|a| {
+        let (from, to) = a.split_once("..")?;
+        Some(from.parse::<u64>().ok()?..to.parse().ok()?)
+    });
+    let is_name = |a: &&String| a.starts_with(|first: char| first.is_ascii_alphabetic());
+    let names: Vec<&String> = arguments.iter().filter(is_name).collect();
     println!("{}", studies::Count::HEAD);
     for study in &studies::ALL {
         if !names.is_empty() && !names.iter().any(|name| *name == study.name) {
             continue;
         }
         let begun = Instant::now();
-        let n_seeds = if LONG.contains(&study.name) { n.div_ceil(10) } else { n };
-        for count in (study.run)(0..n_seeds) {
+        let most = if LONG.contains(&study.name) { n.div_ceil(10) } else { n };
+        let seeds = some.clone().unwrap_or(0..most);
+        for count in (study.run)(seeds.clone()) {
             println!("{}", count.line());
         }
-        eprintln!("{}: {n_seeds} seeds, {:.1} s", study.name, begun.elapsed().as_secs_f64());
+        eprintln!("{}: seeds {seeds:?}, {:.1} s", study.name, begun.elapsed().as_secs_f64());
     }
 }

@@ -17,7 +17,7 @@ pub(crate) mod process_host;
 mod progress;
 mod run;
 mod spool;
-pub(crate) mod view;
+mod view;
 mod watch;
 mod wrap;
 

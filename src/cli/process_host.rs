@@ -14,7 +14,7 @@ use super::view::View;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Sketch;
-use crate::session::{Clock, Example, Host, Kept, Spool, Wish, contained, reason};
+use crate::session::{Clock, Example, Host, Kept, Session, Spool, Wish, contained, reason};
 
 /// The process as a session sees it.
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
@@ -37,7 +37,7 @@ pub struct ProcessHost {
     /// Whether it goes on after a statement, so that pages may look at the session.
     pub(super) may_view: bool,
     /// The pages that do.
-    pub(super) view: Option<View>,
+    view: Option<View>,
 }
 
 /// Where what an example includes is looked for: no folder, it comes with the program.
@@ -77,6 +77,25 @@ impl ProcessHost {
             None => View::open(port)?,
         };
         Ok(self.view.insert(view).address().to_owned())
+    }
+
+    /// Whether pages look at the session.
+    pub const fn is_viewed(&self) -> bool {
+        self.view.is_some()
+    }
+
+    /// Waits for something while pages, if there are any, have the session; `told` is told their
+    /// statements.
+    pub fn meanwhile<T>(
+        &mut self,
+        session: &mut Session,
+        told: &mut (dyn FnMut(&str) + Send),
+        wait: impl FnOnce() -> T,
+    ) -> T {
+        let Some(mut view) = self.view.take() else { return wait() };
+        let result = view.meanwhile(session, self, told, wait);
+        self.view = Some(view);
+        result
     }
 
     /// From here on what is typed is kept in a journal; where that cannot be, it is not.

@@ -9,7 +9,7 @@ use std::sync::mpsc::sync_channel;
 use super::args::{HostArguments, Scripts, ViewArguments, command_names};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output, view};
+use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
@@ -346,7 +346,7 @@ fn typed_ahead(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
         ExitStatus::Unreadable
     };
     loop {
-        let line = match view::meanwhile(session, host, || lines.next()) {
+        let line = match host.meanwhile(session, &mut |_| (), || lines.next()) {
             Ok(line) => line,
             Err(e) => return unreadable(&e, session),
         };

@@ -22,6 +22,17 @@ fn style(piece: &Piece) -> Option<&'static str> {
     }
 }
 
+/// Letters of a statement that are shown.
+const MOST_LETTERS: usize = 70;
+
+/// A statement of a page, as a line above the prompt.
+pub fn of_page(statement: &str) -> String {
+    let line = statement.lines().next().unwrap_or_default();
+    let is_long = line.chars().count() > MOST_LETTERS || line.len() < statement.len();
+    let shown: String = line.chars().take(MOST_LETTERS).collect();
+    format!("page: {shown}{}\n", if is_long { " ..." } else { "" })
+}
+
 /// A text with the colours of its pieces, and the marks of its lines behind the first.
 pub fn coloured(text: &str, pieces: &[Piece]) -> String {
     let mut shown = String::with_capacity(2 * text.len());

@@ -4,12 +4,12 @@ mod editor;
 mod history;
 mod look;
 
+use rustyline::ExternalPrinter as _;
 use rustyline::error::ReadlineError;
 
 use crate::cli::interrupt;
 use crate::cli::output;
 use crate::cli::process_host::ProcessHost;
-use crate::cli::view;
 use crate::session::{Flow, PROMPT, Session, Transcript, without_prompts};
 
 /// Says who is there, and what to type first.
@@ -34,10 +34,20 @@ pub fn converse(session: &mut Session, host: &mut ProcessHost) {
     let history = history::file();
     history::recall(&mut editor, history.as_deref());
     let mut transcript = Transcript::conversation("<prompt>");
+    let mut printer = None;
     loop {
         editor::prepare(&mut editor, session);
+        if printer.is_none() && host.is_viewed() {
+            printer = editor.create_external_printer().ok();
+        }
+        // What pages say stands above the line that is being typed.
+        let mut told = |statement: &str| {
+            if let Some(printer) = &mut printer {
+                drop(printer.print(look::of_page(statement)));
+            }
+        };
         let line = || interrupt::at_prompt(|| editor.readline(PROMPT));
-        match view::meanwhile(session, host, line) {
+        match host.meanwhile(session, &mut told, line) {
             _ if interrupt::is_ending() => return,
             Ok(line) => {
                 let line = look::without_marks(&line);

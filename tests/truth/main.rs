@@ -20,7 +20,7 @@ const LIMITS: [(&str, u64, &[usize]); 23] = [
     ("conflict", 60, &[0; 3]),
     ("redundancy", 300, &[0, 0]),
     ("least", 200, &[0, 0]),
-    ("drags", 20, &[3, 0]),
+    ("drags", 40, &[0, 0]),
     ("triads", 25, &[0; 9]),
     ("six_bars", 25, &[0; 9]),
     ("branches", 40, &[0; 12]),

@@ -10,7 +10,7 @@ use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Error, Message, WebSocket};
 
 use super::outlet::Outlet;
-use super::server::{Event, Shared};
+use super::shared::{Event, Shared};
 use crate::live::{ClientId, is_stop};
 
 /// The longest message of a page, bytes.

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::server::Shared;
-use crate::cli::process_host::ProcessHost;
+use super::shared::Shared;
 use crate::diag::{Diagnostic, Sources};
 use crate::session::{Clock, Host, Kept, Spool, Wish};
 
 /// Files, clock and journal are those of the process; a page may stop what it asked for.
 pub struct PageHost<'a> {
-    pub process: &'a mut ProcessHost,
+    pub process: &'a mut (dyn Host + Send),
     pub shared: Arc<Shared>,
     /// Where the page is.
     pub address: &'a str,

@@ -10,6 +10,7 @@ mod outlet;
 mod page;
 mod request;
 mod server;
+mod shared;
 mod token;
 
 use std::collections::BTreeMap;
@@ -22,12 +23,12 @@ use std::time::{Duration, Instant};
 use tungstenite::Message;
 use tungstenite::protocol::frame::coding::CloseCode;
 
-use super::process_host::ProcessHost;
 use crate::live::{self, ClientId, Live};
-use crate::session::Session;
+use crate::session::{Host, Session};
 use host::PageHost;
 use outlet::Outlet;
-use server::{Event, Server};
+use server::Server;
+use shared::Event;
 
 /// The stack of the thread that serves pages: as large as that of the thread that types.
 const STACK: usize = 8 << 20;
@@ -70,14 +71,42 @@ impl View {
         &self.address
     }
 
-    /// Serves pages until somebody else wants the session.
-    fn serve(&mut self, session: &mut Session, process: &mut ProcessHost) {
+    /// Waits for something while pages have the session.
+    pub fn meanwhile<T>(
+        &mut self,
+        session: &mut Session,
+        process: &mut (dyn Host + Send),
+        told: &mut (dyn FnMut(&str) + Send),
+        wait: impl FnOnce() -> T,
+    ) -> T {
+        let shared = self.server.shared();
+        thread::scope(|scope| {
+            let serve = || self.serve(session, process, told);
+            let serving = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, serve);
+            let result = wait();
+            if serving.is_ok() {
+                shared.send(Event::Over);
+            }
+            result
+        })
+    }
+
+    /// Serves pages until somebody else wants the session; `told` is told the statements of pages.
+    fn serve(
+        &mut self,
+        session: &mut Session,
+        process: &mut (dyn Host + Send),
+        told: &mut dyn FnMut(&str),
+    ) {
         self.live.take_back_over(session);
         let address = self.address.clone();
         let mut host = PageHost { process, shared: self.server.shared(), address: &address };
         let mut is_over = false;
+        let mut n_typed = session.n_typed();
         while !is_over {
             self.tell(session);
+            session.changes_since(n_typed).for_each(&mut *told);
+            n_typed = session.n_typed();
             is_over = self.hear(session, &mut host);
             let now = self.begun.elapsed().as_secs_f64();
             let shared = host.shared.clone();
@@ -155,25 +184,4 @@ impl Drop for View {
             outlet.wait_until_left(end.saturating_duration_since(Instant::now()));
         }
     }
-}
-
-/// Waits for something while pages, if there are any, have the session.
-pub fn meanwhile<T>(
-    session: &mut Session,
-    process: &mut ProcessHost,
-    wait: impl FnOnce() -> T,
-) -> T {
-    let Some(mut view) = process.view.take() else { return wait() };
-    let shared = view.server.shared();
-    let result = thread::scope(|scope| {
-        let serve = || view.serve(session, process);
-        let serving = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, serve);
-        let result = wait();
-        if serving.is_ok() {
-            shared.send(Event::Over);
-        }
-        result
-    });
-    process.view = Some(view);
-    result
 }

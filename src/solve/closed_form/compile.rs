@@ -1,6 +1,6 @@
 //! From the constraints of an island to its list of steps.
 
-use super::{CircleLine, Circles, ClosedForm, Crank, Radius, Step};
+use super::{CircleLine, Circles, ClosedForm, Crank, Radius, Ray, Step, Sum};
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Block, Form, Plan};
 
@@ -10,6 +10,8 @@ enum Locus {
     Circle(PointIdx, Radius),
     /// The line through two others; whether only the part between them.
     Line([PointIdx; 2], bool),
+    /// The line from another through a slider; whether only the part beyond it.
+    Beyond(PointIdx, PointIdx, bool),
 }
 
 impl ClosedForm {
@@ -57,7 +59,7 @@ impl ClosedForm {
             }
             (_, &[one]) if !block.is_determined => match locus(&all[one as usize], to)? {
                 Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
-                Locus::Line(..) => None,
+                Locus::Line(..) | Locus::Beyond(..) => None,
             },
             _ => None,
         }
@@ -75,7 +77,7 @@ impl ClosedForm {
                 Some(Step::Crank(self.cranks.len() as u32 - 1))
             }
             Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
-            _ => None,
+            _ => Some(Step::Sum(Sum::new(to, c, constraint, self.ways.len())?)),
         }
     }
 }
@@ -90,6 +92,12 @@ fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
         | (Locus::Line(line, is_bounded), Locus::Circle(from, Radius::Fixed(l))) => {
             Some(Step::CircleLine(CircleLine::new(to, from, line, l, is_bounded)?))
         }
+        (Locus::Circle(centre, Radius::Fixed(l)), Locus::Beyond(from, slider, is_bounded))
+        | (Locus::Beyond(from, slider, is_bounded), Locus::Circle(centre, Radius::Fixed(l)))
+            if centre == from =>
+        {
+            Some(Step::Ray(Ray::new(to, from, slider, l, is_bounded)?))
+        }
         _ => None,
     }
 }
@@ -102,7 +110,10 @@ fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
         }
         Constraint::Glider(glider) => {
             let [slider, a, b] = glider.points;
-            (slider == p && a != p && b != p).then_some(Locus::Line([a, b], glider.bounded))
+            if slider == p {
+                return (a != p && b != p).then_some(Locus::Line([a, b], glider.bounded));
+            }
+            Some(Locus::Beyond(other_end([a, b], p)?, slider, glider.bounded))
         }
         Constraint::Equal(equal) if equal.bounds.is_equality() && equal.ratio > 0.0 => {
             let [a, b, c, d] = equal.points;
@@ -123,4 +134,39 @@ fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
 /// The other of two points; none where both are one.
 fn other_end([a, b]: [PointIdx; 2], p: PointIdx) -> Option<PointIdx> {
     (a != b).then_some(if p == a { b } else { a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::{Bounds, Equivalence, Glider, Hinge, Length, Motor};
+
+    fn bar(points: [PointIdx; 2]) -> Constraint {
+        Length { points, bounds: Bounds::exactly(4.0) }.into()
+    }
+
+    fn has_list(constraints: &[Constraint], n_free: usize, n_points: usize) -> bool {
+        let plan = Plan::new(constraints, n_free, n_points);
+        ClosedForm::new(&plan, constraints, n_points, 3).is_some()
+    }
+
+    #[test]
+    fn a_slotted_link_and_what_it_carries_have_a_list() {
+        // The crank's end 0, the link's end 1, points 2 and 3 that it carries; 4 and 5 stand still.
+        let crank: Constraint = Motor::new([4, 0], 1.0, 0.0, 1.0).into();
+        let hinge: Constraint = Hinge { points: [2, 5, 1], ratio: 0.3 }.into();
+        let copy: Constraint = Equivalence { points: [5, 2, 1, 3] }.into();
+        for ends in [[5, 1], [1, 5]] {
+            let slot: Constraint = Glider { points: [0, ends[0], ends[1]], bounded: true }.into();
+            let all = [crank.clone(), bar([5, 1]), slot, hinge.clone(), copy.clone()];
+            assert!(has_list(&all, 4, 6), "{ends:?}");
+        }
+    }
+
+    #[test]
+    fn a_link_on_a_slider_that_hangs_from_elsewhere_has_none() {
+        let crank: Constraint = Motor::new([2, 0], 1.0, 0.0, 1.0).into();
+        let slot: Constraint = Glider { points: [0, 1, 3], bounded: false }.into();
+        assert!(!has_list(&[crank, slot, bar([4, 1])], 2, 5));
+    }
 }

@@ -1,5 +1,5 @@
 //! The pose of an island as a list of steps, each of which says outright where a point is: on a
-//! crank, at a place, where two circles meet.
+//! crank, at a place, where two circles meet, where a hinge divides a bar.
 //!
 //! An island that falls apart into such steps is compiled when it is first followed, and again
 //! once a value that a step holds was changed. A frame runs the list. It has no start and no
@@ -14,12 +14,16 @@ mod circles;
 mod compile;
 mod found;
 mod line;
+mod ray;
 mod run;
+mod sum;
 
 use crate::constraint::{Heading, PointIdx};
 use circles::Circles;
 pub(crate) use found::Found;
 use line::CircleLine;
+use ray::Ray;
+use sum::Sum;
 
 /// What finds an island's pose.
 pub(crate) struct ClosedForm {
@@ -67,6 +71,10 @@ enum Step {
     Circles(Circles),
     /// Where a circle meets a line.
     CircleLine(CircleLine),
+    /// At the end of a slotted link.
+    Ray(Ray),
+    /// Where a constraint adds up other points to.
+    Sum(Sum),
     /// On a circle, where it is nearest to.
     Nearest {
         /// The point that is found.

@@ -20,7 +20,8 @@ impl ClosedForm {
             match step {
                 Step::Circles(circles) => circles.look(x),
                 Step::CircleLine(meeting) => meeting.look(x),
-                Step::Crank(_) | Step::Place { .. } | Step::Nearest { .. } => {}
+                Step::Ray(ray) => ray.look(x),
+                Step::Crank(_) | Step::Place { .. } | Step::Sum(_) | Step::Nearest { .. } => {}
             }
         }
         self.knows_pose = true;
@@ -136,6 +137,8 @@ impl ClosedForm {
                 Step::Crank(k) => cranks[*k as usize].run(x, ways, constraints, &mut found),
                 Step::Circles(circles) => circles.run(x, ways, &mut found)?,
                 Step::CircleLine(meeting) => meeting.run(x, ways, &mut found)?,
+                Step::Ray(ray) => ray.run(x, ways, &mut found)?,
+                Step::Sum(sum) => sum.run(x, ways, constraints, &mut found),
                 Step::Place { to, constraint, way } => {
                     x[*to as usize] = place(&constraints[*constraint as usize]);
                     ways[*to as usize] = *way;

@@ -4,7 +4,7 @@
 
 use super::attempt::{Attempt, NO_MOTION, attempt, motion_between, motion_since};
 use super::branch::{NEARLY_SINGULAR, SENSITIVE};
-use super::{settle, substep};
+use super::{nearest, settle, substep};
 use crate::constraint::Point;
 use crate::solve::island::Island;
 use crate::solve::island::sides::SINGULAR;
@@ -35,6 +35,9 @@ const FAR: f64 = 4.0;
 /// they are passed in a part e of the frame, four poses on one let a pose on the other expect with an
 /// error of more than 3 e^2 of the way by which the branches part in a frame.
 const LEAP: f64 = 1.5e-5;
+
+/// A motion of more than this part of the size may lead points with freedom left off the shortest way.
+const LONG: f64 = 1e-2;
 
 /// A tolerance of less than this part of the size is fine enough to follow any motion.
 const FINE: f64 = 1e-8;
@@ -99,6 +102,7 @@ fn go_on(
             || island.plan.is_linear()
             || follows(island, &attempt, is_predicted, limits))
     {
+        let attempt = stay_near(island, attempt, limits, work);
         return accept(island, attempt, limits);
     }
     let ends_in_singular = tried.is_some_and(|attempt| attempt.least_side < NEARLY_SINGULAR);
@@ -107,6 +111,7 @@ fn go_on(
     if !island.has_velocities()
         && let Some(attempt) = substep::frame(island, ends_in_singular, &near, work)
     {
+        let attempt = stay_near(island, attempt, limits, work);
         return accept(island, attempt, limits);
     }
     island.turned_over = None;
@@ -193,6 +198,26 @@ fn project_prediction(island: &mut Island, limits: &Limits, work: &mut Counters)
         }
     }
     island.part_workspaces = workspaces;
+}
+
+/// Takes back what points with freedom left went farther than they had to, where they went far: a
+/// short way hardly differs from the shortest.
+fn stay_near(
+    island: &mut Island,
+    mut attempt: Attempt,
+    limits: &Limits,
+    work: &mut Counters,
+) -> Attempt {
+    let origin = island.history.origin();
+    let has_freedom = !island.plan.is_complete() && !island.is_smooth();
+    if has_freedom && motion_since(island, origin) > LONG * limits.size {
+        let origin: Box<[Point]> = origin.into();
+        let mut workspace = island.take_workspace();
+        nearest::approach(island, &mut workspace, &origin, limits, work);
+        attempt.worst = workspace.rows.worst;
+        island.put_workspace(workspace);
+    }
+    attempt
 }
 
 /// The frame ends at the present pose.

@@ -23,7 +23,7 @@ const FIRST_ORDER_STEPS: u32 = 300;
 const PUSH: f64 = 1e-4;
 /// The same where a solution is looked for before it is said that none is found: off a stop, and
 /// over to another branch.
-const FAR_PUSHES: [f64; 4] = [1e-2, -1e-2, 0.3, -0.3];
+const FAR_PUSHES: [f64; 6] = [1e-2, -1e-2, 0.1, -0.1, 0.3, -0.3];
 /// So many constraints that hang together at most: each push takes a way down.
 const MOST_PUSHED: usize = 200;
 /// Constraints swept over by relaxation before a solve is given up, some milliseconds, and sweeps
@@ -47,7 +47,7 @@ const MUCH_LESS: f64 = 1e-2;
 const SMALL_PART: f64 = 1e-3;
 /// A way of more than this many times what the start was off is looked at again, in steps that are
 /// this part as long, and so many times as many.
-const DETOUR: f64 = 2.0;
+const DETOUR: f64 = 1.25;
 const SMALL_STEPS: f64 = 0.1;
 const MORE_STEPS: u32 = 4;
 /// Ways whose lengths differ by no more than this part are as long.
@@ -156,8 +156,8 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     best
 }
 
-/// Looks for a nearer solution by small steps from the start, where the present one is much farther
-/// away than what was off there: long steps may lead past the nearest of several.
+/// Looks for a nearer solution by small steps from the start, and from around it, where the present
+/// one is much farther away than what was off there: long steps may lead past the nearest of several.
 fn by_small_steps(
     island: &mut Island,
     workspace: &mut Workspace,
@@ -169,17 +169,15 @@ fn by_small_steps(
     let here: Box<[Point]> = island.x[..start.len()].into();
     let way = nearest::distance(workspace, start, &island.x);
     island.x[..start.len()].copy_from_slice(start);
-    let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+    let pose = Pose { constraints: &island.constraints, x: &mut island.x };
     workspace.evaluate(&pose, work);
     let off = (2.0 * workspace.rows.energy).sqrt();
     let mut nearest = Nearest(Some((way, found, here)));
     if way > DETOUR * off {
-        let size = SMALL_STEPS * limits.size;
-        let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
-        let small = Limits { size, n_iterations, ..*limits };
-        let outcome = newton::solve_near(workspace, &mut pose, &small, work);
-        if outcome.is_converged() {
-            nearest.add(island, workspace, start, outcome, limits, work);
+        let small = Limits { size: SMALL_STEPS * limits.size, ..*limits };
+        nearest.look_around(island, workspace, start, &[0.0], &small, work);
+        if island.constraints.len() <= MOST_PUSHED {
+            nearest.look_around(island, workspace, start, &FAR_PUSHES, limits, work);
         }
     }
     if let Some((_, _, x)) = nearest.0 {
@@ -254,12 +252,17 @@ fn first_descent(
     Outcome { n_iterations: on_stops.n_iterations + outcome.n_iterations, ..outcome }
 }
 
-/// Whether one ending is better than another, by more than rounding.
+/// Whether one ending is better than another, by more than rounding: of two that are as good the one
+/// that is known to be a best fit.
 fn is_better(one: &Outcome, other: &Outcome) -> bool {
     match (one.is_converged(), other.is_converged()) {
         (true, other) => !other,
         (false, true) => false,
-        (false, false) => one.energy < other.energy * (1.0 - WORTHWHILE),
+        (false, false) => {
+            let is_known = one.status == Status::BestFit && other.status != Status::BestFit;
+            let margin = if is_known { WORTHWHILE } else { -WORTHWHILE };
+            one.energy < other.energy * (1.0 + margin)
+        }
     }
 }
 
@@ -357,21 +360,7 @@ fn from_elsewhere(
 ) -> Outcome {
     let here: Box<[Point]> = island.x[..start.len()].into();
     let mut nearest = Nearest::default();
-    // What does not end in a solution is not asked where it ends.
-    let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
-    let many = Limits { n_iterations, ..*limits };
-    for far in FAR_PUSHES {
-        if limits.budget.is_spent() {
-            break;
-        }
-        island.x[..start.len()].copy_from_slice(start);
-        push(&mut island.x[..start.len()], far * limits.size);
-        let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
-        let after = newton::solve_near(workspace, &mut pose, &many, work);
-        if after.is_converged() {
-            nearest.add(island, workspace, start, after, limits, work);
-        }
-    }
+    nearest.look_around(island, workspace, start, &FAR_PUSHES, limits, work);
     let Some((_, outcome, x)) = nearest.0 else {
         island.x[..start.len()].copy_from_slice(&here);
         return before;
@@ -387,6 +376,33 @@ fn from_elsewhere(
 struct Nearest(Option<(f64, Outcome, Box<[Point]>)>);
 
 impl Nearest {
+    /// Takes in the solutions near the start and near where pushes of these parts of the size lead.
+    fn look_around(
+        &mut self,
+        island: &mut Island,
+        workspace: &mut Workspace,
+        start: &[Point],
+        pushes: &[f64],
+        limits: &Limits,
+        work: &mut Counters,
+    ) {
+        // What does not end in a solution is not asked where it ends.
+        let n_iterations = limits.n_iterations.saturating_mul(MORE_STEPS);
+        let many = Limits { n_iterations, ..*limits };
+        for far in pushes {
+            if limits.budget.is_spent() {
+                return;
+            }
+            island.x[..start.len()].copy_from_slice(start);
+            push(&mut island.x[..start.len()], far * limits.size);
+            let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
+            let after = newton::solve(workspace, &mut pose, &many, work);
+            if after.is_converged() {
+                self.add(island, workspace, start, after, &many, work);
+            }
+        }
+    }
+
     /// Takes in the solution that is the present pose.
     fn add(
         &mut self,

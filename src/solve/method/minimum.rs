@@ -28,11 +28,13 @@ const NEARLY_LEVEL: f64 = 1e-9;
 /// slope alone is small on any slope that is only long, as where two lines nearly are one.
 const FLAT: f64 = 1e-8;
 /// A curvature that is negative by less than this part of what the rows can have is 0.
-const ROUND: f64 = 1e-3;
+const ROUND: f64 = 1e-6;
 /// The same in absolute terms: rounding.
 const ROUNDING: f64 = 1e-13;
 /// What is added to a curvature that is 0 where there is freedom left.
 const FLOOR: f64 = 1e-11;
+/// A step longer than this part of the size is taken that far.
+const LONGEST_STEP: f64 = 0.1;
 /// Newton steps for the last digits. They converge quadratically but for angles, whose distance
 /// changes with the pose.
 const MOST_STEPS: u32 = 40;
@@ -68,13 +70,14 @@ pub(crate) fn examine(
         if is_flat && steep <= LEVEL * (2.0 * energy).sqrt() {
             return Finding::Minimum;
         }
-        if !is_flat && workspace.equations.reach(&workspace.step) > 0.1 * limits.size {
-            return Finding::Unclear;
-        }
         workspace.remember(pose);
-        let lower = workspace.try_step(pose, 1.0, work);
+        // In a valley of little curvature the model leads too far, or to and fro between the walls.
+        let reach = workspace.equations.reach(&workspace.step);
+        let part = if is_flat { 1.0 } else { (LONGEST_STEP * limits.size / reach).min(1.0) };
+        let lower = workspace.try_step(pose, part, work);
         workspace.update_slope();
-        if lower > energy * (1.0 + FLAT) || workspace.steepness() > 0.5 * steep {
+        let is_downhill = !is_flat && lower < energy || workspace.steepness() <= 0.5 * steep;
+        if lower > energy * (1.0 + FLAT) || !is_downhill {
             workspace.reject(pose, work);
             let is_level = steep <= NEARLY_LEVEL * (2.0 * energy).sqrt();
             return if is_flat && is_level { Finding::Minimum } else { Finding::Unclear };
