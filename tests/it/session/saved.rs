@@ -116,9 +116,7 @@ fn the_sign_of_zero_is_not_left_out() {
         "hold p0.x = -0",
     ] {
         let mut talking = Talking::after(points);
-        if talking.execute(statement).is_err() {
-            panic!("{statement}");
-        }
+        assert!(talking.execute(statement).is_ok(), "{statement}");
         talking.assert_goes_on_from_its_file("step 2");
     }
 }
