@@ -12,7 +12,7 @@ name="linkwork-$version-$platform"
 room="$(mktemp -d)"
 trap 'rm -rf "$room"' EXIT
 
-cargo build --quiet --locked --profile "$profile" --bin linkwork
+cargo build --quiet --locked --profile "$profile" --features pictures --bin linkwork
 mkdir -p "$room/$name/man/man1" "$room/$name/completions" dist
 cp "$folder/linkwork" README.md LICENSE CHANGELOG.md "$room/$name/"
 cp editors/linkwork.tmLanguage.json "$room/$name/"

@@ -18,4 +18,9 @@ version="$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)"
 test "$("$program" --version)" = "linkwork $version"
 "$program" run scripts/gallery/four-bar.link --quiet --out "$room/out" | grep -q "after one turn C is at"
 test -s "$room/out/four-bar.svg"
+echo 'point A = (0, 0); svg "a.png"' | "$program" run - --quiet --out "$room/out"
+test -s "$room/out/a.png"
+"$room/user/bin/python" -c 'from linkwork import Session
+with Session() as session:
+    assert session.evaluate("6 * 7") == 42'
 echo "the wheel of linkwork $version installs and runs"

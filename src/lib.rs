@@ -42,8 +42,8 @@
 //!
 //! # Features
 //!
-//! Both are on by default. `terminal` is the program: command line, prompt, files. `parallel`
-//! shares out work to all cores. Without them the library needs no threads, files or clock:
+//! Two are on by default. `terminal` is the program: command line, prompt, files. `parallel`
+//! shares out work to all cores. `pictures` draws in pixels, `.png` and `.gif`. Without them the library needs no threads, files or clock:
 //! nothing that `wasm32-unknown-unknown` lacks.
 
 // These macros panic where the stream is closed.
@@ -62,6 +62,7 @@ pub mod linalg;
 pub mod live;
 #[doc(hidden)]
 pub mod mobility;
+mod optimise;
 pub mod render;
 #[cfg(feature = "terminal")]
 mod repl;

@@ -7,7 +7,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use super::output::MessageFormat;
 
 use crate::diag::visible;
-use crate::session::Quota;
+use crate::session::{Axis, Quota, Shard};
 
 /// Planar mechanisms under geometric constraints: sketch, run and draw them.
 ///
@@ -52,6 +52,9 @@ pub enum Invocation {
     Fmt(FormatArguments),
     /// Run a script again whenever it is saved, or a file that it includes.
     Watch(WatchArguments),
+    /// Run a script for every combination of the values that `--set` gives, into one table: what
+    /// `result` says, how it ended, dead points.
+    Sweep(SweepArguments),
     /// Run a script, show the mechanism in a browser, and go on at the prompt: what is typed shows at
     /// once, and what the mouse does is written as statements.
     View(ViewArguments),
@@ -70,9 +73,6 @@ pub struct ExamineArguments {
     /// The script; `-` is standard input.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Print the findings as one JSON object.
-    #[arg(long)]
-    pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -87,9 +87,6 @@ pub struct AccuracyArguments {
     /// Study so many frames, not those of the script's longest run.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub frames: Option<u64>,
-    /// Print a list of JSON objects, not a table.
-    #[arg(long)]
-    pub json: bool,
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
@@ -146,6 +143,33 @@ pub struct WatchArguments {
     pub host: HostArguments,
 }
 
+/// A script to be run many times.
+#[derive(Debug, Args)]
+pub struct SweepArguments {
+    /// The script. What it prints and writes is left out.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Work on so many cores, not on all.
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Run one of so many parts, for several machines: `2/8`.
+    #[arg(long, value_name = "I/N", value_parser = parse_shard)]
+    pub shard: Option<Shard>,
+    /// Go on with the table that is there.
+    #[arg(long)]
+    pub resume: bool,
+    /// Draw the poses that variants end in, side by side: up to a hundred, evenly chosen.
+    #[arg(long)]
+    pub pictures: bool,
+    /// The table, in the output folder; `-` is standard output. By default `sweep.csv`, with `--json`
+    /// `sweep.jsonl`.
+    #[arg(long, value_name = "NAME")]
+    pub to: Option<String>,
+    /// The grid and how it talks.
+    #[command(flatten)]
+    pub host: HostArguments,
+}
+
 /// A session to be looked at.
 #[derive(Debug, Args)]
 pub struct ViewArguments {
@@ -158,6 +182,14 @@ pub struct ViewArguments {
     /// How it talks and where it writes.
     #[command(flatten)]
     pub host: HostArguments,
+}
+
+impl SweepArguments {
+    /// What the table is called.
+    pub fn table_name(&self) -> &str {
+        let usual = if self.host.json { "sweep.jsonl" } else { "sweep.csv" };
+        self.to.as_deref().unwrap_or(usual)
+    }
 }
 
 /// What to say more about.
@@ -208,12 +240,16 @@ pub struct HostArguments {
     /// working folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Give a parameter a value; wins over the script's own `let`.
+    /// Give a parameter a value; wins over the script's own `let`. For `sweep` several: `a=1..5:0.5`,
+    /// `b=1,2,4`.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
-    pub set: Vec<(String, f64)>,
+    pub set: Vec<Axis>,
     /// Say nothing on standard error but errors.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Say all that is to be said as JSON on standard output, an object a line; docs/json.md has them.
+    #[arg(long)]
+    pub json: bool,
     /// Work with so many cores, not with all; the results are the same to the bit.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -253,6 +289,7 @@ impl HostArguments {
             out,
             set,
             quiet,
+            json,
             threads,
             allow_any_path,
             libraries,
@@ -266,6 +303,7 @@ impl HostArguments {
             out: out.or(self.out),
             set: self.set.into_iter().chain(set).collect(),
             quiet: quiet || self.quiet,
+            json: json || self.json,
             threads: threads.or(self.threads),
             allow_any_path: allow_any_path || self.allow_any_path,
             libraries: self.libraries.into_iter().chain(libraries).collect(),
@@ -287,6 +325,7 @@ impl Invocation {
             | Self::Check(ExamineArguments { host, .. })
             | Self::Effects(ExamineArguments { host, .. })
             | Self::Examples(ExampleArguments { host, .. })
+            | Self::Sweep(SweepArguments { host, .. })
             | Self::Watch(WatchArguments { host, .. })
             | Self::View(ViewArguments { host, .. })
             | Self::Help(HelpArguments { host, .. }) => Some(host),
@@ -302,6 +341,7 @@ pub fn parse() -> Arguments {
         let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
         Arguments::try_parse_from(shown).err().unwrap_or(problem).exit()
     });
+    let is_sweep = matches!(arguments.command, Some(Invocation::Sweep(_)));
     if let Some(invocation) = &mut arguments.command {
         if !arguments.scripts.is_empty() || arguments.scripts.interactive {
             let problem = "files, `-e` and `-i` stand behind the command, or alone";
@@ -312,6 +352,19 @@ pub fn parse() -> Arguments {
         if let Some(behind) = invocation.host_mut() {
             *behind = arguments.host.clone().followed_by(behind.clone());
         }
+    }
+    let host = match &mut arguments.command {
+        Some(invocation) => invocation.host_mut(),
+        None => Some(&mut arguments.host),
+    };
+    let many = host.and_then(|host| host.set.iter().find(|axis| axis.values.len() > 1));
+    if let Some(axis) = many.filter(|_| !is_sweep) {
+        let n = axis.values.len();
+        let problem =
+            format!("`--set {}=...` has {n} values: `linkwork sweep` takes them", axis.name);
+        clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{problem}\n"))
+            .with_cmd(&command())
+            .exit();
     }
     arguments
 }
@@ -339,9 +392,21 @@ pub fn command() -> clap::Command {
     command
 }
 
-/// `name=value`, where the value is a number as the language writes it: `90deg`, `1/3`.
-fn parse_setting(text: &str) -> Result<(String, f64), String> {
-    crate::session::evaluate_binding(text).map_err(|problem| problem.message.to_string())
+/// `name=value`, the value a number as the language writes it (`90deg`, `1/3`), or several of them.
+fn parse_setting(text: &str) -> Result<Axis, String> {
+    crate::session::parse_axis(text).map_err(|problem| problem.message.to_string())
+}
+
+/// `2/8`: the second of eight parts.
+fn parse_shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/').and_then(|(number, of)| {
+        Some(Shard { number: number.parse().ok()?, of: of.parse().ok()? })
+    });
+    parts
+        .filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= 1_000_000)
+        .ok_or_else(|| {
+            "expected I/N, a number from 1 and how many parts there are: `2/8`".to_owned()
+        })
 }
 
 /// `name=number`, a limit of a session.

@@ -16,7 +16,7 @@ pub fn check(arguments: &ExamineArguments) -> ExitStatus {
         Err(status) => return status,
     };
     let check = session.examine();
-    if arguments.json {
+    if arguments.host.json {
         output::answer(&check.to_json());
     } else {
         check.lines().iter().for_each(|line| output::answer_fitted(line));
@@ -31,7 +31,7 @@ pub fn effects(arguments: &ExamineArguments) -> ExitStatus {
         Err(status) => return status,
     };
     let effects = session.effects_on(&process);
-    if arguments.json {
+    if arguments.host.json {
         output::answer(&effects.to_json());
     } else {
         effects.lines().iter().for_each(|line| output::answer_fitted(line));
@@ -45,7 +45,7 @@ pub fn accuracy(wish: &AccuracyArguments) -> ExitStatus {
         Ok(run) => run,
         Err(status) => return status,
     };
-    let telling = if wish.json { Telling::Json } else { Telling::Table };
+    let telling = if wish.host.json { Telling::Json } else { Telling::Table };
     match session.study_accuracy(wish.frames, telling, &mut process) {
         Ok(Flow::Stopped) => ExitStatus::Interrupted,
         Ok(_) => ExitStatus::Fine,

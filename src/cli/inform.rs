@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::args::{ExampleArguments, HelpArguments, help_on};
 use super::output;
 use super::process_host::{EXAMPLES_FOLDER, ProcessHost};
-use super::run::{ExitStatus, begin, play};
+use super::run::{ExitStatus, Talk, begin, play};
 use crate::diag::Diagnostic;
 use crate::errors;
 use crate::session::{Example, Host, Session};
@@ -65,5 +65,6 @@ pub fn examples(wish: &ExampleArguments) -> ExitStatus {
     let file = format!("{}.link", example.name);
     let source = session.add_source(&file, example.text, Some(PathBuf::from(EXAMPLES_FOLDER)));
     let mut process = ProcessHost::new(&wish.host, Path::new("."));
-    play(&[source], &mut session, &mut process, &wish.host, wish.interactive)
+    let talk = Talk::new(&mut process, &wish.host);
+    play(&[source], &mut session, talk, &wish.host, wish.interactive)
 }

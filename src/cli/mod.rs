@@ -17,6 +17,7 @@ pub(crate) mod process_host;
 mod progress;
 mod run;
 mod spool;
+mod sweep;
 mod view;
 mod watch;
 mod wrap;
@@ -38,6 +39,7 @@ pub fn run() -> ExitCode {
         Some(Invocation::Examples(wish)) => inform::examples(&wish),
         Some(Invocation::Help(wish)) => inform::help(&wish),
         Some(Invocation::Fmt(arguments)) => format::format_all(&arguments),
+        Some(Invocation::Sweep(wish)) => sweep::sweep(&wish),
         Some(Invocation::Watch(arguments)) => watch::watch(&arguments),
         Some(Invocation::View(arguments)) => run::view(&arguments),
         Some(Invocation::Completions(arguments)) => {

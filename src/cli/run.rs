@@ -13,7 +13,9 @@ use super::{files, init, interrupt, journal, output};
 use crate::diag::{Diagnostic, Kind, SourceId, Sources, nearest};
 use crate::errors;
 use crate::lang::Growing;
-use crate::session::{Flow, Host, Outcome, Quota, Session, Transcript, reason};
+use crate::session::{
+    Flow, Host, Objects, Outcome, Quota, Session, Transcript, answer_request, is_request, reason,
+};
 
 /// What the process says of how it went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,7 +66,8 @@ pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
     for (k, file) in others.iter().enumerate() {
         let mut session = begin(host);
         let mut process = ProcessHost::new(host, files::folder_of(file));
-        let status = script(file, &mut session, &mut process);
+        let mut talk = Talk::new(&mut process, host);
+        let status = script(file, &mut session, talk.host());
         if status != ExitStatus::Fine {
             return status;
         }
@@ -100,8 +103,11 @@ fn texts(
     host: &HostArguments,
 ) -> ExitStatus {
     let mut sources = Vec::new();
+    let folder = file.map_or(Path::new("."), files::folder_of);
+    let mut process = ProcessHost::new(host, folder);
+    let mut talk = Talk::new(&mut process, host);
     if let Some(file) = file {
-        match add(file, session) {
+        match add(file, session, talk.host()) {
             Ok(source) => sources.push(source),
             Err(status) => return status,
         }
@@ -109,23 +115,21 @@ fn texts(
     for text in &scripts.eval {
         sources.push(session.add_source("<argument>", text, Some(PathBuf::new())));
     }
-    let folder = file.map_or(Path::new("."), files::folder_of);
-    let mut process = ProcessHost::new(host, folder);
-    play(&sources, session, &mut process, host, scripts.interactive)
+    play(&sources, session, talk, host, scripts.interactive)
 }
 
 /// Carries out texts in one world, up to the first mistake; then goes on at the prompt, or ends.
 pub fn play(
     sources: &[SourceId],
     session: &mut Session,
-    process: &mut ProcessHost,
+    mut talk: Talk,
     host: &HostArguments,
     is_interactive: bool,
 ) -> ExitStatus {
     let mut status = ExitStatus::Fine;
     let mut has_left = false;
     for &source in sources {
-        let outcome = session.run_text(source, process);
+        let outcome = session.run_text(source, talk.host());
         status = status_of(&outcome);
         has_left = outcome.flow == Flow::Quit;
         if status != ExitStatus::Fine || has_left {
@@ -133,9 +137,12 @@ pub fn play(
         }
     }
     if is_interactive && !has_left {
-        return converse(session, process, host);
+        return match talk {
+            Talk::Plain(process) => converse(session, process, host),
+            Talk::Json(objects) => converse_in_objects(session, objects),
+        };
     }
-    match (status, end(session, process)) {
+    match (status, end(session, talk.host())) {
         (ExitStatus::Fine, status) | (status, _) => status,
     }
 }
@@ -150,11 +157,11 @@ fn status_of(Outcome { flow, failure }: &Outcome) -> ExitStatus {
 }
 
 /// Ends a session: recordings are written.
-fn end(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
+fn end(session: &mut Session, host: &mut dyn Host) -> ExitStatus {
     match session.finish(host) {
         Ok(()) => ExitStatus::Fine,
         Err(problem) => {
-            output::show(&problem, session.sources());
+            host.tell(&problem, session.sources());
             ExitStatus::of(&problem)
         }
     }
@@ -162,7 +169,7 @@ fn end(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
 
 /// Runs one script, `-` from standard input, and says what went wrong.
 pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitStatus {
-    match add(file, session) {
+    match add(file, session, host) {
         Ok(source) => status_of(&session.run_script(source, host)),
         Err(status) => status,
     }
@@ -172,7 +179,7 @@ pub fn script(file: &Path, session: &mut Session, host: &mut dyn Host) -> ExitSt
 ///
 /// # Errors
 /// The status where it cannot be read, which was said.
-fn add(file: &Path, session: &mut Session) -> Result<SourceId, ExitStatus> {
+fn add(file: &Path, session: &mut Session, host: &mut dyn Host) -> Result<SourceId, ExitStatus> {
     let is_stdin = file == Path::new("-");
     let name = if is_stdin { "<stdin>".into() } else { file.to_string_lossy() };
     let text = if is_stdin { read_stdin() } else { interrupt::while_waiting(|| files::read(file)) };
@@ -188,7 +195,7 @@ fn add(file: &Path, session: &mut Session) -> Result<SourceId, ExitStatus> {
             if e.kind() == io::ErrorKind::NotFound {
                 problem = lone_word(file, problem);
             }
-            output::show(&problem, session.sources());
+            host.tell(&problem, session.sources());
             Err(ExitStatus::Unreadable)
         }
     }
@@ -242,14 +249,40 @@ pub(super) fn begin(host: &HostArguments) -> Session {
             files::limit_bytes(most);
         }
     }
-    for (name, value) in &host.set {
-        session.override_parameter(name, *value);
+    for axis in &host.set {
+        session.override_parameter(&axis.name, axis.values[0]);
     }
     session
 }
 
-/// Runs a session: a prompt on a terminal, statements typed ahead on a pipe.
+/// Whom a session talks to: people, or a program.
+pub enum Talk<'a> {
+    /// People: text, at a terminal with a prompt.
+    Plain(&'a mut ProcessHost),
+    /// A program: objects.
+    Json(Objects<'a>),
+}
+
+impl<'a> Talk<'a> {
+    /// As the user wishes.
+    pub fn new(process: &'a mut ProcessHost, host: &HostArguments) -> Self {
+        if host.json { Self::Json(Objects::new(process)) } else { Self::Plain(process) }
+    }
+
+    fn host(&mut self) -> &mut dyn Host {
+        match self {
+            Self::Plain(process) => *process,
+            Self::Json(objects) => objects,
+        }
+    }
+}
+
+/// Runs a session: a prompt on a terminal, statements typed ahead on a pipe, or a program's.
 pub fn session(host: &HostArguments) -> ExitStatus {
+    if host.json {
+        let mut process = ProcessHost::new(host, Path::new("."));
+        return converse_in_objects(&mut begin(host), Objects::new(&mut process));
+    }
     converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
 }
 
@@ -260,7 +293,7 @@ pub fn view(arguments: &ViewArguments) -> ExitStatus {
     let folder = arguments.file.as_deref().map_or(Path::new("."), files::folder_of);
     let mut process = ProcessHost::new(host, folder);
     if let Some(file) = &arguments.file {
-        match add(file, &mut session) {
+        match add(file, &mut session, &mut process) {
             Ok(source) if session.run_text(source, &mut process).flow == Flow::Quit => {
                 return end(&mut session, &mut process);
             }
@@ -286,9 +319,32 @@ fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArgumen
         prompt(session, process, host);
         ExitStatus::Fine
     } else {
-        typed_ahead(session, process)
+        typed_ahead(
+            session,
+            process,
+            |lines, session, process| process.meanwhile(session, &mut |_| (), || lines.next()),
+            |piece, transcript, session, process| transcript.enter(piece, session, process),
+        )
     };
     match end(session, process) {
+        ExitStatus::Fine => status,
+        broken => broken,
+    }
+}
+
+/// A session for a program: statements and requests, answered by objects.
+fn converse_in_objects(session: &mut Session, mut objects: Objects) -> ExitStatus {
+    output::flush();
+    let answer =
+        |piece: &str, transcript: &mut Transcript, session: &mut Session, objects: &mut _| {
+            if is_request(piece) {
+                answer_request(piece, session, objects)
+            } else {
+                transcript.enter(piece, session, objects)
+            }
+        };
+    let status = typed_ahead(session, &mut objects, |lines, _, _| lines.next(), answer);
+    match end(session, &mut objects) {
         ExitStatus::Fine => status,
         broken => broken,
     }
@@ -333,36 +389,43 @@ pub(super) fn kept<T>(
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,
 /// and says at the end what the first one was.
-fn typed_ahead(session: &mut Session, host: &mut ProcessHost) -> ExitStatus {
+fn typed_ahead<H: Host>(
+    session: &mut Session,
+    host: &mut H,
+    next: impl Fn(&mut Lines, &mut Session, &mut H) -> io::Result<Vec<u8>>,
+    answer: impl Fn(&str, &mut Transcript, &mut Session, &mut H) -> Outcome,
+) -> ExitStatus {
     let mut transcript = Transcript::new("<stdin>");
     let mut status = ExitStatus::Fine;
     let mut piece = Growing::default();
     let mut is_first = true;
     let most = files::most_bytes();
     let mut lines = Lines::of_stdin(most);
-    let unreadable = |e: &io::Error, session: &Session| {
+    let unreadable = |e: &io::Error, session: &Session, host: &mut H| {
         let message = format!("cannot read standard input: {}", reason(e));
-        output::show(&Diagnostic::error(errors::CANNOT_READ, message), session.sources());
+        host.tell(&Diagnostic::error(errors::CANNOT_READ, message), session.sources());
         ExitStatus::Unreadable
     };
     loop {
-        let line = match host.meanwhile(session, &mut |_| (), || lines.next()) {
+        let line = match next(&mut lines, session, host) {
             Ok(line) => line,
-            Err(e) => return unreadable(&e, session),
+            Err(e) => return unreadable(&e, session, host),
         };
         let is_end = line.is_empty();
         let mark = files::BYTE_ORDER_MARK;
         let typed_line = if is_first { line.strip_prefix(mark) } else { None };
-        let is_whole = piece.add(&String::from_utf8_lossy(typed_line.unwrap_or(&line)));
+        let typed_line = String::from_utf8_lossy(typed_line.unwrap_or(&line));
+        let is_alone = piece.n_bytes() == 0 && is_request(&typed_line);
+        let is_whole = piece.add(&typed_line) || is_alone;
         is_first = false;
         if !is_end && !is_whole {
             // A block that never ends would be all of the memory.
             if piece.n_bytes() as u64 > most {
-                return unreadable(&io::ErrorKind::FileTooLarge.into(), session);
+                return unreadable(&io::ErrorKind::FileTooLarge.into(), session, host);
             }
             continue;
         }
-        let Outcome { flow, failure } = transcript.enter(&piece.take(), session, host);
+        let Outcome { flow, failure } = answer(&piece.take(), &mut transcript, session, host);
         output::flush();
         if status == ExitStatus::Fine {
             status = failure.as_ref().map_or(ExitStatus::Fine, ExitStatus::of);

@@ -92,4 +92,24 @@ super::kinds! {
         wrong: "view",
         right: "",
     }
+    715 NO_PIXELS {
+        title: "a program that is built without pictures in pixels",
+        help: "`.png` and `.gif` take some forty crates more, so they are a feature of their own:\n\
+             `cargo install linkwork --features pictures`. The wheel and the archives have it.",
+        wrong: "",
+        right: "svg \"now.svg\"",
+    }
+    716 NOTHING_TO_EXPORT {
+        title: "there is nothing that a machine could make",
+        help: "A plotter draws bars and paths, a cutter cuts rods and rigid bodies that are switched on.",
+        wrong: "point A = (0, 0)\nexport \"parts.svg\" width 10",
+        right: "point A = (0, 0), B = (1, 0)\nlength A B = 1\nexport \"parts.svg\" scale 50 width 10",
+    }
+    717 UNMAKEABLE {
+        title: "a part that cannot be made so",
+        help: "A hole leaves some of the part around it, a cut is thinner than the part, and points that\n\
+             are nearer than a hole cannot both have one.",
+        wrong: "point A = (0, 0), B = (1, 0)\nlength A B = 1\nexport \"parts.svg\" width 10 hole 12",
+        right: "point A = (0, 0), B = (1, 0)\nlength A B = 1\nexport \"parts.svg\" scale 50 width 10 hole 4",
+    }
 }

@@ -78,6 +78,20 @@ super::kinds! {
         wrong: "",
         right: "",
     }
+    513 NO_MINIMUM {
+        title: "a `fit` without a best",
+        help: "What is to be least or greatest has to follow the parameters, and some numbers in the ranges have\n\
+             to make a mechanism that is solved in every frame.",
+        wrong: "let r = 3\npoint A = (1, 0)\nfit r in 2..4 to minimise A.x",
+        right: "let r = 3\npoint A = (0, 0) frozen, B = (1, 0)\nlength A B = r\nfit r in 2..4 to minimise abs(B.x - 3)",
+    }
+    514 NOT_A_PATH {
+        title: "a table that is no path of a point",
+        help: "It has a line of names, `C.x` and `C.y` among them and `time` if the rows are not the frames one\n\
+             by one, and a row for each place, as `record` writes it.",
+        wrong: "",
+        right: "",
+    }
     601 UNKNOWN_SETTING {
         title: "an unknown setting",
         help: "`set` alone lists them with their values.",

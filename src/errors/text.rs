@@ -119,4 +119,11 @@ super::kinds! {
         wrong: "list cranks",
         right: "list constraints",
     }
+    120 NO_REQUEST {
+        title: "a line of a program that is no request",
+        help: "`linkwork --json` takes statements, and requests: `{\"run\": \"STATEMENTS\"}`, `{\"get\": \"traces\"}`.\n\
+             docs/json.md has them all.",
+        wrong: "",
+        right: "",
+    }
 }

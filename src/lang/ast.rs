@@ -6,9 +6,9 @@ pub use crate::terms::{Function, Operator};
 
 pub use super::catalogue::ConstraintWord;
 pub use super::commands::{
-    Binding, Body, Building, Changing, Command, Definition, DragTarget, Drawing, Expose, Label,
-    ListWhat, Looking, Making, Measuring, PlotPart, PointDecl, PrintItem, ResultItem, Running,
-    Statement,
+    Binding, Body, Building, Changing, Column, Command, Curves, Definition, DragTarget, Drawing,
+    ExportPart, Expose, FitRange, Goal, Label, ListWhat, Looking, Making, Measuring, PicturePart,
+    PlotPart, PointDecl, PrintItem, ResultItem, Running, Statement,
 };
 pub use super::constraint::{Constraint, ConstraintDecl, Pair, Part, Range, Relation, Role};
 pub use super::expr::{Axis, Expr, Ident, Name, NamePart, Node, Number, PartKind, Unit};

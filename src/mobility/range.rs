@@ -65,6 +65,20 @@ pub enum Reach {
     Nonholonomic,
 }
 
+impl Reach {
+    /// One word for it, for other programs.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Full(_) => "full",
+            Self::Between(..) => "between",
+            Self::Unsatisfied => "unsatisfied",
+            Self::Rigid => "rigid",
+            Self::Open(_) => "open",
+            Self::Nonholonomic => "nonholonomic",
+        }
+    }
+}
+
 /// What is known of a driver's way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriverRange {

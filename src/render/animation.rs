@@ -25,6 +25,11 @@ const SHORTEST: f64 = 1.0;
 /// The longest motion shown, seconds: more than a minute nobody watches.
 const LONGEST: f64 = 60.0;
 
+/// How long a motion of so much simulated time is shown, seconds.
+pub fn shown_for(span: f64) -> f64 {
+    span.clamp(SHORTEST, LONGEST)
+}
+
 /// A picture that moves, frame by frame.
 ///
 /// It plays in any browser, without an end and without a script, and shows its first frame
@@ -40,6 +45,7 @@ pub struct Animation {
 impl Animation {
     /// A picture without frames.
     pub fn new(view: View, options: &Options) -> Self {
+        let view = if options.without_names { view.without_names() } else { view };
         Self { view, options: options.clone(), frames: Vec::new() }
     }
 
@@ -87,7 +93,7 @@ impl Animation {
 
     /// How long the motion is shown, seconds.
     fn duration(&self) -> f64 {
-        self.span().clamp(SHORTEST, LONGEST)
+        shown_for(self.span())
     }
 
     /// When each frame is shown, from 0 to 1.

@@ -59,6 +59,7 @@ impl<'a> Canvas<'a> {
             key: self.key,
             part,
             is_off: self.is_off,
+            is_unmet: false,
             note: self.note.clone(),
             placement,
             shapes: Vec::new(),

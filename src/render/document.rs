@@ -10,7 +10,7 @@ use svg::node::element::{Element, Style};
 use super::figure::{Figure, FigureShape, Outline};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
 use super::page::{LEGEND_HEIGHT, Page};
-use super::style::{self, PAPER};
+use super::style::{self, Class, PAPER, Theme};
 use super::text::printable;
 use crate::diag::format_decimals;
 use crate::interrupt::tick;
@@ -28,11 +28,22 @@ const OFF: f64 = 0.3;
 /// What the writing of a figure takes, in ticks.
 const FIGURE: usize = 2000;
 
-/// What a picture says besides the drawing.
+/// Room for a title above the drawing, px.
+const TITLE_HEIGHT: f64 = 34.0;
+
+/// What a picture says besides the drawing, and how it looks.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The title of the document.
+    /// The title of the document, which stands above the drawing too.
     pub title: Option<String>,
+    /// How wide it is shown, px; by default as wide as it is drawn.
+    pub width: Option<u32>,
+    /// Light lines on dark paper.
+    pub is_dark: bool,
+    /// No paper.
+    pub is_transparent: bool,
+    /// No names beside the points.
+    pub without_names: bool,
     /// What made it and from what: keys and values, kept in the document and not drawn.
     pub receipt: Vec<(String, String)>,
 }
@@ -59,15 +70,19 @@ impl Group {
 /// The document of a page.
 pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = page.size();
-    let height = height + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
-    let (width, height) = (format_decimals(width, PLACES), format_decimals(height, PLACES));
+    let head = if options.title.is_some() { TITLE_HEIGHT } else { 0.0 };
+    let height = height + head + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
+    let size = options.width.map_or(1.0, |shown| f64::from(shown) / width);
+    let [shown_width, shown_height, width_text, height, top] =
+        [width * size, height * size, width, height, -head].map(|px| format_decimals(px, PLACES));
+    let theme = if options.is_dark { Theme::Dark } else { Theme::Light };
 
     let mut root = Element::new("svg");
     root.assign("class", "linkwork");
     root.assign("xmlns", "http://www.w3.org/2000/svg");
-    root.assign("viewBox", format!("0 0 {width} {height}"));
-    root.assign("width", width.clone());
-    root.assign("height", height.clone());
+    root.assign("viewBox", format!("0 {top} {width_text} {height}"));
+    root.assign("width", shown_width);
+    root.assign("height", shown_height);
     if let Some(title) = &options.title {
         root.append(with_text("title", title));
     }
@@ -79,17 +94,26 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
         });
         root.append(with_text("metadata", lines.trim_end()));
     }
-    let shapes = groups.iter().flat_map(|group| &group.figures);
-    let classes: BTreeSet<_> =
-        shapes.flat_map(|(figure, _)| figure.shapes.iter().map(|shape| shape.class)).collect();
-    root.append(Style::new(style::sheet(&classes, page.mark())));
+    root.append(Style::new(sheet(page, groups, options, theme)));
 
-    let mut paper = Element::new("rect");
-    paper.assign("class", "paper");
-    paper.assign("fill", PAPER);
-    paper.assign("width", width);
-    paper.assign("height", height);
-    root.append(paper);
+    if !options.is_transparent {
+        let mut paper = Element::new("rect");
+        paper.assign("class", "paper");
+        paper.assign("fill", theme.colour(PAPER));
+        paper.assign("width", width_text);
+        paper.assign("height", height);
+        if head > 0.0 {
+            paper.assign("y", top);
+        }
+        root.append(paper);
+    }
+    if let Some(title) = &options.title {
+        let mut headline = with_text("text", title);
+        headline.assign("class", Class::Headline.name());
+        headline.assign("x", format_decimals(0.5 * width, PLACES));
+        headline.assign("y", format_decimals(-0.3 * TITLE_HEIGHT, PLACES));
+        root.append(headline);
+    }
     for group in groups {
         let mut element = Element::new("g");
         if group.opacity < 1.0 {
@@ -108,6 +132,26 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     text
 }
 
+/// The style sheet of a page.
+fn sheet(page: &Page, groups: &[Group], options: &Options, theme: Theme) -> String {
+    let figures = || groups.iter().flat_map(|group| &group.figures);
+    let shapes = figures().flat_map(|(figure, _)| &figure.shapes);
+    let mut classes: BTreeSet<Class> = shapes.map(|shape| shape.class).collect();
+    if options.title.is_some() {
+        classes.insert(Class::Headline);
+    }
+    let mut text = style::sheet(&classes, page.mark(), theme);
+    if figures().any(|(figure, _)| figure.is_unmet) {
+        text.push_str(&style::unmet_rule(theme));
+    }
+    let moves = |group: &Group| group.figures.iter().any(|(_, motion)| motion.is_some());
+    if groups.iter().any(moves) {
+        // Opened by itself it is never larger than the window.
+        text.push_str("svg:root{max-width:100%;max-height:100vh}\n");
+    }
+    text
+}
+
 /// A figure; none if there is nothing to it.
 fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element> {
     if figure.shapes.is_empty() {
@@ -120,6 +164,9 @@ fn figure_element(figure: &Figure, motion: Option<&Keyframes>) -> Option<Element
     }
     if figure.is_off {
         group.assign("opacity", format_decimals(OFF, PLACES));
+    }
+    if figure.is_unmet {
+        group.assign("class", style::UNMET);
     }
     tick(FIGURE);
     if let Some(note) = figure.note.as_deref().filter(|note| !note.is_empty()) {

@@ -62,6 +62,8 @@ pub struct Figure {
     pub part: u16,
     /// Whether what it stands for is switched off.
     pub is_off: bool,
+    /// Whether what it stands for does not hold.
+    pub is_unmet: bool,
     /// What it shows when pointed at.
     pub note: Option<Arc<str>>,
     /// Where its own origin lies on the page, and how it is turned.

@@ -29,8 +29,8 @@ pub fn draw(canvas: &mut Canvas, curves: &[Curve]) {
     let (width, height) = page.size();
     let middle = height + 0.5 * LEGEND_HEIGHT - 4.0;
     let free = draw_scale(canvas, &page, middle);
-    // One path needs no legend: there is nothing to tell it from.
-    if curves.len() > 1 {
+    // One path needs no legend: there is nothing to tell it from, unless it has a name of its own.
+    if curves.len() > 1 || curves.iter().any(|curve| curve.is_named) {
         draw_legend(canvas, curves, middle, width - EDGE - free - 3.0 * GAP);
     }
 }

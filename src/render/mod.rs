@@ -40,6 +40,14 @@ pub mod chart;
 mod document;
 mod still;
 mod text;
+mod unmet;
+
+// Documents in pixels.
+pub mod raster;
+
+// Figures in true size.
+#[doc(hidden)]
+pub mod export;
 
 // Figures in characters.
 mod sketch;
@@ -53,7 +61,7 @@ mod animation_tracks;
 mod keyframes;
 mod trace_animation;
 
-pub use animation::{Animation, is_shown};
+pub use animation::{Animation, is_shown, shown_for};
 pub use document::{FIRST_WORDS, Options};
 pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
 pub(crate) use figure::{Figure, FigureShape, Key, Outline};
@@ -61,4 +69,5 @@ pub use scene::Scene;
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
 pub(crate) use style::PAPER;
+pub use unmet::Unmet;
 pub use view::View;

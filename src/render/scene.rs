@@ -6,6 +6,7 @@ use super::classify;
 use super::page::BoundingBox;
 use super::symbols::{Symbol, SymbolForm};
 use super::trace::Curve;
+use super::unmet::Unmet;
 use crate::constraint::Point;
 use crate::world::{Ghost, World};
 
@@ -18,6 +19,7 @@ pub struct Scene {
     /// The same at other times, the oldest first.
     pub(super) ghosts: Vec<Arc<DrawnPose>>,
     pub(super) curves: Vec<Curve>,
+    pub(super) unmet: Unmet,
 }
 
 /// Symbols and where the points are that they hang on.
@@ -36,7 +38,14 @@ impl Scene {
         let ghosts = world.ghosts().iter().map(|ghost| pose.exposed(ghost, world)).collect();
         let curves = world.traces().iter().enumerate();
         let curves = curves.map(|(k, trace)| Curve::of(k, trace, world)).collect();
-        Self { pose, ghosts, curves }
+        Self { pose, ghosts, curves, unmet: Unmet::new() }
+    }
+
+    /// The same, with what does not hold in it.
+    #[must_use]
+    pub fn with_unmet(mut self, unmet: Unmet) -> Self {
+        self.unmet = unmet;
+        self
     }
 
     /// Roughly how many bytes it takes beside others that share its symbols and ghosts.
@@ -62,7 +71,7 @@ impl Scene {
             let grown = self.curves.get(k).and_then(|curve| curve.grown(trace));
             grown.unwrap_or_else(|| Curve::of(k, trace, world))
         });
-        Self { pose, ghosts, curves: curves.collect() }
+        Self { pose, ghosts, curves: curves.collect(), unmet: Unmet::new() }
     }
 
     /// The same without where its points are, and that apart: of the frames of a recording it is all

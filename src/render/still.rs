@@ -1,9 +1,10 @@
 //! A picture that stands still, made from one scene.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Lettering};
 use super::document::{self, Group, Options};
 use super::legend;
 use super::scene::Scene;
+use super::unmet;
 use super::view::View;
 
 /// A scene as an SVG document, fitted to the page.
@@ -14,12 +15,17 @@ pub fn svg(scene: &Scene, options: &Options) -> String {
 /// A scene as an SVG document, one of several with a view in common.
 pub fn svg_with_view(scene: &Scene, view: &View, options: &Options) -> String {
     let mut groups = view.ghosts(scene.ghosts.iter().map(|ghost| &**ghost));
-    let mut canvas = Canvas::new(view.page(), &scene.pose.at, view.lettering());
+    let none = Lettering::new();
+    let lettering = if options.without_names { &none } else { view.lettering() };
+    let mut canvas = Canvas::new(view.page(), &scene.pose.at, lettering);
     scene.pose.symbols.iter().for_each(|symbol| symbol.draw(&mut canvas));
     for curve in &scene.curves {
         curve.draw(&mut canvas);
     }
     legend::draw(&mut canvas, &scene.curves);
-    groups.push(Group::of(canvas.finish()));
+    unmet::label(&mut canvas, scene);
+    let mut figures = canvas.finish();
+    unmet::mark(&mut figures, scene);
+    groups.push(Group::of(figures));
     document::write(view.page(), &groups, options)
 }

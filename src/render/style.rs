@@ -11,12 +11,65 @@ const BRASS: &str = "#f5ecd3";
 const BRASS_EDGE: &str = "#94793a";
 const PENCIL: &str = "#7b8894";
 const RAIL: &str = "#9aa7b3";
+/// What is off.
+const WRONG: &str = "#c8102e";
 
 /// Colours of paths, in order; seven that stay apart for colour-blind eyes and in print
 /// (M. Okabe and K. Ito, Color Universal Design, 2008; its yellow is too pale for lines on
 /// paper and left out).
 const PALETTE: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+
+/// Light paper or dark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Theme {
+    /// Dark lines on light paper.
+    Light,
+    /// Light lines on dark paper.
+    Dark,
+}
+
+/// Each colour of a light picture with the one that takes its place in a dark one.
+const DARK: [(&str, &str); 26] = [
+    (PAPER, "#14191e"),
+    (INK, "#dde5ec"),
+    (STEEL, "#465462"),
+    (STEEL_DARK, "#6f8496"),
+    (BRASS, "#4a4127"),
+    (BRASS_EDGE, "#cfb366"),
+    (PENCIL, "#93a1ae"),
+    (RAIL, "#657380"),
+    (WRONG, "#ff5c6c"),
+    ("#f1f4f7", "#2c3740"),
+    ("#e3eaf0", "#333f4a"),
+    ("#e9eef3", "#222b33"),
+    ("#eef2f5", "#36434f"),
+    ("#c3ccd4", "#45515c"),
+    ("#cdbb8a", "#7d6f45"),
+    ("#fbf6e8", "#241f14"),
+    ("#cdb981", "#8a7946"),
+    ("#e4e9ee", "#2c3740"),
+    ("#ffffff", "#0c1014"),
+    ("#a9b3bd", "#5b6772"),
+    ("#0072b2", "#4aa8e0"),
+    ("#d55e00", "#f08a3c"),
+    ("#009e73", "#2cc79b"),
+    ("#cc79a7", "#dd96bd"),
+    ("#e69f00", "#f0b73c"),
+    ("#000000", "#ffffff"),
+];
+
+impl Theme {
+    /// A colour of a light picture in this one. Sky blue, and no colour at all, are the same in both.
+    pub fn colour(self, light: &'static str) -> &'static str {
+        match self {
+            Self::Light => light,
+            Self::Dark => {
+                DARK.iter().find(|(known, _)| *known == light).map_or(light, |(_, dark)| dark)
+            }
+        }
+    }
+}
 
 /// Radius of a joint, px.
 pub const JOINT: f64 = 3.3;
@@ -104,6 +157,10 @@ pub enum Class {
     Axis,
     /// A name.
     Name,
+    /// By how much something is off.
+    Amount,
+    /// The title above the drawing.
+    Headline,
     /// Text in the legend below the drawing.
     Caption,
     /// The line of the scale.
@@ -197,6 +254,8 @@ impl Class {
             }
             Self::Axis => dashed(line("axis", PENCIL, 1.2), &[14.0, 3.0, 2.0, 3.0]),
             Self::Name => area("name", INK, PAPER, 3.5),
+            Self::Amount => area("amount", WRONG, PAPER, 3.5),
+            Self::Headline => area("headline", INK, "none", 0.0),
             Self::Caption => area("caption", PENCIL, "none", 0.0),
             Self::Scale => line("scale", PENCIL, 1.2),
             Self::Trace(n) => line("trace", colour(n), 1.7),
@@ -239,12 +298,12 @@ impl Class {
     }
 
     /// The rule of the style sheet, with strokes at a fraction `mark` of their full size.
-    fn rule(self, mark: f64) -> String {
+    fn rule(self, mark: f64, theme: Theme) -> String {
         let look = self.look();
-        let mut text = format!(".{}{{fill:{}", self.name(), look.fill);
+        let mut text = format!(".{}{{fill:{}", self.name(), theme.colour(look.fill));
         if look.stroke != "none" {
             text.push_str(";stroke:");
-            text.push_str(look.stroke);
+            text.push_str(theme.colour(look.stroke));
             text.push_str(";stroke-width:");
             // Below half a pixel a line is a shade of grey.
             push_decimals(&mut text, (look.width * mark).max(0.5), 2);
@@ -263,6 +322,8 @@ impl Class {
                 push_decimals(&mut text, letter(mark), 1);
                 text.push_str("px");
             }
+            Self::Amount => text.push_str(";paint-order:stroke;font-size:13px"),
+            Self::Headline => text.push_str(";font-size:17px"),
             Self::RingWheel => text.push_str(";fill-rule:evenodd"),
             Self::Caption => text.push_str(";font-size:12px;text-anchor:start"),
             _ => {}
@@ -278,14 +339,52 @@ pub fn letter(mark: f64) -> f64 {
 }
 
 /// The style sheet for these classes.
-pub fn sheet(classes: &std::collections::BTreeSet<Class>, mark: f64) -> String {
+pub fn sheet(classes: &std::collections::BTreeSet<Class>, mark: f64, theme: Theme) -> String {
     let mut text = String::from(
         "\npath,circle{stroke-linecap:round;stroke-linejoin:round}\n\
          text{font-family:Helvetica,Arial,'Liberation Sans',sans-serif;text-anchor:middle}\n",
     );
     for class in classes {
-        text.push_str(&class.rule(mark));
+        text.push_str(&class.rule(mark, theme));
         text.push('\n');
     }
     text
+}
+
+/// The class of groups that stand for what does not hold.
+pub const UNMET: &str = "unmet";
+
+/// The rule for them, stronger than that of any class.
+pub fn unmet_rule(theme: Theme) -> String {
+    format!(".{UNMET} path,.{UNMET} circle{{stroke:{}}}\n", theme.colour(WRONG))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance (WCAG 2.1), from 0 to 1.
+    fn luminance(colour: &str) -> f64 {
+        let channel = |k: usize| {
+            let value = u8::from_str_radix(&colour[k..k + 2], 16).expect("hexadecimal");
+            let c = f64::from(value) / 255.0;
+            if c <= 0.03928 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
+        };
+        0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    }
+
+    fn contrast(a: &str, b: &str) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn lines_stand_out_from_dark_paper() {
+        let paper = Theme::Dark.colour(PAPER);
+        for colour in [INK, PENCIL, WRONG, BRASS_EDGE].into_iter().chain(PALETTE) {
+            let dark = Theme::Dark.colour(colour);
+            let found = contrast(dark, paper);
+            assert!(found >= 4.5, "{colour} becomes {dark}: {found:.2}");
+        }
+    }
 }

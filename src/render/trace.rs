@@ -24,8 +24,10 @@ pub struct Curve {
     pub idx: usize,
     /// Whose it is.
     pub point: PointId,
-    /// The point's name.
+    /// What it is called: as its point, if not otherwise.
     pub name: Arc<str>,
+    /// Whether it has a name of its own.
+    pub is_named: bool,
     /// Where the point was.
     pub samples: Samples,
 }
@@ -33,13 +35,16 @@ pub struct Curve {
 impl Curve {
     /// The path at a place in the list of a world's traces.
     pub fn of(idx: usize, trace: &Trace, world: &World) -> Self {
-        let name = world.name_of(Entity::Point(trace.point)).into();
-        Self { idx, point: trace.point, name, samples: Samples::new(&trace.samples) }
+        let of_point = || world.name_of(Entity::Point(trace.point)).into();
+        let name = trace.label.clone().unwrap_or_else(of_point);
+        let samples = Samples::new(&trace.samples);
+        Self { idx, point: trace.point, name, is_named: trace.label.is_some(), samples }
     }
 
     /// The same path somewhat later; none if it is not the same.
     pub fn grown(&self, trace: &Trace) -> Option<Self> {
-        let is_same = self.point == trace.point;
+        let label = self.is_named.then_some(&self.name);
+        let is_same = self.point == trace.point && label == trace.label.as_ref();
         let samples = is_same.then(|| self.samples.grown(&trace.samples))??;
         Some(Self { samples, ..self.clone() })
     }
@@ -49,6 +54,7 @@ impl Curve {
     pub fn is_continued_by(&self, other: &Self) -> bool {
         let n = self.samples.len();
         self.point == other.point
+            && self.name == other.name
             && n <= other.samples.len()
             && (n == 0 || self.samples.at(n - 1) == other.samples.at(n - 1))
     }

@@ -63,6 +63,12 @@ impl View {
         Ok(Self { page, lettering: lettering::place(&probes, &page) })
     }
 
+    /// The same without names.
+    #[must_use]
+    pub fn without_names(self) -> Self {
+        Self { lettering: Lettering::new(), ..self }
+    }
+
     /// A page on which names stand so.
     pub(super) const fn new(page: Page, lettering: Lettering) -> Self {
         Self { page, lettering }

@@ -127,19 +127,31 @@ impl Execution<'_> {
     fn measuring(&mut self, it: &Measuring, span: Span) -> Result<(), Diagnostic> {
         match it {
             Measuring::Measure { name, value, unit } => self.measure(name, value, *unit, span),
+            Measuring::Fit { ranges, goal, over } => self.fit(ranges, goal, over.as_ref(), span),
             Measuring::Result(items) => self.say_results(items),
         }
     }
 
     fn drawing(&mut self, it: &Drawing, span: Span) -> Result<Flow, Diagnostic> {
         match it {
-            Drawing::Trace { names, every } => self.trace(names, every.as_ref())?,
+            Drawing::Trace { names, label, every } => {
+                self.trace(names, label.as_ref(), every.as_ref())?;
+            }
+            Drawing::UntraceLabel(label) => self.untrace_label(label)?,
             Drawing::Untrace(selection) => self.untrace(selection)?,
             Drawing::Expose(expose) => self.expose(expose)?,
-            Drawing::Svg(path) => self.svg(path)?,
-            Drawing::Record { path, every } => self.record(path, every.as_ref())?,
+            Drawing::Svg { path, parts } => self.svg(path, parts)?,
+            Drawing::Record { path, columns, every, parts } => {
+                self.record(path, columns, every.as_ref(), parts)?;
+            }
+            Drawing::Export { path, parts } => self.export(path, parts, span)?,
             Drawing::Sample { series, values } => self.sample(series, values)?,
-            Drawing::Plot { path, parts } => self.plot(path.as_ref(), parts, span)?,
+            Drawing::Plot { path, curves: None, parts } => {
+                self.plot(path.as_ref(), parts, span)?;
+            }
+            Drawing::Plot { path, curves: Some(curves), parts } => {
+                self.plot_measures(path.as_ref(), curves, parts)?;
+            }
             Drawing::RecordStop => self.record_stop(span)?,
         }
         Ok(Flow::On)

@@ -4,10 +4,12 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
+use super::finding::Finding;
 use super::spool::Spool;
-use crate::diag::{Diagnostic, Sources};
+use crate::diag::{Diagnostic, Sources, Span};
 use crate::interrupt::Wish;
 use crate::render::Sketch;
+use crate::world::World;
 
 /// What a journal is told of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +18,19 @@ pub enum Kept<'a> {
     Statement(&'a str),
     /// The script that makes all there is; what was told before is not needed any more.
     Whole(&'a str),
+}
+
+/// A statement that was carried out, or was not.
+#[derive(Debug)]
+pub struct Done<'a> {
+    /// Where it stands.
+    pub span: Span,
+    /// Whether it took effect.
+    pub is_ok: bool,
+    /// The texts that places are in.
+    pub sources: &'a Sources,
+    /// The world after it.
+    pub world: &'a World,
 }
 
 /// Says how many seconds have passed since some fixed moment.
@@ -55,6 +70,17 @@ pub trait Host {
     fn is_listening(&self) -> bool {
         true
     }
+
+    /// Whether what statements find is wanted as data: they do not print it then.
+    fn takes_findings(&self) -> bool {
+        false
+    }
+
+    /// Takes what a statement found, as data.
+    fn find_out(&mut self, _finding: &Finding) {}
+
+    /// Told when a statement of a text has ended, after all that it said.
+    fn done(&mut self, _done: &Done) {}
 
     /// Whether a journal is kept of what is typed.
     fn is_keeping(&self) -> bool {

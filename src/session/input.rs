@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::quotas::Quotas;
 use crate::diag::{SourceId, Sources, Span};
 
 /// What a session was given to read. Nothing of it is ever taken back: places in diagnostics and
 /// in live expressions are places in these texts.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Input {
     /// The texts read so far.
     pub sources: Sources,
@@ -23,10 +24,28 @@ pub struct Input {
     pub is_unrepeatable: bool,
     /// How much is allowed.
     pub quotas: Quotas,
+    /// The statement of a text that was reached last.
+    pub reached: Span,
     /// Files that were written so far.
     pub n_files: u64,
     /// What was written to them, bytes.
     pub n_file_bytes: u64,
+}
+
+impl Default for Input {
+    fn default() -> Self {
+        Self {
+            sources: Sources::default(),
+            folders: HashMap::new(),
+            overrides: BTreeMap::new(),
+            typed: Vec::new(),
+            is_unrepeatable: false,
+            quotas: Quotas::default(),
+            reached: Span::new(SourceId(0), 0..0),
+            n_files: 0,
+            n_file_bytes: 0,
+        }
+    }
 }
 
 /// A value from outside and whether some `let` took it.
@@ -51,6 +70,13 @@ impl Input {
         if let Some(folder) = folder {
             self.folders.insert(id, folder);
         }
+        id
+    }
+
+    /// Keeps a text that others keep too.
+    pub fn add_shared(&mut self, name: Arc<str>, text: Arc<str>, folder: PathBuf) -> SourceId {
+        let id = self.sources.add(name, text);
+        self.folders.insert(id, folder);
         id
     }
 

@@ -14,11 +14,14 @@ mod attempt;
 mod commands;
 mod completion;
 mod culprits;
+mod curve;
 mod deadline;
 mod dispatch;
 mod examples;
 mod execution;
 mod file_kind;
+mod finding;
+mod fnv;
 mod host;
 mod input;
 mod json;
@@ -38,6 +41,7 @@ mod silent;
 mod spool;
 mod state;
 mod summary;
+pub(crate) mod sweep;
 mod transcript;
 mod undo;
 
@@ -53,7 +57,11 @@ pub use commands::ongoing::Ongoing;
 pub use completion::{Candidate, Completion, Offer, Piece};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
-pub use host::{Clock, Host, Kept, Nowhere, contained, reason};
+pub use finding::{
+    ConstraintRow, Finding, Limits, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
+};
+pub use host::{Clock, Done, Host, Kept, Nowhere, contained, reason};
+pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request};
 pub use overview::{ConstraintView, Offence, ParameterView, Standing};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
@@ -61,13 +69,14 @@ pub use results::Results;
 pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
+pub use sweep::{Axis, Columns, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet};
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 
 pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
 
 use crate::constraint::{ConstraintKind as _, Point};
-use crate::diag::{Diagnostic, SourceId, Sources};
+use crate::diag::{Diagnostic, SourceId, Sources, Span};
 use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
 use crate::solve::present;
@@ -270,13 +279,29 @@ impl Session {
         let mut statements = crate::lang::parse(source, &text);
         while let Some(statement) = next_of(&mut statements, host).transpose() {
             let Ok(statement) = statement else { return Ok(Flow::Stopped) };
+            let place = match &statement {
+                Ok(statement) => Some(statement.span),
+                Err(problem) => problem.place(),
+            };
+            self.input.reached = place.unwrap_or(self.input.reached);
             let statement = statement.map_err(|problem| self.advise(problem))?;
             let flow = self.execute(&statement, host)?;
+            self.tell_done(statement.span, true, host);
             if flow != Flow::On {
                 return Ok(flow);
             }
         }
         Ok(Flow::On)
+    }
+
+    /// Tells the host that a statement has ended.
+    fn tell_done(&self, span: Span, is_ok: bool, host: &mut dyn Host) {
+        host.done(&Done { span, is_ok, sources: self.sources(), world: self.world() });
+    }
+
+    /// What pictures of the present scene say besides the drawing.
+    fn picture_options(&self) -> crate::render::Options {
+        self.state.picture_options(self.history.last_run.as_ref())
     }
 
     /// What was typed and carried out, statement by statement.

@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::{Display, Path, PathBuf};
 
 use super::execution::Execution;
-use super::file_kind::{FileKind, ends_in};
+use super::file_kind::{ENDINGS, FileKind, ends_in};
+use super::finding::Finding;
 use super::host::contained;
 use super::input::Input;
 use super::parcel::{Content, Parcel, unwritable};
@@ -31,16 +32,12 @@ impl Execution<'_> {
         if let Some(ending) = kind.ending()
             && !ends_in(&path.value, ending)
         {
-            let message = match kind {
-                FileKind::Picture => "this is no name of a picture",
-                _ => "this is no name of a table",
-            };
-            return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, message)
-                .at(path.span, format!("expected a name that ends in `{ending}`")));
+            return Err(wrong_ending(path, &[ending]));
         }
-        let foreign = [".svg", ".csv"].into_iter().find(|ending| ends_in(&path.value, ending));
+        let foreign = ENDINGS.into_iter().map(|(ending, _)| ending);
+        let foreign = foreign.filter(|&ending| ending != ".link");
         if kind == FileKind::Script
-            && let Some(ending) = foreign
+            && let Some(ending) = foreign.into_iter().find(|ending| ends_in(&path.value, ending))
         {
             return Err(Diagnostic::error(errors::NOT_A_FILE_NAME, "`save` writes a script")
                 .at(path.span, format!("a name that ends in `{ending}` says something else"))
@@ -125,6 +122,10 @@ impl Execution<'_> {
 
     /// Tells what was written: each, or of many the last.
     fn tell_written(&mut self, written: &[PathBuf]) {
+        if self.host.takes_findings() {
+            written.iter().for_each(|file| self.host.find_out(&Finding::Wrote(file)));
+            return;
+        }
         match written {
             [others @ .., last] if others.len() >= MOST_FILES_NAMED => {
                 let n = written.len();
@@ -179,7 +180,7 @@ impl Execution<'_> {
         was_stopped: bool,
     ) -> Result<(), Diagnostic> {
         let Recorder { path, span, format, .. } = recorder;
-        let (span, kind) = (*span, format.kind());
+        let (span, kind) = (*span, recorder.kind());
         let failed = |e: io::Error| unwritable(path, span, &e);
         let stopped = || {
             Diagnostic::error(errors::INTERRUPTED, "stopped before the recording was written")
@@ -208,6 +209,15 @@ impl Execution<'_> {
                 }
                 Ok(())
             }
+            Format::Gif => {
+                let is_stopped = || self.host.is_interrupted() && !was_stopped;
+                // Drawn before it is written: the file needs the host, and so does the question.
+                let mut bytes = Vec::new();
+                if !recorder.write_gif(&mut bytes, options, is_stopped).map_err(failed)? {
+                    return Err(stopped());
+                }
+                self.write_file(path, kind, span, &bytes)
+            }
             Format::Movie => {
                 let is_stopped = || self.is_to_stop() && !was_stopped;
                 let movie = recorder.movie(options, is_stopped).map_err(failed)?;
@@ -215,6 +225,21 @@ impl Execution<'_> {
                 self.write_file(path, kind, span, movie.as_bytes())
             }
         }
+    }
+}
+
+/// What is wrong where a name has none of the endings that its statement writes; where another
+/// statement writes it, that one is told.
+pub fn wrong_ending(path: &Text, endings: &[&str]) -> Diagnostic {
+    let listed: Vec<String> = endings.iter().map(|ending| format!("`{ending}`")).collect();
+    let problem = Diagnostic::error(errors::NOT_A_FILE_NAME, "the ending says what is written")
+        .at(path.span, format!("expected a name that ends in {}", listed.join(" or ")));
+    match ENDINGS.into_iter().find(|(ending, _)| ends_in(&path.value, ending)) {
+        Some((_, word)) => problem.help(format!("`{word} \"{}\"` writes that", path.value)),
+        None if !path.value.contains('.') && !path.value.is_empty() => {
+            problem.help(format!("for example `\"{}{}\"`", path.value, endings[0]))
+        }
+        None => problem,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a command that let time pass tells at its end.
 
 use super::execution::Execution;
+use super::finding::Finding;
 use super::summary::Summary;
 use crate::constraint::{Carried, Constraint, ConstraintKind as _};
 use crate::diag::{Diagnostic, listed};
@@ -25,6 +26,10 @@ impl Execution<'_> {
         self.tell_turned_over(&summary);
         let time = self.state.world.clock().time();
         let line = summary.line(self.state.preferences.receipt, time);
+        let is_taken = self.host.takes_findings();
+        if is_taken && summary.n_frames > 0 {
+            self.host.find_out(&Finding::Ran(&summary, time, &line));
+        }
         match (summary.broken(0), summary.missed_at) {
             (Some((message, label)), Some(span)) => {
                 let mut warning = Diagnostic::warning(message).at(span, label);
@@ -33,7 +38,7 @@ impl Execution<'_> {
                 }
                 self.warn(&warning.note(line));
             }
-            _ if summary.n_frames > 0 => self.note(line),
+            _ if summary.n_frames > 0 && !is_taken => self.note(line),
             _ => {}
         }
         self.history.last_run = Some(summary);

@@ -27,6 +27,7 @@ impl Session {
             Ok(flow) => Outcome { flow, failure: None },
             Err(problem) => {
                 host.tell(&problem, self.sources());
+                self.tell_done(self.input.reached, false, host);
                 Outcome { flow: Flow::On, failure: Some(problem) }
             }
         }
@@ -105,13 +106,18 @@ impl Transcript {
                 Ok(flow)
             });
             match result {
-                Ok(Flow::On) => self.look_at_pose(is_edit, session, host),
+                Ok(Flow::On) => {
+                    self.look_at_pose(is_edit, session, host);
+                    session.tell_done(span, true, host);
+                }
                 Ok(flow) => {
+                    session.tell_done(span, true, host);
                     outcome.flow = flow;
                     break;
                 }
                 Err(problem) => {
                     host.tell(&problem, session.sources());
+                    session.tell_done(span, false, host);
                     outcome.failure.get_or_insert(problem);
                     left_out = line_end(piece, span);
                 }

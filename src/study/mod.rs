@@ -17,6 +17,7 @@ mod report;
 mod sample;
 mod setting_ladder;
 mod table;
+mod trial;
 
 pub use advice::{Advice, Wish};
 pub use hand::{Hand, move_by};
@@ -28,3 +29,4 @@ pub use repeatable_motion::{Leg, RepeatableMotion};
 pub use report::{RungResult, Study};
 pub use setting_ladder::ladder;
 pub use table::{CSV_HEADING, csv, json, table};
+pub use trial::Trial;

@@ -1,31 +1,11 @@
-//! Measures: a value followed from frame to frame, with what is kept of it.
+//! Measuring: what a frame adds to the measures, and what they say.
 
 use super::environments::Moving;
-use super::{Depends, Extremes, Formula, MeasureId, NameText, Rates, Tally, World};
+use super::{Depends, Extremes, MeasureId, Rates, Tally, World};
 use crate::constraint::Jet;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::terms::{Statistic, Unit};
-
-/// A value that is followed from frame to frame.
-#[derive(Debug, Clone)]
-pub struct Measure {
-    /// Its name.
-    pub name: NameText,
-    /// What it measures, a number.
-    pub formula: Formula,
-    /// What its values are counted in.
-    pub unit: Unit,
-    /// Its values so far.
-    pub tally: Tally,
-}
-
-impl Measure {
-    /// Roughly how many bytes it holds.
-    pub fn n_bytes(&self) -> usize {
-        size_of::<Self>() + self.formula.n_bytes() + self.tally.n_bytes()
-    }
-}
+use crate::terms::Statistic;
 
 /// How a frame is measured.
 pub struct Measuring<'a> {
@@ -70,6 +50,15 @@ impl World {
     /// How many values all measures keep.
     pub fn n_readings(&self) -> usize {
         self.measures().map(|(_, measure)| measure.tally.readings().len()).sum()
+    }
+
+    /// Empties all measures.
+    pub fn forget_readings(&mut self) {
+        for k in 0..self.measures.n_handles() {
+            if let Some(measure) = self.measures.get_mut(k) {
+                measure.tally = Tally::default();
+            }
+        }
     }
 
     /// Measures the pose of now; of all measures, or of those that have no value yet.

@@ -64,16 +64,16 @@ pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
 pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 #[doc(hidden)]
 pub use log::Motion;
-pub use measure::Measure;
 pub(crate) use measure::Measuring;
 #[doc(hidden)]
 pub use moment::Moment;
 pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
-pub use records::{Drivers, Parameter, Record};
+pub use records::{Drivers, Measure, Parameter, Record};
+pub use smooth::Reading;
 pub use state::World;
-pub use tally::{Extremes, Reading, Tally};
+pub use tally::{Extremes, Tally};
 #[doc(hidden)]
 pub use touched::Touched;
 pub use trace::{Ghost, Sample, Trace};

@@ -58,7 +58,12 @@ impl World {
             moment.turn_counts = self.turn_counts_at_start();
         }
         moment.clock = self.clock.at_start();
-        moment.traces.iter_mut().for_each(|tail| *tail = Tail::cleared());
+        // What is as long as it will be is no part of a run.
+        for (trace, tail) in self.traces.iter().zip(&mut moment.traces) {
+            if !trace.is_ended {
+                *tail = Tail::cleared();
+            }
+        }
         moment.tallies.iter_mut().for_each(|(_, mark)| *mark = TallyMark::empty());
         moment.ghosts = Tail::cleared();
         moment

@@ -193,7 +193,7 @@ impl World {
     pub fn sample_traces(&mut self, missed: bool) {
         let frame = self.clock.frame;
         for trace in &mut self.traces {
-            if frame.is_multiple_of(trace.every) {
+            if frame.is_multiple_of(trace.every) && !trace.is_ended {
                 trace.samples.push(Sample { at: self.points.at[trace.point.idx()], missed });
             }
         }

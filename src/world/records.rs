@@ -1,6 +1,6 @@
-//! Constraints and parameters as the user made them, kept apart from what the solver runs on.
+//! Constraints, parameters and measures as the user made them, kept apart from what the solver runs on.
 
-use super::{Depends, Formula, NameText, Value};
+use super::{Depends, Formula, NameText, Tally, Value};
 use crate::constraint::{Bounds, Constraint, ConstraintKind, Field, Flaw, LARGEST, Traits};
 use crate::diag::{Diagnostic, format_number};
 use crate::errors;
@@ -183,6 +183,26 @@ impl Parameter {
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
         size_of::<Self>() + self.formula.n_bytes()
+    }
+}
+
+/// A value that is followed from frame to frame.
+#[derive(Debug, Clone)]
+pub struct Measure {
+    /// Its name.
+    pub name: NameText,
+    /// What it measures, a number.
+    pub formula: Formula,
+    /// What its values are counted in.
+    pub unit: Unit,
+    /// Its values so far.
+    pub tally: Tally,
+}
+
+impl Measure {
+    /// Roughly how many bytes it holds.
+    pub fn n_bytes(&self) -> usize {
+        size_of::<Self>() + self.formula.n_bytes() + self.tally.n_bytes()
     }
 }
 

@@ -4,7 +4,14 @@
 //! their values and both derivatives (Hermite). At 360 frames a turn it is off by some 1e-15 of the
 //! span. Where only values are known, the last seven make one of degree 6 (Newton).
 
-use super::tally::Reading;
+/// A value, and when it was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// The time.
+    pub time: f64,
+    /// The value.
+    pub value: f64,
+}
 
 /// A value and its place in time.
 #[derive(Debug, Clone, Copy, Default)]

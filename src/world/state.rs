@@ -9,8 +9,8 @@ use super::point_users::PointUsers;
 use super::records::Table;
 use super::turning::{TurnCounts, TurnsAhead};
 use super::{
-    Clock, ConstraintId, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
-    PointId, Points, Record, Touched, Trace,
+    Clock, ConstraintId, Entity, Formula, Ghost, Measure, MeasureId, Mention, NameText, Parameter,
+    ParameterId, PointId, Points, Record, Touched, Trace,
 };
 use crate::constraint::{Constraint, Point};
 
@@ -102,6 +102,20 @@ impl World {
             }
             Entity::Measure(id) => &self.measure(id).expect("a handle of a living measure").name,
         }
+    }
+
+    /// Whether all that a formula mentions is there.
+    pub fn has_all(&self, formula: &Formula) -> bool {
+        let mut has_all = true;
+        formula.mentions(&mut |mention| {
+            has_all &= match mention {
+                Mention::Point(id) => self.points.is_alive(id),
+                Mention::Parameter(id) => self.parameter(id).is_some(),
+                Mention::Member(id, _) => self.constraint(id).is_some(),
+                Mention::Measure(id) => self.measure(id).is_some(),
+            };
+        });
+        has_all
     }
 
     /// The clock.

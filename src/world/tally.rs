@@ -1,6 +1,6 @@
 //! What a measure keeps of its values: all of them, and their extremes between frames.
 
-use super::smooth::{Extremum, Knot, between, within_last};
+use super::smooth::{Extremum, Knot, Reading, between, within_last};
 use super::trace::Tail;
 use crate::terms::Statistic;
 
@@ -25,15 +25,6 @@ impl Extremes {
             Self::Sampled => "sampled",
         }
     }
-}
-
-/// A value, and when it was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading {
-    /// The time.
-    pub time: f64,
-    /// The value.
-    pub value: f64,
 }
 
 /// The values of a measure.

@@ -1,5 +1,7 @@
 //! Paths that points leave behind, and ghosts of the whole mechanism.
 
+use std::sync::Arc;
+
 use super::PointId;
 use crate::constraint::Point;
 
@@ -8,8 +10,12 @@ use crate::constraint::Point;
 pub struct Trace {
     /// Whose path.
     pub point: PointId,
+    /// What the path is called, if not as its point.
+    pub label: Option<Arc<str>>,
     /// A place is kept every so many frames.
     pub every: u64,
+    /// Whether it is as long as it will be.
+    pub is_ended: bool,
     /// The places, in order of time.
     pub samples: Vec<Sample>,
 }

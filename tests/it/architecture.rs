@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::sources::{Source, sources};
 
 /// Each room with the rooms it may use.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("interrupt", &[]),
     ("diag", &[]),
     ("errors", &["diag"]),
@@ -16,6 +16,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("constraint", &["interrupt", "terms"]),
     ("world", &["diag", "errors", "terms", "constraint"]),
     ("linalg", &["interrupt"]),
+    ("optimise", &["linalg"]),
     ("mobility", &["constraint", "linalg"]),
     ("solve", &["interrupt", "diag", "constraint", "world", "linalg", "mobility"]),
     ("render", &["interrupt", "diag", "constraint", "linalg", "world"]),
@@ -34,6 +35,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
             "solve",
             "render",
             "study",
+            "optimise",
         ],
     ),
     ("live", &["diag", "lang", "constraint", "world", "render", "session"]),
@@ -42,24 +44,38 @@ const ROOMS: [(&str, &[&str]); 16] = [
 ];
 
 /// Each foreign crate with the only places that may name it.
-const HOMES: [(&str, &[&str]); 22] = [
+const HOMES: [(&str, &[&str]); 24] = [
     ("annotate_snippets", &["diag/render.rs"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/args.rs", "cli/manual.rs"]),
     ("clap_mangen", &["cli/manual.rs"]),
     ("ctrlc", &["cli/interrupt.rs"]),
+    ("gif", &["render/raster/drawn.rs"]),
     ("getrandom", &["cli/view/token.rs"]),
     ("httparse", &["cli/view/request.rs"]),
-    ("libm", &["constraint/", "diag/", "linalg/", "mobility/", "render/", "solve/", "world/"]),
+    (
+        "libm",
+        &[
+            "constraint/",
+            "diag/",
+            "linalg/",
+            "mobility/",
+            "optimise/",
+            "render/",
+            "solve/",
+            "world/",
+        ],
+    ),
     ("nalgebra", &["linalg/", "mobility/"]),
     ("nix", &["cli/interrupt.rs"]),
     ("pest", &["lang/lower/"]),
     ("pest_derive", &["lang/grammar.rs"]),
+    ("resvg", &["render/raster/drawn.rs"]),
     ("rayon", &["solve/parallel/cores.rs"]),
     ("rustc_hash", &["world/name_index.rs"]),
     ("rustyline", &["repl/"]),
     ("lsp_server", &["cli/language_server/"]),
-    ("serde_json", &["cli/language_server/", "live/", "session/json.rs"]),
+    ("serde_json", &["cli/language_server/", "live/", "session/json/"]),
     ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
@@ -147,7 +163,7 @@ fn a_foreign_crate_has_one_home() {
 
 /// Hosts that stand before another, and what they do not pass on: by default that is nothing, or
 /// comes down to what they do.
-const STANDING_BEFORE: [(&str, &[&str]); 4] = [
+const STANDING_BEFORE: [(&str, &[&str]); 5] = [
     (
         "session/silent.rs",
         &[
@@ -162,13 +178,46 @@ const STANDING_BEFORE: [(&str, &[&str]); 4] = [
             "write_in_pieces",
             "view",
             "progress",
+            "takes_findings",
+            "find_out",
+            "done",
         ],
     ),
-    // It shows no answer page by page, and no page.
-    ("cli/watch.rs", &["print_all", "view"]),
+    // It shows no answer page by page, and no page, and talks to people.
+    ("cli/watch.rs", &["print_all", "view", "takes_findings", "find_out", "done"]),
     // Lines are all that a page shows.
-    ("live/listener.rs", &["print_all", "page", "draw", "is_listening", "progress"]),
-    ("cli/view/host.rs", &["print_all", "page", "draw", "n_printed", "is_listening", "progress"]),
+    (
+        "live/listener.rs",
+        &[
+            "print_all",
+            "page",
+            "draw",
+            "is_listening",
+            "progress",
+            "takes_findings",
+            "find_out",
+            "done",
+        ],
+    ),
+    (
+        "cli/view/host.rs",
+        &[
+            "print_all",
+            "page",
+            "draw",
+            "n_printed",
+            "is_listening",
+            "progress",
+            "takes_findings",
+            "find_out",
+            "done",
+        ],
+    ),
+    // What a program is told are objects.
+    (
+        "session/json/host.rs",
+        &["print_all", "page", "draw", "is_listening", "is_keeping", "keep", "progress", "view"],
+    ),
 ];
 
 #[test]

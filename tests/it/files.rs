@@ -7,7 +7,7 @@ use crate::support::program::{folder, run, text};
 
 /// Files of others, by the name that a statement would give them.
 const FOREIGN: [(&str, &[u8]); 7] = [
-    ("photo.png", b"\x89PNG\r\n"),
+    ("photo.jpg", b"\xff\xd8\xff"),
     ("notes.txt", b"na\xefve\n"),
     ("mine.link", b"point A = (1, 2)  # by hand\n"),
     ("drawing.svg", b"<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n"),
@@ -26,7 +26,7 @@ fn script_and(statements: &str) -> String {
 #[test]
 fn files_of_others_survive() {
     for (statement, name) in [
-        ("save \"photo.png\"", "photo.png"),
+        ("save \"photo.jpg\"", "photo.jpg"),
         ("save \"notes.txt\"", "notes.txt"),
         ("save \"mine.link\"", "mine.link"),
         ("svg \"mine.link\"", "mine.link"),

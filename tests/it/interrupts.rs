@@ -45,7 +45,7 @@ fn net(n: usize) -> String {
     )
 }
 
-const CASES: [Case; 9] = [
+const CASES: [Case; 10] = [
     Case {
         what: "a loop without statements",
         size: 1000,
@@ -69,6 +69,16 @@ const CASES: [Case; 9] = [
     },
     Case { what: "a picture", size: 1500, before: rods, statement: |_| "svg \"a.svg\"".to_owned() },
     Case { what: "a file", size: 1500, before: rods, statement: |_| "save \"a.link\"".to_owned() },
+    Case {
+        what: "a search for the best numbers",
+        size: 200,
+        before: |_| {
+            "let r = 1.5; point A = (0, 0) frozen, B = (1.5, 0)
+             motor A B radius r speed 1rev; measure d = B.x"
+                .to_owned()
+        },
+        statement: |n| format!("fit r in 1..2 to minimise d.span over {n}"),
+    },
     Case { what: "a list", size: 2000, before: rods, statement: |_| "list".to_owned() },
 ];
 

@@ -427,6 +427,7 @@ fn titles_and_receipts_are_kept_whatever_they_say() {
     let options = Options {
         title: Some("a < b & \"c\" \u{1}".to_owned()),
         receipt: vec![("command".to_owned(), "run <x> --y='z'".to_owned())],
+        ..Options::default()
     };
     let text = svg(&Scene::new(session(FOUR_BAR).world()), &options);
     let document = check(&text);

@@ -36,7 +36,15 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     ),
     // Where its point is needs no solving.
     (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
-    (Kind::Hinge, &["session/commands/touch.rs"]),
+    // Points that are sums of others have a closed form.
+    (Kind::Coincidence, &["solve/closed_form/sum.rs"]),
+    (Kind::Equivalence, &["solve/closed_form/sum.rs"]),
+    // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
+    (
+        Kind::Hinge,
+        &["render/export/parts.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
+    ),
+    (Kind::Rigid, &["render/export/parts.rs"]),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
         Kind::Curve,
@@ -78,6 +86,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Length,
         &[
             "lang/lower/errors/refusal.rs",
+            "render/export/parts.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
@@ -103,6 +112,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
+            "render/export/parts.rs",
             "render/style.rs",
             "solve/closed_form/compile.rs",
             "solve/closed_form/run.rs",
@@ -283,8 +293,13 @@ fn names_kind(source: &Source, kind: Kind) -> bool {
         return false;
     }
     // What else is called so.
-    let others =
-        ["Quantity::Length", "feature = \"parallel\"", "Hold => \"hold\"", "\"holds\", \"hold\""];
+    let others = [
+        "Quantity::Length",
+        "feature = \"parallel\"",
+        "Hold => \"hold\"",
+        "Rigid => \"rigid\"",
+        "\"holds\", \"hold\"",
+    ];
     let code = others.iter().fold(source.code(), |code, other| code.replace(other, ""));
     let name = format!("{kind:?}");
     let words = ConstraintWord::ALL.iter().map(|word| word.pattern().entry.keyword);

@@ -22,8 +22,11 @@ fn check(picture: &str) -> String {
 
 /// Draws what may hold a text, of any kind of picture.
 fn draw(text: &str) {
-    let options =
-        Options { title: Some(text.to_owned()), receipt: vec![(text.to_owned(), text.to_owned())] };
+    let options = Options {
+        title: Some(text.to_owned()),
+        receipt: vec![(text.to_owned(), text.to_owned())],
+        ..Options::default()
+    };
     let mut session = Session::new();
     session.run("point A = (0, 0) frozen, B = (1, 0); length A B; trace B").expect("it is right");
     let scene = Scene::new(session.world());

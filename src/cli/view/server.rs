@@ -35,7 +35,8 @@ impl Server {
     /// Where the port is taken, or not to be had.
     pub fn begin(port: Option<u16>) -> io::Result<(Self, Receiver<Event>)> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port.unwrap_or(0)))?;
-        let door = Door { port: listener.local_addr()?.port(), token: token::token()? };
+        let token = port.map_or_else(token::token, token::kept)?;
+        let door = Door { port: listener.local_addr()?.port(), token };
         let (events, received) = sync_channel(MOST_EVENTS);
         let shared = Arc::new(Shared::new(door, events));
         let ours = shared.clone();

@@ -180,7 +180,7 @@ pub const TRADE: &[Trade] = &[
         example: "trace C",
     },
     Trade {
-        words: &["draw", "picture", "image", "render", "export", "paint"],
+        words: &["draw", "picture", "image", "render", "png", "paint"],
         command: "svg",
         says: "is written as a picture",
         example: "svg \"now.svg\"",

@@ -201,11 +201,11 @@ impl Changing {
     pub(in crate::lang) fn write(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Delete { names, cascade } => {
-                let names = Names { names, stop: "cascade" };
+                let names = Names { names, stops: &["cascade"] };
                 write!(f, "delete {names}{}", if *cascade { " cascade" } else { "" })
             }
-            Self::Off(names) => write!(f, "off {}", Names { names, stop: "" }),
-            Self::On(names) => write!(f, "on {}", Names { names, stop: "" }),
+            Self::Off(names) => write!(f, "off {}", Names { names, stops: &[] }),
+            Self::On(names) => write!(f, "on {}", Names { names, stops: &[] }),
             Self::Change { name, parts } => {
                 write!(f, "change {name}")?;
                 parts.iter().try_for_each(|part| write!(f, " {part}"))
@@ -216,7 +216,7 @@ impl Changing {
                 write!(f, "set {setting} {}", Guarded { expr: value, stops: &["for"] })?;
                 match targets.as_slice() {
                     [] => Ok(()),
-                    names => write!(f, " for {}", Names { names, stop: "" }),
+                    names => write!(f, " for {}", Names { names, stops: &[] }),
                 }
             }
             Self::Undo(n) => write!(f, "undo{}", Clause(" ", n)),

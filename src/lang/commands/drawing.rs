@@ -2,37 +2,57 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::Verb;
+use super::{Verb, each};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::catalogue::{Entry, Section};
-use crate::lang::expr::{Expr, Name};
+use crate::lang::expr::{Expr, Ident, Name, Unit};
 use crate::lang::grammar::Rule;
 use crate::lang::lower::{Cursor, refusal};
 use crate::lang::parts::{Selection, Text};
-use crate::lang::print::{Clause, Names, commas};
+use crate::lang::print::{Clause, InUnit, Names, commas};
 
 /// A command of this family.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drawing {
-    /// `trace C every 5`
+    /// `trace C as "before" every 5`
     Trace {
         /// The points.
         names: Vec<Name>,
+        /// What the path is called.
+        label: Option<Text>,
         /// Only each so many frames.
         every: Option<Expr>,
     },
     /// `untrace C`, `untrace all`
     Untrace(Selection),
+    /// `untrace "before"`
+    UntraceLabel(Text),
     /// `expose`, `expose every 30`, `expose off`
     Expose(Expose),
-    /// `svg "now.svg"`
-    Svg(Text),
-    /// `record "frames/" every 10`
+    /// `svg "now.svg" width 600 dark`
+    Svg {
+        /// The file.
+        path: Text,
+        /// How it looks.
+        parts: Vec<PicturePart>,
+    },
+    /// `record "frames/" every 10`, `record "t.csv" of time, angle(A, B) in deg`
     Record {
         /// The file or folder.
         path: Text,
+        /// What a table has columns of; none for the traced points.
+        columns: Vec<Column>,
         /// Only each so many frames.
         every: Option<Expr>,
+        /// How its pictures look.
+        parts: Vec<PicturePart>,
+    },
+    /// `export "parts.dxf" in mm scale 10 width 12`: a file for a machine.
+    Export {
+        /// The file.
+        path: Text,
+        /// What it is measured in, and how parts are made.
+        parts: Vec<ExportPart>,
     },
     /// `record stop`
     RecordStop,
@@ -43,13 +63,34 @@ pub enum Drawing {
         /// Its next values, at least one.
         values: Vec<Expr>,
     },
-    /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart.
+    /// `plot "errors.svg" log title "..." x "..." y "..."`: all series as a chart, or measures
+    /// against another.
     Plot {
         /// The file.
         path: Option<Text>,
+        /// Which measures are drawn, if not the series.
+        curves: Option<Curves>,
         /// How it looks.
         parts: Vec<PlotPart>,
     },
+}
+
+/// A column of a table, two of a vector.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its values.
+    pub value: Expr,
+    /// What they are counted in.
+    pub unit: Unit,
+}
+
+/// `y, z against x` in a `plot`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// What is drawn upwards, a line each; at least one.
+    pub up: Vec<Expr>,
+    /// What is drawn to the right.
+    pub against: Expr,
 }
 
 /// What an `expose` asks for.
@@ -61,6 +102,36 @@ pub enum Expose {
     Every(Expr),
     /// `expose off`
     Off,
+}
+
+/// One part of an `svg` or a `record`, each at most once.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PicturePart {
+    /// `width 600`: how wide it is, px.
+    Width(Expr),
+    /// `dark`: light lines on dark paper.
+    Dark,
+    /// `transparent`: no paper.
+    Transparent,
+    /// `without names`
+    WithoutNames,
+    /// `title "..."`
+    Title(Text),
+}
+
+/// One part of an `export`, each at most once.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExportPart {
+    /// `in mm`: what the machine measures in.
+    In(Ident),
+    /// `scale 10`: so many of these is one unit of the plane.
+    Scale(Expr),
+    /// `width 12`: parts, so wide.
+    Width(Expr),
+    /// `hole 4`: the diameter of their holes.
+    Hole(Expr),
+    /// `kerf 0.2`: how much the cut takes away.
+    Kerf(Expr),
 }
 
 /// One part of a `plot`, each at most once.
@@ -83,11 +154,13 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "trace",
             section: Section::Pictures,
-            usage: "trace NAMES [every FRAMES]",
+            usage: "trace NAMES [as TEXT] [every FRAMES]",
             summary: "record the paths of points",
-            help: "",
+            help: "With `as` the path has a name, which stands in the legend, and a path of the same point that\n\
+                 still grew ends there and stays drawn. `reset` empties those that grow.",
             example: "trace C\n\
-                 trace A C every 5",
+                 trace A C every 5\n\
+                 trace C as \"before\"",
         },
     },
     Verb {
@@ -95,10 +168,11 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "untrace",
             section: Section::Pictures,
-            usage: "untrace NAMES | all",
-            summary: "forget the paths of points",
+            usage: "untrace NAMES | TEXT | all",
+            summary: "forget the paths of points, or the one of this name",
             help: "",
             example: "untrace C\n\
+                 untrace \"before\"\n\
                  untrace all",
         },
     },
@@ -120,10 +194,12 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "svg",
             section: Section::Pictures,
-            usage: "svg FILE",
+            usage: "svg FILE [width PX] [dark] [transparent] [without names] [title TEXT]",
             summary: "write a picture of what is now",
-            help: "",
-            example: r#"svg "now.svg""#,
+            help: "The ending says what it is: `.svg`, or `.png` where the program is built with pictures.\n\
+                 What is not solved is red, with the amount by which it is off.",
+            example: r#"svg "now.svg"
+    svg "slide.svg" width 600 dark without names title "A four-bar""#,
         },
     },
     Verb {
@@ -131,13 +207,31 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "record",
             section: Section::Pictures,
-            usage: "record FILE [every FRAMES] | stop",
+            usage: "record FILE [of VALUE [in UNIT], ...] [every FRAMES] [width PX] [dark] [transparent] [without names] [title TEXT] | stop",
             summary: "write each frame from here on",
-            help: r#"A folder (`"frames/"`) gets a picture a frame, an `.svg` is one animation, a `.csv` has
-    time and the traced points. `record stop`, or the end of the script, writes them."#,
+            help: r#"A folder (`"frames/"`) gets a picture a frame, an `.svg` or a `.gif` is one animation, a
+    `.csv` has time and the traced points. With `of` a `.csv` has these columns, two of a vector, and a
+    row of now. `record stop`, or the end of the script, writes them. Pictures look as those of `svg` do;
+    a `.gif` takes a program that is built with pictures."#,
             example: r#"record "frames/" every 10
     record "motion.svg"
+    record "t.csv" of time, angle(A, B) in deg, C every 10
     record stop"#,
+        },
+    },
+    Verb {
+        rule: Rule::export,
+        entry: Entry {
+            keyword: "export",
+            section: Section::Pictures,
+            usage: "export FILE [in mm] [scale MM] [width MM] [hole MM] [kerf MM]",
+            summary: "write a file for a plotter or a cutter, in true size",
+            help: "`scale` says how many mm one unit of the plane is. Without `width` an `.svg` for plotters:\n\
+                 strokes only, the paths and the mechanism each on a layer of its own. With `width` an `.svg`\n\
+                 or a `.dxf` for cutters: each rod and each rigid body an outline so wide with holes, laid\n\
+                 side by side; the outlines lie half a `kerf` outside, and the holes inside.",
+            example: r#"export "plot.svg" in mm scale 10
+    export "parts.dxf" in mm scale 10 width 12 hole 4 kerf 0.2"#,
         },
     },
     Verb {
@@ -158,11 +252,14 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         entry: Entry {
             keyword: "plot",
             section: Section::Pictures,
-            usage: "plot [FILE] [log] [title TEXT] [x TEXT] [y TEXT]",
-            summary: "write all series as a line chart against the number of the sample",
-            help: "The first sample of a series has number 0. With `log` equal ratios are equally high,
-    and values that are not above 0 are left out.",
-            example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error""#,
+            usage: "plot [FILE] [MEASURES against MEASURE|time] [log] [title TEXT] [x TEXT] [y TEXT]",
+            summary: "write measures against another as a line chart, or all series against the sample",
+            help: "Of a measure each value is drawn at that of the other in the same frame. The first sample of a
+    series has number 0. With `log` equal ratios are equally high, and values that are not above 0
+    are left out.",
+            example: r#"plot "errors.svg" log title "Two circles" x "iteration" y "error"
+    plot "lift.svg" lift against phi
+    plot d, e against time"#,
         },
     },
 ];
@@ -170,20 +267,38 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 impl Drawing {
     /// Whether it changes what there is, and does not only say or write it.
     pub const fn leaves_a_mark(&self) -> bool {
-        !matches!(self, Self::Svg(_) | Self::Plot { .. })
+        !matches!(self, Self::Svg { .. } | Self::Export { .. } | Self::Plot { .. })
     }
 
     /// The command whose statement `rule` has read; none if it is of another family.
     pub(in crate::lang) fn read(rule: Rule, c: &mut Cursor) -> Result<Option<Self>, Diagnostic> {
         Ok(Some(match rule {
-            Rule::trace => Self::Trace { names: c.names()?, every: c.clause(Rule::every)? },
-            Rule::untrace => Self::Untrace(c.selection()?),
+            Rule::trace => {
+                let names = c.names()?;
+                let label = match c.take(Rule::as_text) {
+                    Some(clause) => Some(c.within(clause).text()?),
+                    None => None,
+                };
+                Self::Trace { names, label, every: c.clause(Rule::every)? }
+            }
+            Rule::untrace => match c.text_if_any()? {
+                Some(label) => Self::UntraceLabel(label),
+                None => Self::Untrace(c.selection()?),
+            },
             Rule::expose => expose(c)?,
-            Rule::svg => Self::Svg(c.text()?),
+            Rule::svg => Self::Svg { path: c.text()?, parts: picture_parts(c)? },
             Rule::record if c.flag(Rule::kw_stop) => Self::RecordStop,
-            Rule::record => Self::Record { path: c.text()?, every: c.clause(Rule::every)? },
+            Rule::record => {
+                let (path, columns) = (c.text()?, columns(c)?);
+                let every = c.clause(Rule::every)?;
+                Self::Record { path, columns, every, parts: picture_parts(c)? }
+            }
+            Rule::export => Self::Export { path: c.text()?, parts: export_parts(c)? },
             Rule::sample => Self::Sample { series: c.text()?, values: c.exprs()? },
-            Rule::plot => Self::Plot { path: c.text_if_any()?, parts: plot_parts(c)? },
+            Rule::plot => {
+                let (path, curves) = (c.text_if_any()?, curves(c)?);
+                Self::Plot { path, curves, parts: plot_parts(c)? }
+            }
             _ => return Ok(None),
         }))
     }
@@ -191,29 +306,63 @@ impl Drawing {
     /// Writes its canonical form.
     pub(in crate::lang) fn write(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            Self::Trace { names, every } => {
-                let names = Names { names, stop: "every" };
-                write!(f, "trace {names}{}", Clause(" every ", every))
+            Self::Trace { names, label, every } => {
+                let names = Names { names, stops: &["every", "as"] };
+                let (label, every) = (Clause(" as ", label), Clause(" every ", every));
+                write!(f, "trace {names}{label}{every}")
             }
             Self::Untrace(what) => write!(f, "untrace {what}"),
+            Self::UntraceLabel(label) => write!(f, "untrace {label}"),
             Self::Expose(Expose::Now) => f.write_str("expose"),
             Self::Expose(Expose::Every(frames)) => write!(f, "expose every {frames}"),
             Self::Expose(Expose::Off) => f.write_str("expose off"),
-            Self::Svg(path) => write!(f, "svg {path}"),
-            Self::Record { path, every } => {
-                write!(f, "record {path}{}", Clause(" every ", every))
+            Self::Svg { path, parts } => {
+                write!(f, "svg {path}")?;
+                write_each(f, parts)
+            }
+            Self::Record { path, columns, every, parts } => {
+                write!(f, "record {path}")?;
+                if !columns.is_empty() {
+                    write!(f, " of {}", commas(columns))?;
+                }
+                write!(f, "{}", Clause(" every ", every))?;
+                write_each(f, parts)
+            }
+            Self::Export { path, parts } => {
+                write!(f, "export {path}")?;
+                write_each(f, parts)
             }
             Self::RecordStop => f.write_str("record stop"),
             Self::Sample { series, values } => write!(f, "sample {series} = {}", commas(values)),
-            Self::Plot { path, parts } => {
-                write!(f, "plot{}", Clause(" ", path))?;
-                parts.iter().try_for_each(|part| write!(f, " {part}"))
+            Self::Plot { path, curves, parts } => {
+                write!(f, "plot{}{}", Clause(" ", path), Clause(" ", curves))?;
+                write_each(f, parts)
             }
         }
     }
 }
 
-fn plot_parts(c: &mut Cursor) -> Result<Vec<PlotPart>, Diagnostic> {
+fn columns(c: &mut Cursor) -> Result<Vec<Column>, Diagnostic> {
+    let Some(list) = c.take(Rule::columns) else { return Ok(Vec::new()) };
+    each(&mut c.within(list), Rule::column, |c| Ok(Column { value: c.expr()?, unit: c.unit()? }))
+}
+
+fn curves(c: &mut Cursor) -> Result<Option<Curves>, Diagnostic> {
+    let Some(clause) = c.take(Rule::against) else { return Ok(None) };
+    let mut up = c.within(clause).exprs()?;
+    let against = up.pop().expect("the grammar has two values at least here");
+    Ok(Some(Curves { up, against }))
+}
+
+fn write_each(f: &mut Formatter, parts: &[impl Display]) -> fmt::Result {
+    parts.iter().try_for_each(|part| write!(f, " {part}"))
+}
+
+/// The parts that follow, in any order, each at most once.
+fn parts<T>(
+    c: &mut Cursor,
+    part: impl Fn(Rule, &mut Cursor) -> Result<T, Diagnostic>,
+) -> Result<Vec<T>, Diagnostic> {
     let mut parts = Vec::new();
     let mut seen: Vec<(Rule, Span)> = Vec::new();
     while let Some((rule, span)) = c.peek_span() {
@@ -221,19 +370,45 @@ fn plot_parts(c: &mut Cursor) -> Result<Vec<PlotPart>, Diagnostic> {
             return Err(refusal::twice(c.text_at(span), *first, span));
         }
         seen.push((rule, span));
-        if c.flag(Rule::kw_log) {
-            parts.push(PlotPart::Log);
-            continue;
-        }
-        let part = c.take(rule).expect("it is the next thing");
-        let text = c.within(part).text()?;
-        parts.push(match rule {
-            Rule::title => PlotPart::Title(text),
-            Rule::x_label => PlotPart::X(text),
-            _ => PlotPart::Y(text),
-        });
+        let pair = c.take(rule).expect("it is the next thing");
+        parts.push(part(rule, &mut c.within(pair))?);
     }
     Ok(parts)
+}
+
+fn plot_parts(c: &mut Cursor) -> Result<Vec<PlotPart>, Diagnostic> {
+    parts(c, |rule, c| {
+        Ok(match rule {
+            Rule::title => PlotPart::Title(c.text()?),
+            Rule::x_label => PlotPart::X(c.text()?),
+            Rule::y_label => PlotPart::Y(c.text()?),
+            _ => PlotPart::Log,
+        })
+    })
+}
+
+fn picture_parts(c: &mut Cursor) -> Result<Vec<PicturePart>, Diagnostic> {
+    parts(c, |rule, c| {
+        Ok(match rule {
+            Rule::width => PicturePart::Width(c.expr()?),
+            Rule::title => PicturePart::Title(c.text()?),
+            Rule::kw_dark => PicturePart::Dark,
+            Rule::kw_transparent => PicturePart::Transparent,
+            _ => PicturePart::WithoutNames,
+        })
+    })
+}
+
+fn export_parts(c: &mut Cursor) -> Result<Vec<ExportPart>, Diagnostic> {
+    parts(c, |rule, c| {
+        Ok(match rule {
+            Rule::scale => ExportPart::Scale(c.expr()?),
+            Rule::width => ExportPart::Width(c.expr()?),
+            Rule::hole => ExportPart::Hole(c.expr()?),
+            Rule::kerf => ExportPart::Kerf(c.expr()?),
+            _ => ExportPart::In(c.unit_word()),
+        })
+    })
 }
 
 fn expose(c: &mut Cursor) -> Result<Drawing, Diagnostic> {
@@ -244,6 +419,18 @@ fn expose(c: &mut Cursor) -> Result<Drawing, Diagnostic> {
     Ok(Drawing::Expose(every.map_or(Expose::Now, Expose::Every)))
 }
 
+impl Display for Column {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "{}{}", self.value, InUnit(self.unit))
+    }
+}
+
+impl Display for Curves {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "{} against {}", commas(&self.up), self.against)
+    }
+}
+
 impl Display for PlotPart {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
@@ -251,6 +438,30 @@ impl Display for PlotPart {
             Self::Title(text) => write!(f, "title {text}"),
             Self::X(text) => write!(f, "x {text}"),
             Self::Y(text) => write!(f, "y {text}"),
+        }
+    }
+}
+
+impl Display for PicturePart {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Width(px) => write!(f, "width {px}"),
+            Self::Dark => f.write_str("dark"),
+            Self::Transparent => f.write_str("transparent"),
+            Self::WithoutNames => f.write_str("without names"),
+            Self::Title(text) => write!(f, "title {text}"),
+        }
+    }
+}
+
+impl Display for ExportPart {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::In(unit) => write!(f, "in {}", unit.text),
+            Self::Scale(value) => write!(f, "scale {value}"),
+            Self::Width(value) => write!(f, "width {value}"),
+            Self::Hole(value) => write!(f, "hole {value}"),
+            Self::Kerf(value) => write!(f, "kerf {value}"),
         }
     }
 }

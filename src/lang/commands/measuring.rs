@@ -5,11 +5,12 @@ use std::fmt::{self, Display, Formatter};
 use super::{Verb, each};
 use crate::diag::{Diagnostic, Span};
 use crate::lang::catalogue::{Entry, Section};
+use crate::lang::constraint::Range;
 use crate::lang::expr::{Expr, Name, Unit};
 use crate::lang::grammar::Rule;
 use crate::lang::lower::Cursor;
 use crate::lang::parts::Text;
-use crate::lang::print::commas;
+use crate::lang::print::{Clause, InUnit, commas};
 
 /// A command of this family.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +24,37 @@ pub enum Measuring {
         /// What its values are counted in.
         unit: Unit,
     },
+    /// `fit a in 2..4, b in 1..3 to minimise d.span over 360`
+    Fit {
+        /// The parameters, each with its least and greatest number.
+        ranges: Vec<FitRange>,
+        /// What they are to do.
+        goal: Goal,
+        /// The frames of a run; the clock stands still without.
+        over: Option<Expr>,
+    },
     /// `result span = d.span, "dead point" = x in deg`
     Result(Vec<ResultItem>),
+}
+
+/// `a in 2..4` in a `fit`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitRange {
+    /// The parameter.
+    pub name: Name,
+    /// Its least and greatest number.
+    pub range: Range,
+}
+
+/// What a `fit` looks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Goal {
+    /// The least value of this.
+    Minimise(Expr),
+    /// The greatest value of this.
+    Maximise(Expr),
+    /// The path in this table.
+    Path(Text),
 }
 
 /// One result.
@@ -77,6 +107,23 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
         },
     },
     Verb {
+        rule: Rule::fit,
+        entry: Entry {
+            keyword: "fit",
+            section: Section::Measuring,
+            usage: "fit NAME in RANGE, ... to minimise|maximise VALUE | FILE [over FRAMES]",
+            summary: "find the numbers that do something best",
+            help: "Each trial begins with the pose and the clock of now: the parameters get other numbers, the\n\
+                 pose is solved, the frames pass, measures anew. A trial that is not solved throughout does not\n\
+                 count. FILE is a table as `record` writes it: the point over its columns is to follow that\n\
+                 path. The best numbers are those of the parameters then, and the pose is solved; one `undo`\n\
+                 takes it back.",
+            example: "fit a in 2..4, b in 1..3 to minimise d.span over 360\n\
+                 fit h in 0..5 to maximise mu.min over 360\n\
+                 fit a in 2..4, b in 1..3 to \"curve.csv\"",
+        },
+    },
+    Verb {
         rule: Rule::result,
         entry: Entry {
             keyword: "result",
@@ -93,7 +140,7 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
 impl Measuring {
     /// Whether it changes what there is, and does not only say it.
     pub const fn is_edit(&self) -> bool {
-        matches!(self, Self::Measure { .. })
+        !matches!(self, Self::Result(_))
     }
 
     /// The command whose statement `rule` has read; none if it is of another family.
@@ -101,7 +148,16 @@ impl Measuring {
         Ok(Some(match rule {
             Rule::measure => {
                 let (name, value) = (c.name()?, c.expr()?);
-                Self::Measure { name, value, unit: unit(c)? }
+                Self::Measure { name, value, unit: c.unit()? }
+            }
+            Rule::fit => {
+                let ranges = each(c, Rule::fit_range, fit_range)?;
+                let goal = match (c.clause(Rule::minimise)?, c.clause(Rule::maximise)?) {
+                    (Some(value), _) => Goal::Minimise(value),
+                    (_, Some(value)) => Goal::Maximise(value),
+                    (None, None) => Goal::Path(c.text()?),
+                };
+                Self::Fit { ranges, goal, over: c.expr_if_any()? }
             }
             Rule::result => Self::Result(each(c, Rule::result_item, result_item)?),
             _ => return Ok(None),
@@ -114,13 +170,16 @@ impl Measuring {
             Self::Measure { name, value, unit } => {
                 write!(f, "measure {name} = {value}{}", InUnit(*unit))
             }
+            Self::Fit { ranges, goal, over } => {
+                write!(f, "fit {} to {goal}{}", commas(ranges), Clause(" over ", over))
+            }
             Self::Result(items) => write!(f, "result {}", commas(items)),
         }
     }
 }
 
-fn unit(c: &mut Cursor) -> Result<Unit, Diagnostic> {
-    Ok(c.unit_if_any()?.unwrap_or(Unit::None))
+fn fit_range(c: &mut Cursor) -> Result<FitRange, Diagnostic> {
+    Ok(FitRange { name: c.name()?, range: c.range()? })
 }
 
 fn result_item(c: &mut Cursor) -> Result<ResultItem, Diagnostic> {
@@ -128,17 +187,21 @@ fn result_item(c: &mut Cursor) -> Result<ResultItem, Diagnostic> {
         Some(text) => Label::Text(text),
         None => Label::Name(c.name()?),
     };
-    Ok(ResultItem { label, value: c.expr()?, unit: unit(c)? })
+    Ok(ResultItem { label, value: c.expr()?, unit: c.unit()? })
 }
 
-/// The unit of a value behind it, if it has one.
-struct InUnit(Unit);
-
-impl Display for InUnit {
+impl Display for FitRange {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self.0 {
-            Unit::None => Ok(()),
-            unit => write!(f, " in {}", unit.suffix()),
+        write!(f, "{} in {}", self.name, self.range)
+    }
+}
+
+impl Display for Goal {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Minimise(value) => write!(f, "minimise {value}"),
+            Self::Maximise(value) => write!(f, "maximise {value}"),
+            Self::Path(file) => write!(f, "{file}"),
         }
     }
 }

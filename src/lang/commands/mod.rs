@@ -20,10 +20,10 @@ use super::grammar::Rule;
 use super::lower::{self, Cursor};
 pub use building::{Building, Definition};
 pub use changing::Changing;
-pub use drawing::{Drawing, Expose, PlotPart};
+pub use drawing::{Column, Curves, Drawing, ExportPart, Expose, PicturePart, PlotPart};
 pub use looking::{ListWhat, Looking, PrintItem};
 pub use making::{Binding, DragTarget, Making, PointDecl};
-pub use measuring::{Label, Measuring, ResultItem};
+pub use measuring::{FitRange, Goal, Label, Measuring, ResultItem};
 pub use running::Running;
 
 /// One command and its place in the text.

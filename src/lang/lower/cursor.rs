@@ -124,10 +124,20 @@ impl<'a> Cursor<'a> {
     /// The unit that a value is counted in, if a clause with one is what follows.
     pub fn unit_if_any(&mut self) -> Result<Option<Unit>> {
         let Some(clause) = self.take(Rule::in_unit) else { return Ok(None) };
-        let pair = self.within(clause).must(Rule::unit);
-        let word = self.ident_of(&pair);
+        let word = self.within(clause).unit_word();
         let unit = Unit::ALL.into_iter().find(|unit| unit.suffix() == &*word.text);
         unit.map(Some).ok_or_else(|| refusal::unknown_unit(&word))
+    }
+
+    /// The unit behind a value; none if none is said.
+    pub fn unit(&mut self) -> Result<Unit> {
+        Ok(self.unit_if_any()?.unwrap_or(Unit::None))
+    }
+
+    /// The word of a unit.
+    pub fn unit_word(&mut self) -> Ident {
+        let pair = self.must(Rule::unit);
+        self.ident_of(&pair)
     }
 
     pub fn ident_if_any(&mut self) -> Option<Ident> {
@@ -358,7 +368,15 @@ fn only_separates(rule: Rule) -> bool {
             | Rule::kw_within
             | Rule::kw_for
             | Rule::kw_in
+            | Rule::kw_width
+            | Rule::kw_scale
+            | Rule::kw_hole
+            | Rule::kw_kerf
             | Rule::kw_as
+            | Rule::kw_of
+            | Rule::kw_against
+            | Rule::kw_minimise
+            | Rule::kw_maximise
             | Rule::kw_title
             | Rule::kw_x
             | Rule::kw_y

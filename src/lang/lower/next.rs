@@ -124,7 +124,14 @@ pub(in crate::lang) fn split_prefix(statement: &str) -> Option<(&str, &str)> {
 fn meant(rule: Rule, verb: &str, last: &str, is_first: bool) -> Vec<Next> {
     let name = || name_of(verb, last, is_first).map(Next::Name);
     match rule {
-        Rule::number | Rule::reference | Rule::parens | Rule::minus | Rule::expr | Rule::range => {
+        Rule::number
+        | Rule::reference
+        | Rule::parens
+        | Rule::minus
+        | Rule::expr
+        | Rule::range
+        | Rule::column
+        | Rule::against => {
             vec![Next::Value]
         }
         Rule::relation => vec![Next::Word("in")],
@@ -137,10 +144,13 @@ fn meant(rule: Rule, verb: &str, last: &str, is_first: bool) -> Vec<Next> {
         | Rule::touched
         | Rule::binding
         | Rule::result_item
+        | Rule::fit_range
         | Rule::ident => name().into_iter().collect(),
         Rule::setting => vec![Next::Setting],
         Rule::unit => vec![Next::Unit],
-        Rule::string if !matches!(verb, "print" | "sample" | "result") => vec![Next::Path],
+        Rule::string if !matches!(verb, "print" | "sample" | "result" | "trace" | "untrace") => {
+            vec![Next::Path]
+        }
         _ => {
             let spelt = format!("{rule:?}");
             let word = spelt.strip_prefix("kw_");
@@ -155,7 +165,7 @@ fn name_of(verb: &str, last: &str, is_first: bool) -> Option<NameOf> {
     Some(match verb {
         "use" if is_first => NameOf::Definition,
         "point" | "for" | "define" | "restore" | "use" | "measure" | "result" => return None,
-        "let" => NameOf::Parameter,
+        "let" | "fit" => NameOf::Parameter,
         "freeze" | "thaw" | "move" | "drag" | "pull" | "trace" | "untrace" => NameOf::Point,
         "off" | "on" => NameOf::Constraint,
         "limits" => NameOf::Driver,

@@ -28,7 +28,7 @@ impl Display for Constraint {
 impl Display for Part {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            Self::Points(names) => write!(f, "{}", Names { names, stop: "" }),
+            Self::Points(names) => write!(f, "{}", Names { names, stops: &[] }),
             Self::Defined(name) => write!(f, "{name} ="),
             Self::Point(role, name) => write!(f, "{} {name}", role.word()),
             Self::Measure(value) => write!(f, "{value}"),

@@ -9,7 +9,7 @@ use super::ast::{
     Command, ConstraintDecl, Expr, Ident, Name, Promise, Range, Relation, Selection, Statement,
     Text,
 };
-use super::expr::Node;
+use super::expr::{Node, Unit};
 
 impl Display for Statement {
     /// On one line, or with its block on several, without a newline at the end.
@@ -71,10 +71,10 @@ impl<T: Display> Display for Clause<'_, T> {
     }
 }
 
-/// Names in a row; a name that reads like the word that ends the row gets a comma before it.
+/// Names in a row; a name that reads like a word that ends the row gets a comma before it.
 pub(super) struct Names<'a> {
     pub names: &'a [Name],
-    pub stop: &'a str,
+    pub stops: &'a [&'a str],
 }
 
 impl Display for Names<'_> {
@@ -82,12 +82,24 @@ impl Display for Names<'_> {
         for (position, name) in self.names.iter().enumerate() {
             let gap = match position {
                 0 => "",
-                _ if &*name.head.text == self.stop => ", ",
+                _ if self.stops.contains(&&*name.head.text) => ", ",
                 _ => " ",
             };
             write!(f, "{gap}{name}")?;
         }
         Ok(())
+    }
+}
+
+/// The unit of a value behind it, if it has one.
+pub(super) struct InUnit(pub Unit);
+
+impl Display for InUnit {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self.0 {
+            Unit::None => Ok(()),
+            unit => write!(f, " in {}", unit.suffix()),
+        }
     }
 }
 
@@ -151,7 +163,7 @@ impl Display for Selection {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::All => f.write_str("all"),
-            Self::Names(names) => write!(f, "{}", Names { names, stop: "" }),
+            Self::Names(names) => write!(f, "{}", Names { names, stops: &[] }),
         }
     }
 }

@@ -7,6 +7,7 @@ use super::series_look::SeriesLook;
 use super::sheet::{Anchor, Sheet, Stroke, TextStyle, number};
 use crate::constraint::Point;
 use crate::render::labels::{Area, even_width};
+use crate::render::trace::thin;
 
 /// The width of the part left of the legend.
 const BODY: f64 = 722.0;
@@ -25,6 +26,9 @@ const SMALL: f64 = 11.0;
 const TINY: f64 = 9.5;
 /// Marks without labels stand at least this far apart.
 const MARK_GAP: f64 = 26.0;
+/// A line of more places is drawn through as many as it takes, so near to all, px.
+const DENSE: usize = 1000;
+const FINE: f64 = 0.05;
 /// The line through the efficient places: broad and pale, beneath the others.
 const FRONTIER: Stroke = Stroke { colour: "#c9c9c9", width: 9.0, is_round: false, dash: "" };
 /// Words around the data.
@@ -215,7 +219,13 @@ impl Plot {
 
 impl Line<'_> {
     fn draw(&self, sheet: &mut Sheet) {
-        self.stretches.iter().for_each(|stretch| self.look.draw_line(stretch, sheet));
+        for stretch in &self.stretches {
+            if stretch.len() > DENSE {
+                self.look.draw_line(&thin(stretch, FINE), sheet);
+            } else {
+                self.look.draw_line(stretch, sheet);
+            }
+        }
         for (place, datum) in self.marked() {
             self.look.draw_marker(place, if datum.is_notable { 1.35 } else { 1.0 }, sheet);
         }

@@ -42,7 +42,7 @@ pub use equation::Equation;
 pub use joint::{Joint, Support};
 pub use link::Link;
 pub use multiple::Multiple;
-pub use plate::Plate;
+pub use plate::{Plate, hull};
 pub use rail::Rail;
 pub use ring::Ring;
 pub use rod::Rod;

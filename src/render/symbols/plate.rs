@@ -22,6 +22,11 @@ impl Plate {
     pub fn new(points: &[PointIdx], at: &[Point]) -> Self {
         Self { points: points.to_vec(), hull: hull(points, at) }
     }
+
+    /// Its points on its outline, counter-clockwise.
+    pub fn hull(&self) -> &[PointIdx] {
+        &self.hull
+    }
 }
 
 impl Draw for Plate {
@@ -50,7 +55,7 @@ pub fn polygon_from(canvas: &Canvas, placement: &Placement, points: &[PointIdx])
 
 /// The corners of the smallest convex polygon around some points, counter-clockwise, the one
 /// with the lowest handle first (Andrew's monotone chain).
-fn hull(points: &[PointIdx], at: &[Point]) -> Vec<PointIdx> {
+pub fn hull(points: &[PointIdx], at: &[Point]) -> Vec<PointIdx> {
     let place = |p: PointIdx| at[p as usize];
     let mut sorted = points.to_vec();
     sorted.sort_by(|&p, &q| {

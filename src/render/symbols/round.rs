@@ -25,6 +25,23 @@ fn ray(canvas: &Canvas, from: PointIdx, to: PointIdx) -> f64 {
 /// Chords of an arc by which its extent is found.
 const CHORDS: u32 = 64;
 
+impl Round {
+    /// Points along it, close enough together for a pen.
+    pub fn chain(&self, at: &[Point]) -> Vec<Point> {
+        const N: u32 = 240;
+        let (centre, radius) = (at[self.curve.points()[0] as usize], self.curve.radius_at(at));
+        let (from, sweep) = match self.curve {
+            Curve::Arc { points: [_, p, q] } => {
+                let [from, to] = [p, q].map(|p| (at[p as usize] - centre).angle());
+                (from, (to - from).rem_euclid(TAU))
+            }
+            _ => (0.0, TAU),
+        };
+        let angle = |k: u32| from + sweep * f64::from(k) / f64::from(N);
+        (0..=N).map(|k| centre + Vector::polar(radius, angle(k))).collect()
+    }
+}
+
 impl Draw for Round {
     fn points(&self) -> Vec<PointIdx> {
         self.curve.points().to_vec()

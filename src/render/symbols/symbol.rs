@@ -84,15 +84,20 @@ impl Symbol {
         self.form.draw(canvas);
     }
 
+    /// The ends of the bar it is; none for other symbols.
+    pub const fn bar_ends(&self) -> Option<[PointIdx; 2]> {
+        match &self.form {
+            SymbolForm::Rod(rod) => Some(rod.points),
+            SymbolForm::Crank(crank) => Some(crank.points),
+            SymbolForm::Link(link) => Some(link.ends),
+            SymbolForm::Telescope(telescope) => Some(telescope.points),
+            _ => None,
+        }
+    }
+
     /// The length of the bar it is; none for other symbols.
     pub fn bar_length(&self, at: &[Point]) -> Option<f64> {
-        let [a, b] = match &self.form {
-            SymbolForm::Rod(rod) => rod.points,
-            SymbolForm::Crank(crank) => crank.points,
-            SymbolForm::Link(link) => link.ends,
-            SymbolForm::Telescope(telescope) => telescope.points,
-            _ => return None,
-        };
+        let [a, b] = self.bar_ends()?;
         Some(at[a as usize].distance(at[b as usize]))
     }
 }

@@ -246,14 +246,14 @@ impl Execution<'_> {
     }
 
     /// What lies where `save` would put a file of this name.
-    fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
+    pub(super) fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
         let file = self.host.resolve(path).ok()?;
         let text = self.host.read(&file).ok()?;
         Some((file, text))
     }
 
     /// Where a file lies that is to be read.
-    fn find(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+    pub(super) fn find(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let folder = self.input.folder(path.span.source);
         self.host.find(&folder, Path::new(&*path.value)).map_err(|e| match e.kind() {
             io::ErrorKind::PermissionDenied => elsewhere(path),
@@ -261,7 +261,7 @@ impl Execution<'_> {
         })
     }
 
-    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
+    pub(super) fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
         self.host.read(file).map_err(|e| unreadable(path, &e))
     }
 

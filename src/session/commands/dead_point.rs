@@ -4,6 +4,7 @@ use crate::constraint::geometry::wrap;
 use crate::constraint::{ConstraintKind as _, Field};
 use crate::diag::format_degrees;
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::preferences::AtDeadPoint;
 use crate::session::undo::recorder::{Recorder, Reel};
 use crate::solve::{Halt, Memory, Method};
@@ -77,6 +78,14 @@ impl Execution<'_> {
     /// says what is to be done then.
     pub(crate) fn met(&mut self, has_way_back: bool, k: u64, n: u64) -> Next {
         let halted = self.state.solver.halted();
+        if self.host.takes_findings() {
+            let frame = self.state.world.clock().frame;
+            let told = halted.iter().filter(|(_, halt)| self.tell_halt(*halt).is_some());
+            for (id, halt) in told.copied().collect::<Vec<_>>() {
+                let name = self.state.world.name_of(Entity::Constraint(id));
+                self.host.find_out(&Finding::Halted(name, frame, halt));
+            }
+        }
         let met: Vec<(ConstraintId, String)> =
             halted.into_iter().filter_map(|(id, halt)| Some((id, self.tell_halt(halt)?))).collect();
         if met.is_empty() {

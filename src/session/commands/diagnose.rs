@@ -12,6 +12,7 @@ use crate::mobility::{
 };
 use crate::session::culprits::thaws;
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::resolve::said::pattern_of;
 use crate::session::resolve::unbind::{Unbind, named, text_of};
 use crate::session::settled::{Settled, miss};
@@ -421,9 +422,11 @@ impl Settled {
 
 impl Execution<'_> {
     pub(crate) fn check(&mut self) {
-        for line in self.state.examine().lines() {
-            self.host.print(&line);
+        let check = self.state.examine();
+        if self.host.takes_findings() {
+            return self.host.find_out(&Finding::Checked(&check));
         }
+        check.lines().iter().for_each(|line| self.host.print(line));
     }
 
     pub(crate) fn why(&mut self, name: &Name) -> Result<(), Diagnostic> {

@@ -8,6 +8,7 @@ use crate::errors;
 use crate::lang::ast::Name;
 use crate::mobility::{DriverRange, RangeEnd, Reach, range};
 use crate::session::execution::Execution;
+use crate::session::finding::{Finding, Limits};
 use crate::session::settled::Parts;
 use crate::session::state::State;
 use crate::world::Entity;
@@ -27,7 +28,12 @@ impl Execution<'_> {
             }
             source => self.state.limits_of(entity, source),
         };
-        self.host.print(&text);
+        if self.host.takes_findings() {
+            let found = self.state.limits_found(entity, &source, text);
+            self.host.find_out(&Finding::Limits(&found));
+        } else {
+            self.host.print(&text);
+        }
         Ok(())
     }
 }
@@ -72,6 +78,25 @@ impl State {
             let driver = source.of(&subject, scene)?;
             Some((range(scene, &driver, tolerance), driver.is_angle))
         })
+    }
+
+    /// The range of a driver as data, and what is said of it.
+    fn limits_found(&self, entity: Entity, source: &Source, text: String) -> Limits {
+        let found = if self.measured().is_some() { None } else { self.range_of(source) };
+        let (range, is_angle) = found.unzip();
+        let ids = Parts::of(&self.world).ids;
+        let stop = |end: RangeEnd| match end {
+            RangeEnd::Stop(_, by) => {
+                Some(self.world.name_of(Entity::Constraint(ids[by])).to_owned())
+            }
+            _ => None,
+        };
+        let stops = match range.as_ref().map(|range| range.reach) {
+            Some(Reach::Between(lower, upper)) => [stop(lower), stop(upper)],
+            _ => [None, None],
+        };
+        let driver = self.world.name_of(entity).to_owned();
+        Limits { driver, is_angle: is_angle.unwrap_or(false), range, stops, text }
     }
 
     fn limits_of(&self, entity: Entity, source: &Source) -> String {

@@ -4,6 +4,7 @@ use super::effect_table::{EFFECTS, Rehearsal, Work};
 use crate::diag::format_digits;
 use crate::interrupt::tick;
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::host::{Host, NO_CLOCK};
 use crate::session::state::State;
 use crate::session::undo::recorder::Recorder;
@@ -194,9 +195,11 @@ impl Rehearsal {
 
 impl Execution<'_> {
     pub(crate) fn effects(&mut self) {
-        for line in self.state.effects_on(self.host).lines() {
-            self.host.print(&line);
+        let effects = self.state.effects_on(self.host);
+        if self.host.takes_findings() {
+            return self.host.find_out(&Finding::Effects(&effects));
         }
+        effects.lines().iter().for_each(|line| self.host.print(line));
     }
 }
 

@@ -5,6 +5,7 @@ use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{Expr, Label, Name, ResultItem, Unit};
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::quotas::Quota;
 use crate::session::results::line;
 use crate::session::state::State;
@@ -97,7 +98,11 @@ impl Execution<'_> {
             };
             for (name, value) in said {
                 let value = value / unit.scale();
-                self.host.print(&line(&name, value));
+                if self.host.takes_findings() {
+                    self.host.find_out(&Finding::Result(&name, value));
+                } else {
+                    self.host.print(&line(&name, value));
+                }
                 results.set(name, value);
             }
         }

@@ -1,16 +1,19 @@
-//! Series of values: `sample` and `plot`.
+//! Charts: of series that `sample` collects, and of measures against each other.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::lang::ast::{Expr, PlotPart, Text};
-use crate::render::Sketch;
+use crate::lang::ast::{Curves, Expr, Node, PlotPart, Text, Unit};
 use crate::render::chart::{AxisUnit, Chart, ChartAxis, Datum, Series};
+use crate::render::{Options, Sketch};
 use crate::session::execution::Execution;
 use crate::session::file_kind::FileKind;
 use crate::session::quotas::Quota;
+use crate::session::resolve::scope::Meaning;
 use crate::session::undo::journal::Change;
+use crate::world::{Entity, Measure, Reading};
 
 impl Execution<'_> {
     pub(crate) fn sample(&mut self, series: &Text, values: &[Expr]) -> Result<(), Diagnostic> {
@@ -29,44 +32,138 @@ impl Execution<'_> {
         parts: &[PlotPart],
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let file = path.map(|path| self.output_file(path, FileKind::Picture)).transpose()?;
+        let file = path.map(|path| self.still_file(path)).transpose()?;
         let place = path.map_or(span, |path| path.span);
         if self.state.series.is_empty() {
             return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
                 .at(place, "no series has a value")
-                .help(r#"`sample "error" = distance(A, B)` appends one"#));
+                .help(r#"`sample "error" = distance(A, B)` appends one"#)
+                .help("`plot d against time` draws a measure"));
         }
-        let mut chart = Chart {
-            x: axis("sample", false),
-            y: axis("", parts.contains(&PlotPart::Log)),
-            ..Chart::default()
-        };
-        for part in parts {
-            match part {
-                PlotPart::Log => {}
-                PlotPart::Title(text) => chart.title = text.value.to_string(),
-                PlotPart::X(text) => chart.x.label = text.value.to_string(),
-                PlotPart::Y(text) => chart.y.label = text.value.to_string(),
-            }
-        }
-        let datum =
-            |(k, &y): (usize, &f64)| Datum { x: k as f64, y, label: None, is_notable: false };
+        let mut chart = Chart { x: axis("sample"), ..Chart::default() };
+        let datum = |(k, &y): (usize, &f64)| datum(k as f64, y);
         let line = |(look, (name, values)): (usize, &(Arc<str>, Vec<f64>))| Series {
             name: name.to_string(),
             look,
             data: values.iter().enumerate().map(datum).collect(),
         };
         chart.series = self.state.series.iter().enumerate().map(line).collect();
-        if let Some(file) = file {
-            self.queue_file(file, FileKind::Picture, chart.svg().into_bytes(), place);
+        say(&mut chart, parts);
+        self.show_chart(&chart, file, place)
+    }
+
+    /// Draws measures against another, or against time.
+    pub(crate) fn plot_measures(
+        &mut self,
+        path: Option<&Text>,
+        curves: &Curves,
+        parts: &[PlotPart],
+    ) -> Result<(), Diagnostic> {
+        let file = path.map(|path| self.still_file(path)).transpose()?;
+        let against = match curves.against.node {
+            Node::Time => None,
+            _ => Some(self.plotted(&curves.against)?),
+        };
+        let mut chart = Chart { x: axis("time (s)"), ..Chart::default() };
+        if let Some(x) = &against {
+            chart.x = axis(&with_unit(&x.name, x.unit));
+        }
+        let mut up = Vec::new();
+        for (look, expr) in curves.up.iter().enumerate() {
+            let y = self.plotted(expr)?;
+            let data = match &against {
+                Some(x) => together(x, &y),
+                None => y.tally.readings().iter().map(|it| datum(it.time, it.value)).collect(),
+            };
+            if data.is_empty() {
+                return Err(Diagnostic::error(errors::NOTHING_TO_PLOT, "there is nothing to plot")
+                    .at(expr.span.to(curves.against.span), "no frame gave a value of both")
+                    .help("a solved pose gives one, and each frame: `step`"));
+            }
+            chart.series.push(Series { name: y.name.to_string(), look, data });
+            up.push(y);
+        }
+        chart.y = axis(&names_of(&up));
+        say(&mut chart, parts);
+        let place = path.map_or(curves.against.span, |path| path.span);
+        self.show_chart(&chart, file, place)
+    }
+
+    /// The measure of this name.
+    fn plotted(&mut self, expr: &Expr) -> Result<Measure, Diagnostic> {
+        let found = match expr.as_name() {
+            Some(name) => match self.resolve().meaning(name)? {
+                (Meaning::Entity(Entity::Measure(id)), None) => self.state.world.measure(id),
+                _ => None,
+            },
+            None => None,
+        };
+        found.cloned().ok_or_else(|| {
+            Diagnostic::error(errors::WRONG_SORT, "`plot ... against` draws measures")
+                .at(expr.span, "expected the name of a measure")
+                .help(format!("`measure d = {expr}` before the run follows this"))
+        })
+    }
+
+    /// Writes a chart, or draws it in characters.
+    fn show_chart(
+        &mut self,
+        chart: &Chart,
+        file: Option<(PathBuf, FileKind)>,
+        place: Span,
+    ) -> Result<(), Diagnostic> {
+        if let Some((file, kind)) = file {
+            self.queue_still(file, kind, chart.svg(), &Options::default(), place)?;
         } else {
             let (n_columns, n_rows) = self.host.page();
-            self.host.draw(&Sketch::of_chart(&chart, n_columns, n_rows.min(20)));
+            self.host.draw(&Sketch::of_chart(chart, n_columns, n_rows.min(20)));
         }
         Ok(())
     }
 }
 
-fn axis(label: &str, is_log: bool) -> ChartAxis {
-    ChartAxis { label: label.to_owned(), is_log, unit: AxisUnit::None }
+/// Takes in what a statement says of a chart.
+fn say(chart: &mut Chart, parts: &[PlotPart]) {
+    for part in parts {
+        match part {
+            PlotPart::Log => chart.y.is_log = true,
+            PlotPart::Title(text) => chart.title = text.value.to_string(),
+            PlotPart::X(text) => chart.x.label = text.value.to_string(),
+            PlotPart::Y(text) => chart.y.label = text.value.to_string(),
+        }
+    }
+}
+
+/// The values of two measures in the same frames, in order of time.
+fn together(x: &Measure, y: &Measure) -> Vec<Datum> {
+    let mut others = y.tally.readings().iter().peekable();
+    let both = |x: &Reading| {
+        while others.next_if(|y| y.time < x.time).is_some() {}
+        others.next_if(|y| y.time == x.time).map(|y| datum(x.value, y.value))
+    };
+    x.tally.readings().iter().filter_map(both).collect()
+}
+
+/// What is drawn upwards, with the unit once where it is one.
+fn names_of(measures: &[Measure]) -> String {
+    let is_one = measures.windows(2).all(|pair| pair[0].unit == pair[1].unit);
+    let name = |it: &Measure| with_unit(&it.name, if is_one { Unit::None } else { it.unit });
+    let names = measures.iter().map(name).collect::<Vec<_>>().join(", ");
+    let unit = measures.first().map_or(Unit::None, |it| it.unit);
+    if is_one { with_unit(&names, unit) } else { names }
+}
+
+fn with_unit(name: &str, unit: Unit) -> String {
+    match unit {
+        Unit::None => name.to_owned(),
+        unit => format!("{name} ({})", unit.suffix()),
+    }
+}
+
+const fn datum(x: f64, y: f64) -> Datum {
+    Datum { x, y, label: None, is_notable: false }
+}
+
+fn axis(label: &str) -> ChartAxis {
+    ChartAxis { label: label.to_owned(), is_log: false, unit: AxisUnit::None }
 }

@@ -27,6 +27,8 @@ pub enum Restorable {
     Trace,
     /// The places of a trace that missed the tolerance, by index.
     Missed,
+    /// That a trace grows no more.
+    Ended,
     /// What a measure has kept.
     Measure,
     /// A ghost: number of a point, its place, and so on.
@@ -41,7 +43,7 @@ pub enum Restorable {
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 15] = [
         Self::Clock,
         Self::Start,
         Self::State,
@@ -51,6 +53,7 @@ impl Restorable {
         Self::Values,
         Self::Trace,
         Self::Missed,
+        Self::Ended,
         Self::Measure,
         Self::Ghost,
         Self::Memory,
@@ -70,6 +73,7 @@ impl Restorable {
             Self::Values => "values",
             Self::Trace => "trace",
             Self::Missed => "missed",
+            Self::Ended => "ended",
             Self::Measure => "measure",
             Self::Ghost => "ghost",
             Self::Memory => "memory",

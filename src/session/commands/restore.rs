@@ -8,7 +8,7 @@ use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
 use crate::world::{
-    Clock, Edit, Entity, Ghost, Measure, Record, Sample, Tally, TurnCount, Turning, Value,
+    Clock, Edit, Entity, Ghost, Measure, Record, Sample, Tally, Trace, TurnCount, Turning, Value,
 };
 
 /// Why something cannot be restored.
@@ -88,15 +88,19 @@ impl Execution<'_> {
             (Restorable::Values, Some(name)) => self.restore_values(name, values),
             (Restorable::Trace, Some(name)) => self.restore_trace(name, values),
             (Restorable::Missed, Some(name)) => self.restore_missed(name, values),
+            (Restorable::Ended, Some(name)) if values.is_empty() => {
+                self.restore_trace_by(name, |trace| trace.is_ended = true)
+            }
             (Restorable::Measure, Some(name)) => self.restore_measure(name, values),
             (Restorable::Ghost, None) => self.restore_ghost(values),
             (Restorable::Turn, None) => self.restore_turn(values),
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
             (Restorable::Version, None) => check_version(values),
             (Restorable::Past, None) => self.restore_past(values),
-            // These have an owner or none, and this is the other way.
+            // These have an owner or none, and this is the other way; or they have no values.
             (
-                Restorable::Clock
+                Restorable::Ended
+                | Restorable::Clock
                 | Restorable::Ghost
                 | Restorable::Turn
                 | Restorable::Version
@@ -111,6 +115,7 @@ impl Execution<'_> {
                 | Restorable::Values
                 | Restorable::Trace
                 | Restorable::Missed
+                | Restorable::Ended
                 | Restorable::Measure,
                 None,
             ) => Err(Unfit::Values),
@@ -237,15 +242,20 @@ impl Execution<'_> {
     }
 
     fn restore_samples(&mut self, name: &Name, change: impl FnOnce(&mut Vec<Sample>)) -> Restored {
+        self.restore_trace_by(name, |trace| change(&mut trace.samples))
+    }
+
+    /// Changes the trace of a point that was made last.
+    fn restore_trace_by(&mut self, name: &Name, change: impl FnOnce(&mut Trace)) -> Restored {
         let point = self.resolve().point(name)?;
         let traces = self.state.world.traces();
-        let Some(k) = traces.iter().position(|t| t.point == point) else {
+        let Some(k) = traces.iter().rposition(|t| t.point == point) else {
             return Err(Diagnostic::error(errors::NOT_TRACED, "this point is not traced")
                 .at(name.span, "")
                 .into());
         };
         let mut trace = traces[k].clone();
-        change(&mut trace.samples);
+        change(&mut trace);
         self.edit(Edit::Trace(k, None));
         self.edit(Edit::Trace(k, Some(Box::new(trace))));
         Ok(())

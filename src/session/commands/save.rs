@@ -273,7 +273,8 @@ impl State {
         for trace in self.world.traces() {
             let name = points.name(trace.point);
             let every = (trace.every > 1).then(|| literal(trace.every as f64));
-            line(script, Drawing::Trace { names: vec![named(name)], every });
+            let label = trace.label.as_deref().map(quoted);
+            line(script, Drawing::Trace { names: vec![named(name)], label, every });
             if !trace.samples.is_empty() {
                 let places = trace.samples.iter().map(|s| vector(s.at.x, s.at.y)).collect();
                 restore(script, Restorable::Trace, Some(name), places);
@@ -284,6 +285,9 @@ impl State {
                 .collect();
             if !missed.is_empty() {
                 restore(script, Restorable::Missed, Some(name), numbers(&missed));
+            }
+            if trace.is_ended {
+                restore(script, Restorable::Ended, Some(name), Vec::new());
             }
         }
         let numbered = ordinals(&self.world);

@@ -1,23 +1,22 @@
-//! Looking: `list`, `show`, `print`, `assert`, `help`.
+//! Looking: `list`, `show`, `print`, `assert`.
 
 use std::fmt::Write;
 
-use super::setting_table::{SETTINGS, Setting};
 use crate::constraint::ConstraintKind as _;
-use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded, suggest};
+use crate::diag::{Diagnostic, Kind, Span, format_number, format_rounded};
 use crate::errors;
 use crate::interrupt::tick;
-use crate::lang::ast::{Expr, Ident, ListWhat, Name, Node, PrintItem, Relation};
-use crate::lang::catalogue::{self, Entry, Trade};
+use crate::lang::ast::{Expr, ListWhat, Name, Node, PrintItem, Relation};
+use crate::lang::catalogue::{self, Trade};
 use crate::lang::nearest_command;
 use crate::render::{Scene, Sketch};
-use crate::session::examples::Example;
 use crate::session::execution::Execution;
+use crate::session::finding::Finding;
 use crate::session::resolve::scope::Meaning;
-use crate::session::resolve::unbind::Unbind;
+use crate::session::resolve::unbind::{Unbind, quoted};
 use crate::session::state::State;
-use crate::solve::{Method, present};
-use crate::terms::{Function, Statistic};
+use crate::solve::present;
+use crate::terms::Statistic;
 use crate::world::{ConstraintId, Entity, Measure, PointId, Value, World};
 
 /// A value as `print` writes it.
@@ -34,15 +33,24 @@ const LINE: usize = 1000;
 impl Execution<'_> {
     pub(crate) fn print(&mut self, items: &[PrintItem]) -> Result<(), Diagnostic> {
         let mut line = String::new();
+        let mut values = Vec::new();
         for (k, item) in items.iter().enumerate() {
             if k > 0 {
                 line.push(' ');
             }
             match item {
                 PrintItem::Text(text) => line.push_str(&text.value),
-                PrintItem::Value(expr) => line.push_str(&format_value(self.resolve().value(expr)?)),
+                PrintItem::Value(expr) => {
+                    let value = self.resolve().value(expr)?;
+                    line.push_str(&format_value(value));
+                    values.push(value);
+                }
                 PrintItem::InUnit(expr, unit) => match self.resolve().value(expr)? {
-                    Value::Number(n) => line.push_str(&format_number(n / unit.scale())),
+                    Value::Number(n) => {
+                        let in_unit = n / unit.scale();
+                        line.push_str(&format_number(in_unit));
+                        values.push(Value::Number(in_unit));
+                    }
                     Value::Vector(_) => {
                         return Err(Diagnostic::error(
                             errors::MIXED_SORTS,
@@ -54,7 +62,11 @@ impl Execution<'_> {
                 },
             }
         }
-        self.host.print(&line);
+        if self.host.takes_findings() {
+            self.host.find_out(&Finding::Printed(&line, &values));
+        } else {
+            self.host.print(&line);
+        }
         Ok(())
     }
 
@@ -168,6 +180,10 @@ impl Execution<'_> {
 
     pub(crate) fn list(&mut self, what: Option<ListWhat>) {
         let is_asked = |part| what.is_none_or(|what| what == part);
+        if self.host.takes_findings() {
+            let listing = self.state.listing(is_asked);
+            return self.host.find_out(&Finding::Listed(&listing));
+        }
         let mut lines: Vec<String> = Vec::new();
         if is_asked(ListWhat::Parameters) {
             lines.extend(
@@ -189,10 +205,14 @@ impl Execution<'_> {
             lines.extend(self.state.world.traces().iter().map(|trace| {
                 let name = self.state.world.points().name(trace.point);
                 let n = trace.samples.len();
-                match trace.every {
-                    1 => format!("trace {name}  # {n} places"),
-                    every => format!("trace {name} every {every}  # {n} places"),
-                }
+                let label = trace.label.as_deref().map(quoted);
+                let label = label.map_or_else(String::new, |label| format!(" as {label}"));
+                let every = match trace.every {
+                    1 => String::new(),
+                    every => format!(" every {every}"),
+                };
+                let ended = if trace.is_ended { ", ended" } else { "" };
+                format!("trace {name}{label}{every}  # {n} places{ended}")
             }));
         }
         if is_asked(ListWhat::Measures) {
@@ -220,6 +240,9 @@ impl Execution<'_> {
     }
 
     pub(crate) fn show(&mut self, name: &Name) -> Result<(), Diagnostic> {
+        if self.host.takes_findings() {
+            return self.show_as_data(name);
+        }
         if let Some(instance) = self.resolve().instance(name)? {
             let prefix = format!("{instance}.");
             let (now, _) = present(&self.state.world);
@@ -295,30 +318,6 @@ impl Execution<'_> {
         let lines: Vec<String> = typed.flat_map(str::lines).map(str::to_owned).collect();
         self.host.print_all(&lines);
     }
-
-    pub(crate) fn examples(&mut self, name: Option<&Ident>) -> Result<(), Diagnostic> {
-        let lines: Vec<String> = match name {
-            None => Example::overview(),
-            Some(word) => Example::named(&word.text)
-                .map_err(|problem| problem.at(word.span, "no such example"))?
-                .text
-                .lines()
-                .map(str::to_owned)
-                .collect(),
-        };
-        self.host.print_all(&lines);
-        Ok(())
-    }
-
-    pub(crate) fn help(&mut self, topic: Option<&Ident>) -> Result<(), Diagnostic> {
-        let text = match topic {
-            None => overview(),
-            Some(topic) => self.state.help_on(topic)?,
-        };
-        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        self.host.print_all(&lines);
-        Ok(())
-    }
 }
 
 impl State {
@@ -378,43 +377,6 @@ impl State {
         }
         line
     }
-
-    fn help_on(&self, topic: &Ident) -> Result<String, Diagnostic> {
-        let word = &*topic.text;
-        if let Some(kind) = errors::explained(word) {
-            return Ok(error_explained(kind));
-        }
-        let mut text = catalogue::entry(word).map(explained).unwrap_or_default();
-        // Writing to a string cannot fail.
-        for function in Function::named(word) {
-            let _ = writeln!(text, "{word}: {}", function.help());
-        }
-        if let Some(Setting { name, what, text: now, .. }) = Setting::named(word) {
-            let _ = writeln!(text, "set {name}: {what}; now {}", now(self));
-            if *name == "method" {
-                let _ = writeln!(text, "  {}", Method::ALL.map(Method::word).join(", "));
-            }
-        }
-        if text.is_empty()
-            && let Some(entry) = catalogue::about(word)
-        {
-            text = explained(entry);
-        }
-        if let Some(trade) = catalogue::trade(word) {
-            text.push_str(&trade_explained(word, trade));
-        }
-        if text.is_empty() {
-            let problem = Diagnostic::error(errors::NO_HELP, format!("no help on `{word}`"))
-                .at(topic.span, "unknown topic");
-            let known = catalogue::commands()
-                .chain(catalogue::topics())
-                .map(|entry| entry.keyword)
-                .chain(Function::ALL.iter().map(|f| f.name()))
-                .chain(SETTINGS.iter().map(|setting| setting.name));
-            return Err(suggest(problem, word, known).help("`help` alone lists the commands"));
-        }
-        Ok(text)
-    }
 }
 
 /// What a measure has kept, a line for what goes together.
@@ -431,66 +393,4 @@ fn measure_details(measure: &Measure) -> Vec<String> {
         line(&[Statistic::First, Statistic::Last]),
     ];
     lines.into_iter().flatten().collect()
-}
-
-/// A command or subject in full.
-fn explained(entry: &Entry) -> String {
-    // Writing to a string cannot fail.
-    let mut text = String::new();
-    let _ = writeln!(text, "{}\n  {}.", entry.usage, entry.summary);
-    for part in [entry.help, entry.example] {
-        if !part.is_empty() {
-            let _ = writeln!(text, "\n{part}");
-        }
-    }
-    text
-}
-
-/// A word of the trade: what it is here, what to type, and how the command goes on.
-fn trade_explained(word: &str, trade: &Trade) -> String {
-    let Trade { command, says, example, .. } = trade;
-    let mut text = format!("{word} {says}:\n  {example}\n");
-    if let Some(entry) = catalogue::entry(command) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "\n{}", entry.usage);
-    }
-    let _ = writeln!(text, "`help {command}` says more.");
-    text
-}
-
-/// A kind of error in full.
-fn error_explained(kind: &errors::Kind) -> String {
-    // Writing to a string cannot fail.
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}.", kind.code, kind.title);
-    if !kind.help.is_empty() {
-        let _ = writeln!(text, "{}", kind.help);
-    }
-    for (heading, example) in [("so it goes wrong:", kind.wrong), ("put right:", kind.right)] {
-        if !example.is_empty() {
-            let _ = writeln!(text, "\n{heading}\n  {}", example.replace('\n', "\n  "));
-        }
-    }
-    text
-}
-
-/// The commands under their headings, a line each.
-fn overview() -> String {
-    let mut text = String::new();
-    for section in catalogue::Section::ALL {
-        let entries: Vec<_> = catalogue::commands()
-            .chain(catalogue::topics())
-            .filter(|entry| entry.section == section)
-            .collect();
-        if entries.is_empty() {
-            continue;
-        }
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}", section.title());
-        for entry in entries {
-            let _ = writeln!(text, "  {:<14}{}", entry.keyword, entry.summary);
-        }
-    }
-    text.push_str("`help WORD` says more: `help motor`\n");
-    text
 }

@@ -6,13 +6,15 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
-use crate::render::{Animation, Options, Scene, View, is_shown};
+use crate::render::raster::{Motion, SHORTEST_FRAME};
+use crate::render::{Animation, Options, Scene, View, is_shown, shown_for, svg_with_view};
 use crate::session::file_kind::FileKind;
 use crate::session::spool::Tape;
-use crate::world::World;
+use crate::world::{Formula, World};
 
 /// One recording.
 #[derive(Debug, Clone)]
@@ -25,10 +27,25 @@ pub struct Recorder {
     pub every: u64,
     /// What it will become.
     pub format: Format,
+    /// How its pictures look.
+    pub look: Options,
     tape: Tape,
     shots: Vec<Shot>,
     /// The points of a table, in the order in which they came.
     names: Vec<Box<str>>,
+    /// What a table has columns of, if not the traced points.
+    pub columns: Arc<[TableColumn]>,
+}
+
+/// A column of a table, two of a vector.
+#[derive(Debug)]
+pub struct TableColumn {
+    /// The words over it; over each of two.
+    pub headings: Vec<String>,
+    /// Its values.
+    pub formula: Formula,
+    /// What they are divided by.
+    pub scale: f64,
 }
 
 /// What a recording becomes.
@@ -38,6 +55,8 @@ pub enum Format {
     Frames,
     /// One animated picture.
     Movie,
+    /// One animated picture in pixels.
+    Gif,
     /// A table of the traced points.
     Table,
 }
@@ -47,6 +66,7 @@ impl Format {
     pub const fn kind(self) -> FileKind {
         match self {
             Self::Frames | Self::Movie => FileKind::Picture,
+            Self::Gif => FileKind::Gif,
             Self::Table => FileKind::PathTable,
         }
     }
@@ -88,14 +108,34 @@ const ROWS_AT_ONCE: usize = 1024;
 
 impl Recorder {
     /// A recording that has taken nothing yet.
-    pub const fn new(path: PathBuf, span: Span, every: u64, format: Format, tape: Tape) -> Self {
-        Self { path, span, every, format, tape, shots: Vec::new(), names: Vec::new() }
+    pub fn new(
+        path: PathBuf,
+        span: Span,
+        every: u64,
+        format: Format,
+        look: Options,
+        tape: Tape,
+    ) -> Self {
+        let columns = Arc::new([]);
+        Self {
+            path,
+            span,
+            every,
+            format,
+            look,
+            tape,
+            shots: Vec::new(),
+            names: Vec::new(),
+            columns,
+        }
     }
 
     /// Another in memory that takes the same and has taken nothing yet.
     pub fn emptied(&self) -> Self {
         let tape = Tape::new(Box::new(Vec::new()));
-        Self::new(self.path.clone(), self.span, self.every, self.format, tape)
+        let (look, columns) = (self.look.clone(), self.columns.clone());
+        let emptied = Self::new(self.path.clone(), self.span, self.every, self.format, look, tape);
+        Self { columns, ..emptied }
     }
 
     /// Its reel as it is.
@@ -121,17 +161,32 @@ impl Recorder {
         self.tape.cut(reel.n_taped);
     }
 
+    /// Whether a frame is due.
+    pub fn is_due(&self, frame: u64) -> bool {
+        frame.is_multiple_of(self.every)
+    }
+
+    /// Takes a row of a table with columns of its own; what has no value now is no number.
+    ///
+    /// # Errors
+    /// Where the tape takes no more.
+    pub fn take_row(&mut self, time: f64, row: &[f64]) -> io::Result<()> {
+        let at = self.tape.put(row)?;
+        self.shots.push(Shot { time, at, n_points: row.len() as u32, scene: None });
+        Ok(())
+    }
+
     /// Takes the frame that was just solved, if it is due.
     ///
     /// # Errors
     /// Where the tape takes no more.
     pub fn take(&mut self, world: &World) -> io::Result<()> {
         let clock = world.clock();
-        if !clock.frame.is_multiple_of(self.every) {
+        if !self.is_due(clock.frame) || !self.columns.is_empty() {
             return Ok(());
         }
         let (numbers, n_points, scene) = match self.format {
-            Format::Frames | Format::Movie => {
+            Format::Frames | Format::Movie | Format::Gif => {
                 // A scene shares with the one before it what did not change.
                 let last = self.shots.last().and_then(|shot| shot.scene.as_ref());
                 let scene = last.map_or_else(|| Scene::new(world), |last| last.next(world));
@@ -142,6 +197,7 @@ impl Recorder {
             Format::Table => {
                 let traces = world.traces();
                 let mut numbers = Vec::with_capacity(3 * traces.len());
+                let traces: Vec<_> = traces.iter().filter(|trace| !trace.is_ended).collect();
                 for (k, trace) in traces.iter().enumerate() {
                     let at = world.points().at(trace.point);
                     let name = self.column(world.points().name(trace.point), k);
@@ -164,6 +220,11 @@ impl Recorder {
             self.names.push(name.into());
             self.names.len() - 1
         })
+    }
+
+    /// What each of its files is.
+    pub fn kind(&self) -> FileKind {
+        if self.columns.is_empty() { self.format.kind() } else { kind_of(&self.columns) }
     }
 
     /// How many frames it has taken.
@@ -224,9 +285,56 @@ impl Recorder {
         Ok(Some(movie.finish()))
     }
 
+    /// Writes all of its scenes as a GIF; gives whether it came to its end, which it does not where
+    /// `is_stopped` says so on the way.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn or written, or the tape cannot be read.
+    pub fn write_gif(
+        &self,
+        out: &mut dyn Write,
+        options: &Options,
+        is_stopped: impl Fn() -> bool,
+    ) -> io::Result<bool> {
+        let view = self.view()?;
+        let n = self.shots.len();
+        let span = match &self.shots[..] {
+            [first, .., last] => last.time - first.time,
+            _ => 0.0,
+        };
+        let duration = shown_for(span);
+        // Frames that are too short to be shown are left out evenly.
+        let stride = ((n as f64 * SHORTEST_FRAME / duration).ceil() as usize).max(1);
+        let seconds = duration / n.div_ceil(stride).max(1) as f64;
+        let mut motion = Motion::new(out, options.is_transparent);
+        for frame in (0..n).step_by(stride) {
+            if is_stopped() {
+                return Ok(false);
+            }
+            motion.add(&svg_with_view(&self.scene(frame)?, &view, options), seconds)?;
+        }
+        Ok(true)
+    }
+
     /// Whether no row of a table says where a point is.
     pub fn has_times_only(&self) -> bool {
-        !self.shots.is_empty() && self.shots.iter().all(|shot| shot.n_points == 0)
+        self.columns.is_empty()
+            && !self.shots.is_empty()
+            && self.shots.iter().all(|shot| shot.n_points == 0)
+    }
+
+    fn write_columns(&self, out: &mut dyn Write, is_stopped: impl Fn() -> bool) -> io::Result<()> {
+        writeln!(out, "{}", heading(&self.columns))?;
+        let cell = |n: f64| if n.is_nan() { String::new() } else { format_number(n) };
+        for (k, shot) in self.shots.iter().enumerate() {
+            if k % ROWS_AT_ONCE == 0 && is_stopped() {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
+            let row = self.tape.get(shot.at, shot.n_points as usize)?;
+            let cells: Vec<String> = row.into_iter().map(cell).collect();
+            writeln!(out, "{}", cells.join(","))?;
+        }
+        Ok(())
     }
 
     /// The numbers of a row: of each point the number of its name, x and y.
@@ -244,6 +352,9 @@ impl Recorder {
         out: &mut dyn Write,
         is_stopped: impl Fn() -> bool,
     ) -> io::Result<()> {
+        if !self.columns.is_empty() {
+            return self.write_columns(out, is_stopped);
+        }
         // What was taken back may have left names.
         let mut columns: Vec<usize> = Vec::new();
         for shot in self.shots.iter().filter(|shot| shot.n_points > 0) {
@@ -288,4 +399,24 @@ impl Recorder {
         }
         Ok(())
     }
+}
+
+/// A cell of a table that is text: in quotes where it would be taken for several.
+fn quoted(words: &str) -> String {
+    if words.contains([',', '"']) {
+        format!("\"{}\"", words.replace('"', "\"\""))
+    } else {
+        words.to_owned()
+    }
+}
+
+/// The words over some columns.
+fn heading(columns: &[TableColumn]) -> String {
+    let words = columns.iter().flat_map(|column| &column.headings);
+    words.map(|words| quoted(words)).collect::<Vec<_>>().join(",")
+}
+
+/// What a table with these columns is.
+pub fn kind_of(columns: &[TableColumn]) -> FileKind {
+    FileKind::of_columns(&heading(columns))
 }

@@ -7,11 +7,14 @@ pub fn n_cores() -> usize {
     rayon::current_num_threads()
 }
 
+/// More cores than this are nothing that a mechanism could use.
+const MOST_CORES: usize = 1024;
+
 /// Works with so many cores from now on, at least one; what comes out is the same to the bit.
 /// Only the first call counts, and only before there was work to share.
 pub fn limit_cores(n: usize) {
     // Fails only where it was said before: a process has one crew.
-    let crew = rayon::ThreadPoolBuilder::new().num_threads(n.max(1));
+    let crew = rayon::ThreadPoolBuilder::new().num_threads(n.clamp(1, MOST_CORES));
     let _ = crew.build_global();
 }
 

@@ -24,7 +24,7 @@ const EDGES: [&str; 14] = [
 ];
 
 /// What is asked, and what has an end of its own.
-const OTHERS: [&str; 41] = [
+const OTHERS: [&str; 46] = [
     "check",
     "effects",
     "list",
@@ -54,6 +54,11 @@ const OTHERS: [&str; 41] = [
     "record stop",
     "record \"d.svg\"",
     "list measures",
+    "trace B as \"b\"",
+    "untrace \"b\"",
+    "record \"e.csv\" of time, d1.max, B - C, velocity(B).x in rev every 2",
+    "plot d1, d2 against time log",
+    "fit r in 2..4 to minimise B.x over 2",
     "d1",
     "result a = d1.max, \"b c\" = C in deg",
     "print d1.mean, d2.count, d2.at_min",

@@ -119,6 +119,8 @@ pub fn statement() -> impl Strategy<Value = String> {
         1 => Just("define tail(P, l) { point X = P; length P F = l }".to_owned()),
         1 => (point(), 1..4_u32).prop_map(|(p, n)| format!("trace {p} every {n}")),
         1 => point().prop_map(|p| format!("untrace {p}")),
+        1 => (point(), 1..3_u32).prop_map(|(p, k)| format!("trace {p} as \"path {k}\"")),
+        1 => (1..3_u32).prop_map(|k| format!("untrace \"path {k}\"")),
         2 => (1..3_u32, point(), point()).prop_map(|(k, p, q)| format!("measure d{k} = distance({p}, {q}) + s / 9")),
         1 => point().prop_map(|p| format!("measure d1 = norm(velocity({p})) in deg")),
         1 => Just("measure d2 = crank.angle + coupler.residual in rev".to_owned()),

@@ -295,6 +295,9 @@ fn check_says_what_the_program_says() {
     assert_eq!(status, Some(0));
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     let expected = serde_json::json!({
+        "type": "check",
+        "version": 1,
+        "sound": true,
         "degrees_of_freedom": 1,
         "redundant": [{ "constraint": "second", "depends_on": ["first"] }],
         "conflicting": [],

@@ -222,6 +222,28 @@ fn looking() -> BoxedStrategy<Looking> {
     .boxed()
 }
 
+fn fit_range() -> BoxedStrategy<FitRange> {
+    (name(), range()).prop_map(|(name, range)| FitRange { name, range }).boxed()
+}
+
+fn goal() -> BoxedStrategy<Goal> {
+    prop_oneof![
+        expr().prop_map(Goal::Minimise),
+        expr().prop_map(Goal::Maximise),
+        text().prop_map(Goal::Path),
+    ]
+    .boxed()
+}
+
+fn column() -> BoxedStrategy<Column> {
+    let unit = prop_oneof![Just(Unit::None), select(Unit::ALL.to_vec())];
+    (expr(), unit).prop_map(|(value, unit)| Column { value, unit }).boxed()
+}
+
+fn curves() -> BoxedStrategy<Curves> {
+    (vec(expr(), 1..3), expr()).prop_map(|(up, against)| Curves { up, against }).boxed()
+}
+
 fn measuring() -> BoxedStrategy<Measuring> {
     let unit = || prop_oneof![Just(Unit::None), select(Unit::ALL.to_vec())];
     let label = prop_oneof![name().prop_map(Label::Name), text().prop_map(Label::Text)];
@@ -234,34 +256,74 @@ fn measuring() -> BoxedStrategy<Measuring> {
             unit
         }),
         vec(item, 1..4).prop_map(Measuring::Result),
+        (vec(fit_range(), 1..3), goal(), of(expr()))
+            .prop_map(|(ranges, goal, over)| Measuring::Fit { ranges, goal, over }),
     ]
     .boxed()
 }
 
 fn pictures() -> BoxedStrategy<Drawing> {
     prop_oneof![
-        (names(), of(expr())).prop_map(|(names, every)| Drawing::Trace { names, every }),
+        (names(), of(text()), of(expr())).prop_map(|(names, label, every)| Drawing::Trace {
+            names,
+            label,
+            every
+        }),
         selection().prop_map(Drawing::Untrace),
+        text().prop_map(Drawing::UntraceLabel),
         Just(Drawing::Expose(Expose::Now)),
         expr().prop_map(|frames| Drawing::Expose(Expose::Every(frames))),
         Just(Drawing::Expose(Expose::Off)),
-        text().prop_map(Drawing::Svg),
-        (text(), of(expr())).prop_map(|(path, every)| Drawing::Record { path, every }),
+        (text(), look()).prop_map(|(path, parts)| Drawing::Svg { path, parts }),
+        (text(), vec(column(), 0..3), of(expr()), look()).prop_map(
+            |(path, columns, every, parts)| { Drawing::Record { path, columns, every, parts } }
+        ),
+        (text(), export()).prop_map(|(path, parts)| Drawing::Export { path, parts }),
         Just(Drawing::RecordStop),
         (text(), vec(expr(), 1..4)).prop_map(|(series, values)| Drawing::Sample { series, values }),
-        (of(text()), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
-            |(path, is_log, title, x, y)| {
+        (of(text()), of(curves()), any::<bool>(), of(text()), of(text()), of(text())).prop_map(
+            |(path, curves, is_log, title, x, y)| {
                 let parts = [
                     is_log.then_some(PlotPart::Log),
                     title.map(PlotPart::Title),
                     x.map(PlotPart::X),
                     y.map(PlotPart::Y),
                 ];
-                Drawing::Plot { path, parts: parts.into_iter().flatten().collect() }
+                Drawing::Plot { path, curves, parts: parts.into_iter().flatten().collect() }
             }
         ),
     ]
     .boxed()
+}
+
+fn look() -> BoxedStrategy<Vec<PicturePart>> {
+    (of(expr()), any::<[bool; 3]>(), of(text()))
+        .prop_map(|(width, [is_dark, is_transparent, is_nameless], title)| {
+            let parts = [
+                width.map(PicturePart::Width),
+                is_dark.then_some(PicturePart::Dark),
+                is_transparent.then_some(PicturePart::Transparent),
+                is_nameless.then_some(PicturePart::WithoutNames),
+                title.map(PicturePart::Title),
+            ];
+            parts.into_iter().flatten().collect()
+        })
+        .boxed()
+}
+
+fn export() -> BoxedStrategy<Vec<ExportPart>> {
+    (of(ident()), of(expr()), of(expr()), of(expr()), of(expr()))
+        .prop_map(|(unit, scale, width, hole, kerf)| {
+            let parts = [
+                unit.map(ExportPart::In),
+                scale.map(ExportPart::Scale),
+                width.map(ExportPart::Width),
+                hole.map(ExportPart::Hole),
+                kerf.map(ExportPart::Kerf),
+            ];
+            parts.into_iter().flatten().collect()
+        })
+        .boxed()
 }
 
 fn building() -> BoxedStrategy<Building> {

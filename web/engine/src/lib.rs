@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 
 use linkwork::Session;
 use linkwork::live::{Live, Message};
-use linkwork::session::Answer;
+use linkwork::session::{Answer, EXAMPLES, Example};
 
 /// Who is on the other side.
 const PAGE: u32 = 0;
@@ -19,7 +19,8 @@ const PAGE: u32 = 0;
 struct Engine {
     session: Session,
     live: Live,
-    /// Files that statements wrote, to be read again.
+    /// Files that may be read: those that statements wrote, and the examples, of which some include
+    /// others.
     files: Answer,
     outbox: VecDeque<Message>,
 }
@@ -36,7 +37,9 @@ impl Engine {
     fn new() -> Self {
         let mut live = Live::new("wasm");
         live.join(PAGE);
-        Self { session: Session::new(), live, files: Answer::default(), outbox: VecDeque::new() }
+        let example = |it: &Example| (format!("{}.link", it.name).into(), it.text.into());
+        let files = Answer { files: EXAMPLES.iter().map(example).collect(), ..Answer::default() };
+        Self { session: Session::new(), live, files, outbox: VecDeque::new() }
     }
 
     fn work(&mut self, now: f64) {

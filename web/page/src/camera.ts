@@ -12,8 +12,9 @@ export interface Box {
   readonly hi: Vec;
 }
 
-/** Free space around what is fitted, px: marks have a size on the canvas and none in the plane. */
-const MARGIN = 64;
+/** Free space around what is fitted, px: for marks, which have a size on the canvas and none in the
+ * plane, and for the tools that lie over the canvas. */
+const MARGIN = { left: 84, right: 64, top: 52, bottom: 92 };
 
 /** A map from the plane, y up, to the canvas, y down, the same scale on both axes. */
 export class Camera {
@@ -74,11 +75,17 @@ export class Camera {
   fitted(box: Box): Camera {
     const half = { x: (box.hi.x - box.lo.x) / 2, y: (box.hi.y - box.lo.y) / 2 };
     const centre = { x: box.lo.x + half.x, y: box.lo.y + half.y };
-    const room = (side: number): number => Math.max(side / 2 - Math.min(MARGIN, side / 5), 10);
-    const fitted = Math.min(room(this.width) / half.x, room(this.height) / half.y);
+    // On a small canvas there is less to spare.
+    const share = Math.min(1, this.width / 640, this.height / 480);
+    const [left, right, top, bottom] = [MARGIN.left, MARGIN.right, MARGIN.top, MARGIN.bottom].map(
+      (margin) => margin * share,
+    ) as [number, number, number, number];
+    const room = { x: (this.width - left - right) / 2, y: (this.height - top - bottom) / 2 };
+    const fitted = Math.min(room.x / half.x, room.y / half.y);
     // All in one place: any scale will do.
     const scale = Number.isFinite(fitted) && fitted > 0 ? fitted : 100;
-    return this.showing(scale, centre);
+    const aside = { x: (left - right) / 2 / scale, y: (bottom - top) / 2 / scale };
+    return this.showing(scale, { x: centre.x - aside.x, y: centre.y - aside.y });
   }
 
   equals(other: Camera): boolean {

@@ -85,9 +85,7 @@ function tabs(app: HTMLElement): void {
   const choose = (chosen: string): void => {
     app.dataset.tab = chosen;
     for (const [k, button] of buttons.entries()) {
-      const isChosen = TABS[k]?.[0] === chosen;
-      button.setAttribute("aria-selected", String(isChosen));
-      button.setAttribute("aria-pressed", String(isChosen));
+      button.setAttribute("aria-selected", String(TABS[k]?.[0] === chosen));
     }
   };
   put(byId("tabs"), ...buttons);
@@ -103,7 +101,12 @@ function words(page: Page): void {
     const [first] = off;
     verdict.replaceChildren();
     if (first === undefined) return;
-    const others = off.length > 1 ? ` and ${off.length - 1} more` : "";
+    const others =
+      off.length > 2
+        ? `; so are ${off.length - 1} others`
+        : off.length > 1
+          ? "; so is another"
+          : "";
     const text = `${first.name} is off by ${first.shown}${others}`;
     put(verdict, h("span", { class: "chip bad", role: "status" }, text));
   });

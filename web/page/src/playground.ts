@@ -12,7 +12,7 @@ import { packed, wanted } from "./share.ts";
 const FIRST = "four-bar";
 
 export class Playground {
-  private readonly examples: Promise<readonly Example[]>;
+  private examples: readonly Example[] = [];
   private readonly started: Promise<void>;
   private greet: () => void = () => {};
   private gallery: HTMLDialogElement | undefined;
@@ -26,7 +26,6 @@ export class Playground {
     private readonly packedPictures: string,
   ) {
     this.started = this.greeting();
-    this.examples = this.started.then(() => page.client.examples());
     page.client.greeted.listen(() => this.greet());
     window.addEventListener("hashchange", () => void this.readAddress());
   }
@@ -52,6 +51,7 @@ export class Playground {
   async begin(text: TextPanel): Promise<void> {
     this.text = text;
     await this.started;
+    this.examples = await this.page.client.examples();
     if (!(await this.readAddress())) await this.open(FIRST);
   }
 
@@ -77,7 +77,7 @@ export class Playground {
   }
 
   private async open(name: string): Promise<void> {
-    const example = (await this.examples).find((example) => example.name === name);
+    const example = this.examples.find((example) => example.name === name);
     if (example !== undefined) await this.start(example.text, name);
     else this.page.hinted.tell({ text: `No example is called ${name}.`, isWrong: true });
   }
@@ -88,7 +88,7 @@ export class Playground {
     this.page.client.restart();
     await greeted;
     if (this.text === undefined) return;
-    this.text.box.value = script;
+    this.text.hold(script);
     await this.text.run(true);
     document.title = name === undefined ? "linkwork" : `${name} – linkwork`;
   }
@@ -101,7 +101,7 @@ export class Playground {
   private async makeGallery(): Promise<HTMLDialogElement> {
     const text = new TextDecoder().decode(await unpacked(this.packedPictures));
     const pictures = JSON.parse(text) as Record<string, string>;
-    return galleryDialog(await this.examples, pictures, (example) => {
+    return galleryDialog(this.examples, pictures, (example) => {
       this.own = `#example=${encodeURIComponent(example.name)}`;
       location.hash = this.own;
       void this.start(example.text, example.name);

@@ -2,7 +2,7 @@
 
 import { along, type Camera, distance, distanceToSegment, type Vec } from "./camera.ts";
 import type { Client } from "./engine/client.ts";
-import type { ConstraintState, PointState, State } from "./engine/protocol.ts";
+import type { ConstraintState, Drawing, Figure, PointState, State } from "./engine/protocol.ts";
 
 /** A straight part between two points. */
 export interface Bar {
@@ -26,8 +26,34 @@ const BAR_ENDS: ReadonlyMap<string, readonly [number, number]> = new Map([
   ["rigid", [0, 1]],
 ]);
 
-export function pointOf(state: State | undefined, handle: number): PointState | undefined {
-  return state?.points.find((point) => point.handle === handle);
+const drawnPoints = new WeakMap<Drawing, readonly PointState[]>();
+
+/** The points of a drawing: their joints have their names, and what is frozen has ground under it. */
+function pointsOf(drawing: Drawing): readonly PointState[] {
+  let points = drawnPoints.get(drawing);
+  if (points === undefined) {
+    const isGround = ({ layer }: Figure): boolean => layer === "ground";
+    const frozen = new Set(drawing.figures.filter(isGround).map(({ point }) => point));
+    points = drawing.figures
+      .filter(({ layer }) => layer === "joint")
+      .map(({ point = -1, note = "" }) => ({
+        handle: point,
+        name: note,
+        frozen: frozen.has(point),
+      }));
+    drawnPoints.set(drawing, points);
+  }
+  return points;
+}
+
+/** All points; where there are too many to be listed, those that are drawn. */
+export function points({ state, drawing }: Client): readonly PointState[] {
+  if (state === undefined) return [];
+  return state.unlisted > 0 && drawing !== undefined ? pointsOf(drawing) : state.points;
+}
+
+export function pointOf(client: Client, handle: number): PointState | undefined {
+  return points(client).find((point) => point.handle === handle);
 }
 
 /** Where a point is now; none if it is not. */
@@ -39,7 +65,7 @@ export function placeOf(client: Client, handle: number): Vec | undefined {
 
 /** Where all points are. */
 export function* places(client: Client): Generator<readonly [PointState, Vec]> {
-  for (const point of client.state?.points ?? []) {
+  for (const point of points(client)) {
     const place = placeOf(client, point.handle);
     if (place !== undefined) yield [point, place];
   }

@@ -1,11 +1,12 @@
 //! The canvas: what of the mechanism it shows, and when it is painted.
 
 import { type Box, boxOf, Camera, type Vec } from "./camera.ts";
+import { GhostLayer } from "./draw/ghost_layer.ts";
 import { drawOverlay, type Overlay } from "./draw/overlay.ts";
 import { Painter } from "./draw/painter.ts";
 import { TraceLayer } from "./draw/trace_layer.ts";
 import type { Client } from "./engine/client.ts";
-import type { Frame } from "./engine/protocol.ts";
+import type { Frame, Shape } from "./engine/protocol.ts";
 import { Signal } from "./signal.ts";
 import type { Theme } from "./theme.ts";
 
@@ -26,7 +27,11 @@ export class Stage {
 
   private readonly context: CanvasRenderingContext2D;
   private painter: Painter | undefined;
+  /** What the next frame is painted with: the one before is seen until that comes. */
+  private next: Painter | undefined;
+  private readonly reshaped: (readonly [number, readonly Shape[]])[] = [];
   private readonly traces = new TraceLayer();
+  private readonly ghosts = new GhostLayer();
   private isStale = true;
   private isFitted = false;
   private lastPainted = 0;
@@ -46,16 +51,18 @@ export class Stage {
       this.isFitted = false;
     });
     client.drawn.listen(() => this.takeDrawing());
-    client.reshaped.listen((figures) => {
-      for (const [idx, shapes] of figures) this.painter?.reshape(idx, shapes);
-    });
+    client.reshaped.listen((figures) => this.reshaped.push(...figures));
+    client.standing.listen(() => this.clear());
     client.moved.listen(() => this.takeFrame());
     client.traced.listen(() => this.refresh());
     client.missed.listen((off) => {
       this.red = new Set(off.map(({ constraint }) => constraint));
       this.refresh();
     });
-    theme.changed.listen(() => this.takeDrawing());
+    theme.changed.listen(() => {
+      this.takeDrawing();
+      this.takeFrame();
+    });
     const show = (now: number): void => {
       this.beat.tell(now);
       if (this.isStale) this.paint();
@@ -74,6 +81,13 @@ export class Stage {
   fit(): void {
     const box = this.box();
     this.look(box === undefined ? this.camera : this.camera.fitted(box));
+  }
+
+  /** What is drawn by hand stays where the hand is: the view is not fitted to it. */
+  stay(): void {
+    if (this.isFitted) return;
+    this.isFitted = true;
+    this.client.view(this.camera.scale);
   }
 
   /** Shows the plane through another camera. */
@@ -99,6 +113,13 @@ export class Stage {
       const [x0, y0, x1, y1] = drawing.bounds;
       corners.push({ x: x0, y: y0 }, { x: x1, y: y1 });
     }
+    for (const { figures } of drawing?.ghosts ?? []) {
+      const [scale, [cx, cy]] = [drawing?.scale ?? 1, drawing?.centre ?? [0, 0]];
+      for (const { place } of figures) {
+        if (place !== undefined)
+          corners.push({ x: cx + place[0] / scale, y: cy - place[1] / scale });
+      }
+    }
     for (const { at } of traces.list) {
       for (let k = 0; k + 1 < at.length; k += 2) corners.push({ x: at[k] ?? 0, y: at[k + 1] ?? 0 });
     }
@@ -117,19 +138,32 @@ export class Stage {
   }
 
   private takeDrawing(): void {
-    const { drawing, classes } = this.client;
+    const { drawing } = this.client;
     if (drawing === undefined) return;
-    this.painter = new Painter(drawing, classes, this.theme.alarm, this.theme.isDark);
-    if (!this.isFitted && drawing.bounds !== null) {
-      this.isFitted = true;
-      this.fit();
-      this.client.view(this.camera.scale);
-    }
+    this.next = new Painter(drawing, this.client.classes, this.theme.alarm, this.theme.isDark);
+    this.reshaped.length = 0;
+  }
+
+  /** The first picture that has something on it is shown whole. */
+  private fitOnce(): void {
+    if (this.isFitted || !this.client.drawing?.bounds) return;
+    this.isFitted = true;
+    this.fit();
+    this.client.view(this.camera.scale);
+  }
+
+  private clear(): void {
+    this.painter = undefined;
+    this.next = undefined;
     this.refresh();
   }
 
   /** A frame while something is held is painted at once; others when the display asks. */
   private takeFrame(): void {
+    this.painter = this.next ?? this.painter;
+    this.next = undefined;
+    for (const [idx, shapes] of this.reshaped.splice(0)) this.painter?.reshape(idx, shapes);
+    this.fitOnce();
     this.refresh();
     const isHeld = this.overlay.held !== undefined;
     if (isHeld && performance.now() - this.lastPainted > YOUNG) this.paint();
@@ -137,7 +171,7 @@ export class Stage {
 
   private paint(): void {
     const { context, camera, client, painter } = this;
-    const { frame, classes } = client;
+    const { frame } = client;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.globalAlpha = 1;
     context.fillStyle = this.theme.paper;
@@ -147,14 +181,10 @@ export class Stage {
     if (painter !== undefined && frame !== undefined) {
       context.lineCap = "round";
       context.lineJoin = "round";
-      if (painter.hasGhosts) painter.paintGhosts(context, camera);
+      this.lay(this.ghosts.draw(painter, camera));
       painter.paintBelow(context, camera, frame, this.red);
-      const paths = this.traces.draw(client.traces, camera, classes, this.theme.isDark);
-      if (paths !== undefined) {
-        context.setTransform(1, 0, 0, 1, 0, 0);
-        context.globalAlpha = 1;
-        context.drawImage(paths, 0, 0);
-      }
+      const mark = client.drawing?.mark ?? 1;
+      this.lay(this.traces.draw(client.traces, camera, mark, this.theme.isDark));
       painter.paintAbove(context, camera, frame, this.red);
       context.setTransform(camera.density, 0, 0, camera.density, 0, 0);
       context.globalAlpha = 1;
@@ -163,6 +193,14 @@ export class Stage {
       this.painted.tell(frame);
       this.report(frame);
     }
+  }
+
+  /** Puts a layer on the canvas. */
+  private lay(layer: HTMLCanvasElement | undefined): void {
+    if (layer === undefined) return;
+    this.context.setTransform(1, 0, 0, 1, 0, 0);
+    this.context.globalAlpha = 1;
+    this.context.drawImage(layer, 0, 0);
   }
 
   /** Tells who measures the page what the canvas shows now. */

@@ -234,17 +234,15 @@ test("a page that does not look holds nobody up", async (t) => {
 
 test("a lost connection says so and comes back", async (t) => {
   const cwd = s.folder(t);
-  const session = await s.session(t, ARM, { cwd });
+  const args = ["--port", String(await s.freePort())];
+  const session = await s.session(t, ARM, { cwd, args });
   const page = await s.openAt(t, session.address);
-  const { port } = new URL(session.address);
   await session.stop();
-  await page
-    .locator("#connection")
-    .getByText(/trying to reach it again/)
-    .waitFor({ timeout: s.PATIENCE });
-  const again = await s.session(t, FOUR_BAR, { cwd, args: ["--port", port] });
-  assert.equal(again.address, session.address, "the address is the same");
-  await s.until(async () => (await page.textContent("#connection")) === "", "the page is back");
+  const notice = page.locator("#connection");
+  await notice.getByText(/trying to reach it again/).waitFor({ timeout: s.PATIENCE });
+  const again = await s.session(t, FOUR_BAR, { cwd, args });
+  assert.equal(again.address, session.address, "who says the port gets the same address again");
+  await s.until(async () => (await notice.textContent()) === "", "the page is back");
   await s.until(
     async () => (await page.evaluate(() => window.painted.at.length)) === 8,
     "it shows the new scene",
@@ -278,8 +276,8 @@ test("pictures, animations and numbers can be taken home", async (t) => {
   const animation = (await s.download(page, "animation")).bytes.toString();
   assert.match(animation, /<animate/);
   const csv = (await s.download(page, "csv")).bytes.toString().trim().split("\n");
-  // A heading, the pose now, and so many frames.
-  assert.equal(csv.length, 32);
+  // A heading and a row a frame.
+  assert.equal(csv.length, 31);
   assert.equal(await s.tell(page, "time"), "0", "none of it lets time pass");
 });
 
@@ -335,6 +333,34 @@ test("all can be done by keys", async (t) => {
   await s.written(page, /^point K/);
 });
 
+test("fingers drag a point, two of them move the view", async (t) => {
+  const session = await s.session(t, ARM);
+  const page = await s.openAt(t, session.address);
+  const touch = await page.context().newCDPSession(page);
+  const fingers = (type, ...touchPoints) =>
+    touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+  const { x, y } = await s.screen(page, { x: 3, y: 1 });
+  // Beside the point, as fingers are.
+  await fingers("touchStart", { x: x + 14, y: y + 10, id: 1 });
+  for (let k = 1; k <= 6; k++) await fingers("touchMove", { x: x - 10 * k, y: y - 5 * k, id: 1 });
+  await fingers("touchEnd");
+  await s.written(page, /^pull C/);
+  const before = await page.evaluate(() => window.painted.scale);
+  await fingers("touchStart", { x: 300, y: 420, id: 1 }, { x: 400, y: 420, id: 2 });
+  for (let k = 1; k <= 5; k++) {
+    await fingers(
+      "touchMove",
+      { x: 300 - 10 * k, y: 420, id: 1 },
+      { x: 400 + 10 * k, y: 420, id: 2 },
+    );
+  }
+  await fingers("touchEnd");
+  await s.until(async () => {
+    const ratio = (await page.evaluate(() => window.painted.scale)) / before;
+    return Math.abs(ratio - 2) < 0.05;
+  }, "fingers twice as far apart make it twice as large");
+});
+
 test("the box completes", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);
@@ -357,6 +383,28 @@ test("time passes, stands and goes back", async (t) => {
   await page.getByRole("button", { name: "Reset" }).click();
   await s.written(page, /^reset$/);
   await s.until(async () => (await page.evaluate(() => window.painted.time)) === 0, "time is 0");
+});
+
+test("what is dragged while time passes says how many frames went by", async (t) => {
+  const session = await s.session(t, FOUR_BAR);
+  const page = await s.openAt(t, session.address);
+  await page.click("#play");
+  await s.until(async () => (await page.evaluate(() => window.painted.time)) > 0, "time passes");
+  await s.drag(page, { x: 4, y: 0 }, { x: 4.2, y: 0.2 }, { x: 4.4, y: 0 });
+  const line = await s.written(page, /^drag D/);
+  await page.click("#play");
+  assert.match(line, / over [1-9]\d*$/);
+  await s.until(
+    async () => (await page.getAttribute("#play", "aria-label")) === "Play",
+    "time stands",
+  );
+  // What the journal says, frame for frame, comes to the same bits.
+  const lines = (await s.journal(page)).join("\n");
+  const saved = (await s.download(page, "script")).bytes;
+  writeFileSync(join(session.cwd, "again.link"), `${FOUR_BAR}${lines}\nsave "saved.link"\n`);
+  const { status, err } = s.run(["run", "again.link", "--out", session.cwd], session.cwd);
+  assert.equal(status, 0, err);
+  assert.equal(saved.toString(), readFileSync(join(session.cwd, "saved.link"), "utf8"));
 });
 
 test("a browser without sockets gets a sentence", async (t) => {

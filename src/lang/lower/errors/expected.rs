@@ -36,7 +36,9 @@ impl Expected {
                 | Rule::parens
                 | Rule::minus
                 | Rule::expr
+                | Rule::column
                 | Rule::range => expected.add("a value"),
+                Rule::against => expected.add("measures"),
                 Rule::name | Rule::ident if is_value => {}
                 // Behind a name: it could be a function's.
                 Rule::open_paren if is_value || rules.len() > 1 => {}
@@ -48,7 +50,7 @@ impl Expected {
                 Rule::example => expected.add("the name of an example"),
                 Rule::string => {
                     let is_path = match verb {
-                        "print" | "sample" | "result" => false,
+                        "print" | "sample" | "result" | "trace" | "untrace" => false,
                         "plot" => is_first,
                         _ => true,
                     };
@@ -62,6 +64,7 @@ impl Expected {
                 | Rule::binding
                 | Rule::point_decl
                 | Rule::result_item
+                | Rule::fit_range
                 | Rule::drag_target => expected.add(noun(verb, is_first)),
                 Rule::selection => {
                     expected.add(noun(verb, is_first));
@@ -126,7 +129,7 @@ fn noun(verb: &str, is_first: bool) -> &'static str {
     match verb {
         "freeze" | "thaw" | "move" | "drag" | "pull" | "point" | "trace" | "untrace" => "a point",
         "change" if !is_first => "a point",
-        "let" => "a parameter",
+        "let" | "fit" => "a parameter",
         "set" if is_first => "a setting",
         "off" | "on" => "a constraint",
         "help" => "a command",
@@ -159,7 +162,7 @@ pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::every | Rule::kw_every => "every",
         Rule::within | Rule::kw_within => "within",
-        Rule::in_time | Rule::kw_in => "in",
+        Rule::in_time | Rule::in_unit | Rule::kw_in => "in",
         Rule::kw_frozen => "frozen",
         Rule::kw_to => "to",
         Rule::kw_through => "through",
@@ -169,11 +172,23 @@ pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_for => "for",
         Rule::kw_stop => "stop",
         Rule::kw_off => "off",
-        Rule::kw_as => "as",
+        Rule::kw_as | Rule::as_text => "as",
+        Rule::kw_of | Rule::columns => "of",
+        Rule::kw_against => "against",
+        Rule::minimise | Rule::kw_minimise => "minimise",
+        Rule::maximise | Rule::kw_maximise => "maximise",
         Rule::kw_all => "all",
         Rule::kw_add => "add",
         Rule::kw_log => "log",
         Rule::title | Rule::kw_title => "title",
+        Rule::width | Rule::kw_width => "width",
+        Rule::kw_dark => "dark",
+        Rule::kw_transparent => "transparent",
+        Rule::without_names | Rule::kw_without => "without names",
+        Rule::kw_names => "names",
+        Rule::scale | Rule::kw_scale => "scale",
+        Rule::hole | Rule::kw_hole => "hole",
+        Rule::kerf | Rule::kw_kerf => "kerf",
         Rule::x_label | Rule::kw_x => "x",
         Rule::y_label | Rule::kw_y => "y",
         Rule::kw_radius => "radius",

@@ -144,6 +144,9 @@ impl Reader<'_> {
                 "`plot` draws what `sample` collects: `sample \"error\" = distance(A, B)`"
                     .to_owned()
             }
+            _ if verb == "fit" && expected.has(PATH) && !word.is_empty() => {
+                format!("say which: `to minimise {0}`, or `to maximise {0}`", brief(word))
+            }
             _ if expected.has(PATH) && !word.is_empty() => {
                 format!(
                     "a path stands in quotes: `{verb} \"{}\"`",

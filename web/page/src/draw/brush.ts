@@ -17,6 +17,7 @@ export interface Brush {
   readonly opacity: number;
   /** Of letters, px. */
   readonly size: number;
+  readonly rule: CanvasFillRule;
 }
 
 /** Colours of what does not hold: its edges, and what lies within. */
@@ -31,10 +32,11 @@ export function brush(look: Look, mark: number, isDark: boolean): Brush {
   return {
     fill: colour(look.fill),
     stroke: colour(look.stroke),
-    width: look.size === undefined ? Math.max(look.width * mark, LEAST_WIDTH) : look.width,
+    width: Math.max(look.width * mark, LEAST_WIDTH),
     dash: look.dash.map((length) => length * mark),
     opacity: look.opacity,
     size: Math.max((look.size ?? 0) * mark, LEAST_LETTER),
+    rule: look.evenodd === true ? "evenodd" : "nonzero",
   };
 }
 

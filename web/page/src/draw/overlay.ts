@@ -33,8 +33,13 @@ export function drawOverlay(
   theme: Theme,
 ): void {
   context.setLineDash([]);
-  for (const off of client.off.slice(0, MOST_LABELS))
-    drawError(context, camera, client, off, theme);
+  const labels: Vec[] = [];
+  for (const off of client.off.slice(0, MOST_LABELS)) {
+    const at = labelPlace(camera, client, off, labels);
+    if (at === undefined) continue;
+    labels.push(at);
+    drawError(context, off, at, theme);
+  }
   const ring = (handle: number | undefined, radius: number, width: number): void => {
     const place = handle === undefined ? undefined : placeOf(client, handle);
     if (place === undefined) return;
@@ -107,19 +112,32 @@ function drawPlanned(
   }
 }
 
-/** By how much a constraint is off, beside it. */
-function drawError(context: Context, camera: Camera, client: Client, off: Off, theme: Theme): void {
+/** Where the error of a constraint is written: beside it, and not on another. */
+function labelPlace(
+  camera: Camera,
+  client: Client,
+  off: Off,
+  others: readonly Vec[],
+): Vec | undefined {
   const constraint = client.state?.constraints.find(({ handle }) => handle === off.constraint);
   const places = (constraint?.points ?? []).map((handle) => placeOf(client, handle));
   const known = places.filter((place) => place !== undefined).slice(0, 2);
-  if (known.length === 0) return;
+  if (known.length === 0) return undefined;
   const sum = known.reduce((a, b) => ({ x: a.x + b.x, y: a.y + b.y }), { x: 0, y: 0 });
-  const at = camera.toCanvas({ x: sum.x / known.length, y: sum.y / known.length });
+  const middle = camera.toCanvas({ x: sum.x / known.length, y: sum.y / known.length });
+  let at = { x: middle.x + 10, y: middle.y - 26 };
+  const isTaken = (): boolean =>
+    others.some((other) => Math.abs(other.y - at.y) < 22 && Math.abs(other.x - at.x) < 190);
+  while (isTaken()) at = { x: at.x, y: at.y + 22 };
+  return at;
+}
+
+/** By how much a constraint is off. */
+function drawError(context: Context, off: Off, { x, y }: Vec, theme: Theme): void {
   const text = `${off.name}: off by ${off.shown}`;
   context.font = '12px system-ui, "DejaVu Sans", sans-serif';
   context.textAlign = "left";
   const width = context.measureText(text).width + 12;
-  const [x, y] = [at.x + 10, at.y - 26];
   context.fillStyle = theme.alarm.edge;
   context.beginPath();
   context.roundRect(x, y, width, 20, 5);

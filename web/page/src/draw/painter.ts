@@ -33,13 +33,12 @@ type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 /** A drawing list made ready for a canvas. */
 export class Painter {
   private readonly items: Item[];
-  private readonly ghosts: { readonly opacity: number; readonly figures: readonly Figure[] }[];
+  readonly ghosts: readonly { readonly opacity: number; readonly figures: readonly Figure[] }[];
   private readonly brushes = new Map<string, Brush>();
   /** Bars of one length share their path. */
   private readonly paths = new Map<string, Path2D>();
   /** The first figure that lies above the paths. */
   private readonly nBelow: number;
-  readonly hasGhosts: boolean;
 
   constructor(
     private readonly drawing: Drawing,
@@ -50,8 +49,7 @@ export class Painter {
     this.items = drawing.figures.map((figure) => this.item(figure));
     const above = drawing.figures.findIndex((figure) => !BELOW_PATHS.has(figure.layer));
     this.nBelow = above < 0 ? drawing.figures.length : above;
-    this.ghosts = [...(drawing.ghosts ?? [])];
-    this.hasGhosts = this.ghosts.length > 0;
+    this.ghosts = drawing.ghosts ?? [];
   }
 
   /** Takes in that a figure has changed its form. */
@@ -71,16 +69,13 @@ export class Painter {
     this.paint(context, camera, frame, red, this.nBelow, this.items.length);
   }
 
-  /** Paints the poses of the past. */
-  paintGhosts(context: Context, camera: Camera): void {
-    for (const { opacity, figures } of this.ghosts) {
-      for (const figure of figures) {
-        const [x, y, turn] = figure.place ?? [0, 0, 0];
-        this.place(context, camera, x, y, turn);
-        const off = figure.off === true ? OFF : 1;
-        for (const stroke of this.strokes(figure.shapes))
-          this.stroke(context, stroke, opacity * off);
-      }
+  /** Paints a pose of the past. */
+  paintGhost(context: Context, camera: Camera, figures: readonly Figure[]): void {
+    for (const figure of figures) {
+      const [x, y, turn] = figure.place ?? [0, 0, 0];
+      this.place(context, camera, x, y, turn);
+      const opacity = figure.off === true ? OFF : 1;
+      for (const stroke of this.strokes(figure.shapes)) this.stroke(context, stroke, opacity);
     }
   }
 
@@ -129,7 +124,7 @@ export class Painter {
     }
     if (brush.fill !== undefined) {
       context.fillStyle = brush.fill;
-      context.fill(path, "evenodd");
+      context.fill(path, brush.rule);
     }
     if (brush.stroke !== undefined) {
       context.strokeStyle = brush.stroke;

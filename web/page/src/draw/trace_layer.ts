@@ -1,31 +1,42 @@
 //! A layer for paths: what is there stays, and what is new is added.
 
 import type { Camera } from "../camera.ts";
-import type { Look } from "../engine/protocol.ts";
 import type { Trace, Traces } from "../engine/traces.ts";
-import { brush } from "./brush.ts";
+import { onPaper } from "./dark.ts";
+
+/** A path longer than this crosses itself many times over and is drawn finer, as in pictures, px. */
+const LONG = 6000;
 
 /** Samples closer than this on the canvas are one, px. */
 const CLOSE = 0.4;
 
+interface Look {
+  readonly stroke: string;
+  readonly width: number;
+  readonly opacity: number;
+}
+
 /** How far a path has been drawn. */
 interface Progress {
-  version: number;
-  nSamples: number;
+  readonly version: number;
+  readonly nSamples: number;
+  readonly isFine: boolean;
 }
+
+const isFine = (trace: Trace, camera: Camera): boolean => trace.length * camera.scale > LONG;
 
 export class TraceLayer {
   private readonly canvas = document.createElement("canvas");
   private readonly context = this.canvas.getContext("2d");
   private camera: Camera | undefined;
-  private theme = "";
+  private look = "";
   private progress: Progress[] = [];
 
   /** The layer with all paths on it; none if there are none. */
   draw(
     traces: Traces,
     camera: Camera,
-    classes: Readonly<Record<string, Look>>,
+    mark: number,
     isDark: boolean,
   ): HTMLCanvasElement | undefined {
     const { context } = this;
@@ -33,37 +44,39 @@ export class TraceLayer {
       this.progress = [];
       return undefined;
     }
-    if (!this.isContinued(traces, camera, isDark)) this.begin(context, camera, isDark);
+    const look = `${mark} ${isDark}`;
+    if (!this.isContinued(traces, camera, look)) this.begin(context, camera, look);
     for (const [k, trace] of traces.list.entries()) {
-      const look = classes[trace.class];
-      const plain = look ?? { fill: null, stroke: "", width: 1.7, dash: [], opacity: 1 };
-      const colour = { ...plain, stroke: trace.colour };
-      const { stroke, width, opacity } = brush(colour, 1, isDark);
-      context.strokeStyle = stroke ?? "";
+      const { stroke, width, opacity } = lookOf(trace, camera, mark, isDark);
+      context.strokeStyle = stroke;
       context.lineWidth = width;
       context.globalAlpha = opacity;
       const nDrawn = this.progress[k]?.nSamples ?? 0;
       drawFrom(context, trace, Math.max(nDrawn - 1, 0), camera);
-      this.progress[k] = { version: trace.version, nSamples: trace.at.length / 2 };
+      this.progress[k] = {
+        version: trace.version,
+        nSamples: trace.at.length / 2,
+        isFine: isFine(trace, camera),
+      };
     }
     return this.canvas;
   }
 
-  private isContinued(traces: Traces, camera: Camera, isDark: boolean): boolean {
+  private isContinued(traces: Traces, camera: Camera, look: string): boolean {
     return (
       this.camera?.equals(camera) === true &&
-      this.theme === String(isDark) &&
+      this.look === look &&
       this.progress.length <= traces.list.length &&
-      this.progress.every(({ version, nSamples }, k) => {
+      this.progress.every((drawn, k) => {
         const trace = traces.list[k];
-        return trace?.version === version && nSamples <= trace.at.length / 2;
+        return trace?.version === drawn.version && isFine(trace, camera) === drawn.isFine;
       })
     );
   }
 
-  private begin(context: CanvasRenderingContext2D, camera: Camera, isDark: boolean): void {
+  private begin(context: CanvasRenderingContext2D, camera: Camera, look: string): void {
     this.camera = camera;
-    this.theme = String(isDark);
+    this.look = look;
     this.progress = [];
     this.canvas.width = Math.round(camera.width * camera.density);
     this.canvas.height = Math.round(camera.height * camera.density);
@@ -71,6 +84,12 @@ export class TraceLayer {
     context.lineJoin = "round";
     context.lineCap = "round";
   }
+}
+
+function lookOf(trace: Trace, camera: Camera, mark: number, isDark: boolean): Look {
+  const stroke = onPaper(trace.colour, isDark);
+  const [width, opacity] = isFine(trace, camera) ? [0.9, 0.85] : [1.7, 1];
+  return { stroke, width: Math.max(width * mark, 0.5), opacity };
 }
 
 /** Draws a path from a sample on; dotted where frames missed their tolerance. */

@@ -2,6 +2,7 @@
 
 import { Signal } from "../signal.ts";
 import type { Carrier, Standing } from "./carrier.ts";
+import { pieces } from "./pieces.ts";
 import {
   type Answer,
   type Completion,
@@ -23,21 +24,29 @@ import {
 } from "./protocol.ts";
 import { Traces } from "./traces.ts";
 
-/** A message may have 4 KiB; so many letters fit whatever they are. */
-const PIECE = 600;
-
-/** A text in pieces that fit into messages. */
-function pieces(text: string): string[] {
-  const parts: string[] = [];
-  for (let from = 0; from < text.length || parts.length === 0; ) {
-    let to = Math.min(from + PIECE, text.length);
-    // A letter of two units stays whole.
-    if (to < text.length && (text.charCodeAt(to - 1) & 0xfc00) === 0xd800) to -= 1;
-    parts.push(text.slice(from, to));
-    from = Math.max(to, from + 1);
-  }
-  return parts;
-}
+/** What is known of an engine that has said nothing. */
+const NOTHING: State = {
+  time: 0,
+  frame: 0,
+  dt: 0,
+  playing: false,
+  speed: 1,
+  held: null,
+  points: [],
+  constraints: [],
+  motors: [],
+  parameters: [],
+  settings: [],
+  freedoms: null,
+  sound: null,
+  verdict: null,
+  check: null,
+  receipt: null,
+  unlisted: 0,
+  undo: null,
+  redo: null,
+  traced: [],
+};
 
 export class Client {
   readonly standing = new Signal<Standing>();
@@ -55,7 +64,6 @@ export class Client {
   state: State | undefined;
   off: readonly Off[] = [];
   classes: Readonly<Record<string, Look>> = {};
-  paper = "#ffffff";
   drawing: Drawing | undefined;
   frame: Frame | undefined;
   readonly traces = new Traces();
@@ -188,11 +196,14 @@ export class Client {
     this.hearPicture(message);
     if (message.hello !== undefined) {
       this.hello = message.hello;
+      this.state = undefined;
+      this.off = [];
+      this.traces.list.length = 0;
       this.greeted.tell(message.hello);
     }
     if (message.state !== undefined) {
-      this.state = message.state;
-      this.stated.tell(message.state);
+      this.state = { ...(this.state ?? NOTHING), ...message.state };
+      this.stated.tell(this.state);
     }
     if (message.off !== undefined) {
       this.off = message.off;
@@ -206,22 +217,26 @@ export class Client {
   }
 
   private hearPicture(message: Message): void {
-    if (message.classes !== undefined) {
-      this.classes = message.classes;
-      this.paper = message.paper ?? this.paper;
-    }
+    if (message.classes !== undefined) this.classes = message.classes;
     if (message.drawing !== undefined) {
       this.drawing = message.drawing;
-      this.frame = undefined;
       this.drawn.tell(message.drawing);
     }
-    if (message.shapes !== undefined && message.shapes.topology === this.drawing?.topology) {
-      this.reshaped.tell(message.shapes.figures);
-    }
+    if (message.shapes !== undefined) this.reshape(message.shapes);
     if (message.traces !== undefined) {
       this.traces.update(message.traces, message.n);
       this.traced.tell();
     }
+  }
+
+  private reshape({ topology, figures }: NonNullable<Message["shapes"]>): void {
+    const { drawing } = this;
+    if (topology !== drawing?.topology) return;
+    for (const [idx, shapes] of figures) {
+      const figure = drawing.figures[idx];
+      if (figure !== undefined) drawing.figures[idx] = { ...figure, shapes };
+    }
+    this.reshaped.tell(figures);
   }
 
   private see(buffer: ArrayBuffer): void {

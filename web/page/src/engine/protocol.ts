@@ -1,4 +1,4 @@
-//! What the page and an engine tell one another; `docs/view.md` describes it for other clients.
+//! What the page and an engine tell one another; `docs/protocol.md` describes it for other clients.
 
 /** The protocol that this page speaks. */
 export const PROTOCOL = 1;
@@ -61,7 +61,6 @@ export interface PointState {
   readonly handle: number;
   readonly name: string;
   readonly frozen: boolean;
-  readonly used: readonly string[];
 }
 
 export interface ConstraintState {
@@ -93,6 +92,10 @@ export interface ParameterState {
 export interface SettingState {
   readonly name: string;
   readonly text: string;
+  /** The words that it takes, if it takes words. */
+  readonly words: readonly string[];
+  /** What it is, in a sentence. */
+  readonly what: string;
 }
 
 /** All that changes with statements and not with frames. */
@@ -109,9 +112,13 @@ export interface State {
   readonly parameters: readonly ParameterState[];
   readonly settings: readonly SettingState[];
   readonly freedoms: number | null;
+  /** Whether all is as it should be, where that is known. */
+  readonly sound: boolean | null;
   readonly verdict: string | null;
   readonly check: readonly string[] | null;
   readonly receipt: readonly string[] | null;
+  /** How many points and constraints are not listed because there are too many. */
+  readonly unlisted: number;
   /** The statements that `undo` and `redo` would take. */
   readonly undo: string | null;
   readonly redo: string | null;
@@ -127,14 +134,16 @@ export interface Off {
   readonly shown: string;
 }
 
-/** How a class of shapes is drawn; px at full size. */
+/** How a class of shapes is drawn; px where marks have their full size. */
 export interface Look {
   readonly fill: string | null;
   readonly stroke: string | null;
   readonly width: number;
   readonly dash: readonly number[];
   readonly opacity: number;
-  readonly size?: number;
+  /** Of letters. */
+  readonly size?: number | null;
+  readonly evenodd?: boolean;
 }
 
 /** One outline in one style. */
@@ -163,11 +172,13 @@ export interface Drawing {
   /** px a unit of the plane. */
   readonly scale: number;
   readonly centre: readonly [number, number];
+  /** How large marks and strokes are, at most 1. */
   readonly mark: number;
   readonly bounds: readonly [number, number, number, number] | null;
   /** How many handles there are. */
   readonly points: number;
-  readonly figures: readonly Figure[];
+  /** From the bottom up; one that changes its form is replaced. */
+  readonly figures: Figure[];
   readonly ghosts?: readonly { readonly opacity: number; readonly figures: readonly Figure[] }[];
 }
 
@@ -201,9 +212,9 @@ export interface Hello {
 export interface Message {
   readonly answer?: number;
   readonly hello?: Hello;
+  /** How the classes of the next drawing are drawn. */
   readonly classes?: Readonly<Record<string, Look>>;
-  readonly paper?: string;
-  readonly state?: State;
+  readonly state?: Partial<State>;
   readonly off?: readonly Off[];
   readonly drawing?: Drawing;
   readonly shapes?: {

@@ -6,13 +6,14 @@ import type { TraceUpdate } from "./protocol.ts";
 export interface Trace {
   point: number;
   name: string;
-  class: string;
   colour: string;
   /** x and y in turn. */
-  at: number[];
+  readonly at: number[];
+  /** In units of the plane. */
+  length: number;
   /** Samples whose frame missed its tolerance. */
-  missed: Set<number>;
-  /** Grows when samples are taken away or the look changes, not when they are added. */
+  readonly missed: Set<number>;
+  /** Grows when samples are taken away or the colour changes, not when samples are added. */
   version: number;
 }
 
@@ -25,22 +26,34 @@ export class Traces {
   }
 
   private updateOne(update: TraceUpdate): void {
-    const old = this.list[update.trace];
-    const isNew = old === undefined || old.class !== update.class || old.colour !== update.colour;
-    const isCut = old !== undefined && 2 * update.from < old.at.length;
-    const at = old?.at ?? [];
-    at.length = Math.min(at.length, 2 * update.from);
-    for (const number of update.at) at.push(number);
-    const missed = new Set([...(old?.missed ?? [])].filter((k) => k < update.from));
-    for (const k of update.missed) missed.add(k);
-    this.list[update.trace] = {
-      point: update.point,
-      name: update.name,
-      class: update.class,
-      colour: update.colour,
-      at,
-      missed,
-      version: (old?.version ?? 0) + (isNew || isCut ? 1 : 0),
-    };
+    const { point, name, colour, from } = update;
+    const fresh: Trace = { point, name, colour, at: [], length: 0, missed: new Set(), version: 0 };
+    const trace = this.list[update.trace] ?? fresh;
+    this.list[update.trace] = trace;
+    if (2 * from < trace.at.length) cut(trace, from);
+    if (trace.colour !== colour) trace.version += 1;
+    Object.assign(trace, { point, name, colour });
+    const { at } = trace;
+    for (let k = 0; k + 1 < update.at.length; k += 2) {
+      const [x, y] = [update.at[k] ?? 0, update.at[k + 1] ?? 0];
+      if (at.length > 0) trace.length += Math.hypot(x - (at.at(-2) ?? x), y - (at.at(-1) ?? y));
+      at.push(x, y);
+    }
+    for (const k of update.missed) trace.missed.add(k);
+  }
+}
+
+/** Leaves so many samples of a path. */
+function cut(trace: Trace, nSamples: number): void {
+  const { at, missed } = trace;
+  at.length = 2 * nSamples;
+  trace.version += 1;
+  for (const k of missed) if (k >= nSamples) missed.delete(k);
+  trace.length = 0;
+  for (let k = 2; k + 1 < at.length; k += 2) {
+    trace.length += Math.hypot(
+      (at[k] ?? 0) - (at[k - 2] ?? 0),
+      (at[k + 1] ?? 0) - (at[k - 1] ?? 0),
+    );
   }
 }

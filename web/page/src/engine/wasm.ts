@@ -7,6 +7,8 @@ interface Exports {
   room(length: number): number;
   tell(length: number): void;
   tick(now: number): void;
+  /** Whether time passes or a held point waits to be led. */
+  busy(): number;
   /** 0 nothing, 1 a text, 2 a frame. */
   next(): number;
   out(): number;
@@ -37,6 +39,11 @@ export class Wasm {
     });
   }
 
+  get isBusy(): boolean {
+    return this.exports.busy() !== 0;
+  }
+
+  /** Lets held points be led, and time pass if it does. */
   tick(now: number): void {
     this.guarded(() => this.exports.tick(now));
   }

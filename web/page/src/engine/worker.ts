@@ -23,16 +23,38 @@ async function begin(module: WebAssembly.Module): Promise<void> {
   for (const message of early.splice(0)) engine.tell(message);
 }
 
+/** Is there a tick to come that no message asked for? */
+let isTickDue = false;
+
+function tick(): void {
+  isTickDue = false;
+  engine?.tick(performance.now());
+}
+
+/** A point that is held is led when the messages that wait have been taken. */
+function tickSoon(): void {
+  if (isTickDue || engine?.isBusy !== true) return;
+  isTickDue = true;
+  setTimeout(() => guarded(tick), 0);
+}
+
+function guarded(work: () => void): void {
+  try {
+    work();
+  } catch (error) {
+    fails(error);
+  }
+}
+
 scope.onmessage = ({ data }) => {
   if (data instanceof WebAssembly.Module) {
     begin(data).catch(fails);
     return;
   }
-  try {
-    if (data === null) engine?.tick(performance.now());
+  guarded(() => {
+    if (data === null) tick();
     else if (engine === undefined) early.push(data);
     else engine.tell(data);
-  } catch (error) {
-    fails(error);
-  }
+    if (data !== null) tickSoon();
+  });
 };

@@ -32,7 +32,7 @@ class Writer {
   /** The name of an end, which is made if it is not there. */
   name(end: End, isFrozen = false): string {
     const { state } = this.page.client;
-    const there = end.handle === undefined ? undefined : pointOf(state, end.handle);
+    const there = end.handle === undefined ? undefined : pointOf(this.page.client, end.handle);
     if (there !== undefined) return there.name;
     const name = freeName(state, this.names);
     this.names.push(name);
@@ -42,6 +42,7 @@ class Writer {
   }
 
   write(): void {
+    this.page.stage.stay();
     void this.page.do(this.statements.join("; "));
   }
 }
@@ -164,8 +165,7 @@ class DrawOnBar implements Tool {
       page.hinted.tell({ text: "There is no bar here: draw a rod first.", isWrong: true });
       return;
     }
-    const { state } = page.client;
-    const [a, b] = [pointOf(state, on.bar.a), pointOf(state, on.bar.b)];
+    const [a, b] = [pointOf(page.client, on.bar.a), pointOf(page.client, on.bar.b)];
     if (a === undefined || b === undefined) return;
     const writer = new Writer(page);
     const point = writer.name(from ?? { place: this.placeOn(page, on) });

@@ -81,12 +81,14 @@ export class Keys {
       return;
     }
     if (event.altKey || isTyping(target, event.key)) return;
+    // With or without Shift or a lock of capitals.
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const isOnCanvas = target === this.page.stage.canvas;
-    const arrow = isOnCanvas ? ARROWS.get(event.key) : undefined;
+    const arrow = isOnCanvas ? ARROWS.get(key) : undefined;
     const act =
       (arrow && (() => this.nudge(arrow, event.shiftKey))) ??
-      (isOnCanvas ? this.onCanvas.get(event.key) : undefined) ??
-      this.anywhere.get(event.key);
+      (isOnCanvas ? this.onCanvas.get(key) : undefined) ??
+      this.anywhere.get(key);
     if (act === undefined) return;
     event.preventDefault();
     act();
@@ -130,7 +132,7 @@ export class Keys {
   }
 
   private withChosen(act: (handle: number) => void): void {
-    if (this.chosen !== undefined && pointOf(this.page.client.state, this.chosen)) act(this.chosen);
+    if (this.chosen !== undefined && pointOf(this.page.client, this.chosen)) act(this.chosen);
     else this.reach.speak("No point is chosen: . and , go from one to the next.");
   }
 
@@ -167,12 +169,12 @@ export class Keys {
 
   private trace(handle: number): void {
     const { state } = this.page.client;
-    const name = pointOf(state, handle)?.name ?? "";
+    const name = pointOf(this.page.client, handle)?.name ?? "";
     void this.page.do(`${state?.traced.includes(handle) === true ? "untrace" : "trace"} ${name}`);
   }
 
   private remove(handle: number): void {
-    const name = pointOf(this.page.client.state, handle)?.name ?? "";
+    const name = pointOf(this.page.client, handle)?.name ?? "";
     this.chosen = undefined;
     this.page.stage.overlay = {};
     void this.page.do(`delete ${name} cascade`);

@@ -128,6 +128,6 @@ export class Select implements Tool {
 
 /** Freezes what is loose, thaws what is frozen. */
 export function turnSupport(page: Page, handle: number): void {
-  const point = pointOf(page.client.state, handle);
+  const point = pointOf(page.client, handle);
   if (point !== undefined) void page.do(`${point.frozen ? "thaw" : "freeze"} ${point.name}`);
 }

@@ -56,7 +56,7 @@ export class Menu {
   private refresh(): void {
     if (this.handle === undefined) return;
     const { state } = this.page.client;
-    const point = pointOf(state, this.handle);
+    const point = pointOf(this.page.client, this.handle);
     if (point === undefined) {
       this.close();
       return;

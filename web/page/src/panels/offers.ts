@@ -3,11 +3,12 @@
 import { h, replace } from "../dom.ts";
 import type { Completion } from "../engine/protocol.ts";
 import type { Page } from "../page.ts";
+import type { Colours } from "./colours.ts";
 
 /** More candidates than this are not read. */
 const MOST = 40;
 
-/** Asked is so much of the text before the cursor: a question has to fit into a message. */
+/** A question has to fit into a message on a socket: of a longer text it is the last lines. */
 const CONTEXT = 600;
 
 export class Offers {
@@ -23,6 +24,7 @@ export class Offers {
   constructor(
     private readonly page: Page,
     private readonly box: HTMLTextAreaElement,
+    private readonly colours: Colours,
   ) {
     document.body.append(this.list);
     box.setAttribute("aria-controls", "offers");
@@ -60,22 +62,37 @@ export class Offers {
     return true;
   }
 
+  /** The box was given another text: its colours are asked for. */
+  changed(): void {
+    this.colours.follow();
+    this.close();
+    void this.ask(false, true);
+  }
+
   /** Asks what may stand here; unasked for, only within a word. */
-  private async ask(isWanted: boolean): Promise<void> {
+  private async ask(isWanted: boolean, isSilent = false): Promise<void> {
     this.nAsked += 1;
     const number = this.nAsked;
     const at = this.box.selectionStart;
-    const lineStart = this.box.value.lastIndexOf("\n", at - 1) + 1;
-    const base = Math.max(at - CONTEXT, Math.min(lineStart, at));
-    const text = this.box.value.slice(base, at);
-    const completion = await this.page.client.complete(text, text.length);
+    const { value } = this.box;
+    const isWhole = this.page.client.canRestart || value.length <= CONTEXT;
+    const lineStart = value.lastIndexOf("\n", at - 1) + 1;
+    const base = isWhole ? 0 : Math.max(at - CONTEXT, lineStart);
+    const text = isWhole ? value : value.slice(base, at);
+    const completion = await this.page.client.complete(text, at - base);
     // Somebody who types is ahead of the answer.
     if (number !== this.nAsked || completion.candidates === undefined) return;
     this.isIncomplete = completion.incomplete;
     this.base = base;
-    const word = text.slice(completion.start);
+    if (isWhole)
+      this.colours.paint(
+        value,
+        completion.pieces,
+        at === value.length ? (completion.hint ?? "") : "",
+      );
+    const word = text.slice(completion.start, at - base);
     const others = completion.candidates.filter((candidate) => candidate.text.trim() !== word);
-    if (others.length === 0 || (!isWanted && word === "")) this.close();
+    if (isSilent || others.length === 0 || (!isWanted && word === "")) this.close();
     else this.show({ ...completion, candidates: others.slice(0, MOST) });
   }
 
@@ -118,5 +135,6 @@ export class Offers {
     const from = this.base + this.completion.start;
     this.box.setRangeText(candidate.text, from, this.box.selectionStart, "end");
     this.close();
+    this.box.dispatchEvent(new Event("input"));
   }
 }

@@ -7,17 +7,6 @@ import { filesPanel } from "./files.ts";
 import { type Row, Rows } from "./rows.ts";
 import { ValueRow } from "./value_row.ts";
 
-const METHODS = [
-  "auto",
-  "newton",
-  "relaxation",
-  "successive",
-  "descent",
-  "conjugate",
-  "nesterov",
-  "anderson",
-];
-
 /** Settings that are in sight; the others are below them. */
 const FIRST: ReadonlySet<string> = new Set(["rho", "iterations", "method", "tolerance", "dt"]);
 
@@ -63,12 +52,12 @@ function motorRow(page: Page, { name }: MotorState): Row<MotorState> {
   };
 }
 
-function settingRow(page: Page, { name }: SettingState): Row<SettingState> {
-  const label = h("label", { for: `set-${name}` }, name);
+function settingRow(page: Page, { name, words, what }: SettingState): Row<SettingState> {
+  const label = h("label", { for: `set-${name}`, title: what }, name);
   const attributes = { id: `set-${name}`, class: "mono", spellcheck: "false", autocomplete: "off" };
   const field =
-    name === "method"
-      ? h("select", attributes, ...METHODS.map((method) => h("option", { value: method }, method)))
+    words.length > 0
+      ? h("select", attributes, ...words.map((word) => h("option", { value: word }, word)))
       : h("input", attributes);
   field.addEventListener("change", () => {
     page.do(`set ${name} ${field.value.trim()}`).then((answer) => {
@@ -79,7 +68,7 @@ function settingRow(page: Page, { name }: SettingState): Row<SettingState> {
   return {
     element,
     update: ({ text }) => {
-      if (document.activeElement !== field || name === "method") field.value = text;
+      if (document.activeElement !== field || words.length > 0) field.value = text;
     },
   };
 }
@@ -146,12 +135,15 @@ function pose(page: Page): HTMLElement {
         frame === undefined ? "…" : Number(frame.residual.toPrecision(3)).toString(),
       ),
       fact("points, constraints", `${state.points.length}, ${state.constraints.length}`),
+      state.unlisted > 0 && fact("not listed", String(state.unlisted)),
     );
   };
   const showLines = (state: State): void => {
     showFacts();
     const texts = [state.verdict, ...(state.check ?? []), ...(state.receipt ?? [])];
-    const seen = new Set(texts.filter((text) => text !== null && text !== ""));
+    const isNews = (text: string | null): boolean =>
+      text !== null && text !== "" && !text.startsWith("degrees of freedom: ");
+    const seen = new Set(texts.filter(isNews));
     replace(lines, ...[...seen].map((text) => h("p", { class: "quiet" }, text)));
   };
   let shown = 0;

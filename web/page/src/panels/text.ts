@@ -3,6 +3,7 @@
 import { h, replace } from "../dom.ts";
 import type { Answer, Entry, Said } from "../engine/protocol.ts";
 import type { Page } from "../page.ts";
+import { Colours } from "./colours.ts";
 import { Offers } from "./offers.ts";
 
 /** The journal shows so many of its last lines. */
@@ -40,8 +41,9 @@ export class TextPanel {
       autocapitalize: "off",
       onkeydown: (event) => this.key(event as KeyboardEvent),
     });
-    this.offers = new Offers(page, this.box);
-    const writing = h("div", { class: "writing" }, this.box);
+    const colours = new Colours(this.box);
+    this.offers = new Offers(page, this.box, colours);
+    const writing = h("div", { class: "writing" }, colours.element, this.box);
     const left = h(
       "div",
       {},
@@ -66,6 +68,12 @@ export class TextPanel {
     this.box.focus();
   }
 
+  /** Puts a text into the box. */
+  hold(text: string): void {
+    this.box.value = text;
+    this.offers.changed();
+  }
+
   /** Carries out what the box holds; what went well leaves it, unless it is to stay. */
   async run(stays = false): Promise<Answer | undefined> {
     this.offers.close();
@@ -76,7 +84,7 @@ export class TextPanel {
     this.typed.push(text);
     this.back = 0;
     const wrong = answer.said?.find(({ kind, from }) => kind === "error" && from !== undefined);
-    if (answer.ok && !stays) this.box.value = "";
+    if (answer.ok && !stays) this.hold("");
     if (wrong?.from !== undefined) {
       this.box.focus();
       this.box.setSelectionRange(wrong.from, wrong.to ?? wrong.from);
@@ -135,7 +143,7 @@ export class TextPanel {
   private line({ text, by }: Entry): HTMLElement {
     const from = by === "page" ? "" : `${by}: `;
     const again = (): void => {
-      this.box.value = text;
+      this.hold(text);
       this.focus();
     };
     return h(
@@ -156,6 +164,7 @@ export class TextPanel {
     const gap = before === "" || /\s$/.test(before) ? "" : " ";
     this.box.focus();
     this.box.setRangeText(`${gap}${text}`, selectionStart, selectionEnd, "end");
+    this.offers.changed();
   }
 
   private key(event: KeyboardEvent): void {
@@ -187,6 +196,6 @@ export class TextPanel {
     const back = Math.min(Math.max(this.back + by, 0), this.typed.length);
     if (back === this.back) return;
     this.back = back;
-    this.box.value = back === 0 ? "" : (this.typed.at(-back) ?? "");
+    this.hold(back === 0 ? "" : (this.typed.at(-back) ?? ""));
   }
 }

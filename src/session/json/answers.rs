@@ -2,16 +2,24 @@
 
 use serde_json::{Value, json};
 
-use super::commands::diagnose::Check;
-use super::commands::effects::{EffectRow, Effects};
+use super::VERSION;
+use crate::session::commands::diagnose::Check;
+use crate::session::commands::effects::{EffectRow, Effects};
 
 impl Check {
     /// The findings as one JSON object, indented.
     pub fn to_json(&self) -> String {
+        indented(&alone(self.object()))
+    }
+
+    /// The findings as an object.
+    pub(super) fn object(&self) -> Value {
         let redundant = self.redundant.iter();
         let conflicting = self.conflicting.iter();
         let unsatisfiable = self.unsatisfiable.iter();
         let mut object = json!({
+            "type": "check",
+            "sound": self.is_sound(),
             "degrees_of_freedom": self.degrees_of_freedom,
             "redundant": redundant
                 .map(|(name, depends_on)| json!({ "constraint": name, "depends_on": depends_on }))
@@ -28,13 +36,18 @@ impl Check {
             object["solved_from_here"] =
                 json!({ "status": after.status.word(), "residual": after.residual });
         }
-        indented(&object)
+        object
     }
 }
 
 impl Effects {
     /// The effects as one JSON object, indented.
     pub fn to_json(&self) -> String {
+        indented(&alone(self.object()))
+    }
+
+    /// The effects as an object.
+    pub(super) fn object(&self) -> Value {
         let row = |row: &EffectRow| {
             json!({
                 "name": row.name,
@@ -45,13 +58,20 @@ impl Effects {
             })
         };
         let (total, awake) = self.islands;
-        indented(&json!({
+        json!({
+            "type": "effects",
             "effects": self.rows.iter().map(row).collect::<Vec<_>>(),
             "islands": { "total": total, "awake": awake },
             "frames": self.n_frames,
             "seconds": self.seconds,
-        }))
+        })
     }
+}
+
+/// An object that no other comes before: it says itself of which schema it is.
+fn alone(mut object: Value) -> Value {
+    object["version"] = VERSION.into();
+    object
 }
 
 fn indented(value: &Value) -> String {

@@ -1,0 +1,164 @@
+"""Sessions of linkwork, a command language for planar mechanisms, over a pipe.
+
+    >>> from linkwork import Session
+    >>> with Session() as session:
+    ...     session.run("point A = (0, 0), B = (3, 4)").lines
+    ...     session.evaluate("distance(A, B)")
+    []
+    5.0
+
+The program does the work: it is in the wheel, and says what it does as JSON (docs/json.md).
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sysconfig
+from dataclasses import dataclass, field
+from pathlib import Path
+
+__all__ = ["Answer", "LinkworkError", "Session"]
+
+VERSION = 1
+
+
+class LinkworkError(Exception):
+    """A statement that could not be carried out."""
+
+    def __init__(self, error):
+        place = next((it for it in error.get("places", ()) if it.get("primary")), {})
+        self.code = error.get("code")
+        self.message = error["message"]
+        self.line, self.column = place.get("line"), place.get("column")
+        self.helps = error.get("helps", [])
+        self.error = error
+        says = f": {place['text']}" if place.get("text") else ""
+        where = f"line {self.line}, column {self.column}: " if place else ""
+        super().__init__("\n".join([f"{where}{self.message}{says}", *self.helps]))
+
+
+@dataclass
+class Answer:
+    """What some statements said."""
+
+    lines: list = field(default_factory=list)
+    values: list = field(default_factory=list)
+    results: dict = field(default_factory=dict)
+    notes: list = field(default_factory=list)
+    warnings: list = field(default_factory=list)
+    files: list = field(default_factory=list)
+    receipts: list = field(default_factory=list)
+    objects: list = field(default_factory=list)
+
+    def _take(self, it):
+        self.objects.append(it)
+        kind = it["type"]
+        if kind == "print":
+            self.lines.append(it["text"])
+            self.values.extend(it.get("values", ()))
+        elif kind == "result":
+            self.results[it["name"]] = it["value"]
+        elif kind in ("note", "warning"):
+            (self.notes if kind == "note" else self.warnings).append(it["message"])
+        elif kind == "file":
+            self.files.append(it["path"])
+        elif kind == "receipt":
+            self.receipts.append(it)
+
+
+def _program():
+    """The program of this installation, or that on the path; LINKWORK names another."""
+    beside = Path(sysconfig.get_path("scripts")) / "linkwork"
+    named = os.environ.get("LINKWORK")
+    found = named or (str(beside) if beside.exists() else shutil.which("linkwork"))
+    if not found:
+        raise FileNotFoundError("no program `linkwork`: it is in the wheel, or set LINKWORK")
+    return found
+
+
+class Session:
+    """A session of the program; `with Session() as session:` ends it in order."""
+
+    def __init__(self, out=".", set=None, arguments=()):
+        values = [f"--set={name}={value}" for name, value in (set or {}).items()]
+        self._process = subprocess.Popen(
+            [_program(), "--json", "--out", str(out), *values, *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            encoding="utf-8",
+        )
+        version = self._read()["version"]
+        if version != VERSION:
+            self.close()
+            raise RuntimeError(f"the program speaks version {version}, not {VERSION}")
+
+    def run(self, text):
+        """Carries out statements, up to the first mistake; gives what they said."""
+        return self._ask({"run": text})
+
+    def evaluate(self, expression):
+        """The value of an expression: a number, or a vector as [x, y]."""
+        return self.run(f"print {expression}").values[-1]
+
+    def ask(self, question):
+        """The object that `list`, `show`, `check` or `limits` answers, as a dict."""
+        kinds = ("list", "show", "check", "limits", "effects")
+        return next(it for it in self.run(question).objects if it["type"] in kinds)
+
+    def traces(self):
+        """The traced paths by their points: columns x and y, as arrays if there is NumPy."""
+        answer = self._ask({"get": "traces"})
+        traces = next(it for it in answer.objects if it["type"] == "traces")["traces"]
+        return {it["point"]: (_array(it["x"]), _array(it["y"])) for it in traces}
+
+    def svg(self):
+        """A picture of what is now."""
+        return next(it for it in self._ask({"get": "svg"}).objects if it["type"] == "svg")["svg"]
+
+    _repr_svg_ = svg
+
+    def script(self):
+        """The script that brings the session back."""
+        answer = self._ask({"get": "script"})
+        return next(it for it in answer.objects if it["type"] == "script")["script"]
+
+    def close(self):
+        """Ends the session: recordings are written."""
+        if self._process.poll() is None:
+            self._process.stdin.close()
+            self._process.stdout.read()
+            self._process.wait()
+        self._process.stdout.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def _ask(self, request):
+        self._process.stdin.write(json.dumps(request) + "\n")
+        self._process.stdin.flush()
+        answer, error = Answer(), None
+        while (it := self._read())["type"] != "done":
+            if it["type"] == "error" and error is None:
+                error = it
+            answer._take(it)
+        if error is not None:
+            raise LinkworkError(error)
+        return answer
+
+    def _read(self):
+        line = self._process.stdout.readline()
+        if not line:
+            raise EOFError(f"the program ended with status {self._process.wait()}")
+        return json.loads(line)
+
+
+def _array(column):
+    try:
+        from numpy import array
+    except ImportError:
+        return column
+    return array(column)

@@ -1,0 +1,116 @@
+"""The module over a session of the program that LINKWORK names."""
+
+import math
+import sys
+
+import pytest
+
+import linkwork
+from linkwork import LinkworkError, Session
+
+FOUR_BAR = """
+point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
+crank: motor A B radius 1 speed 1rev
+coupler: length B C = 3.5
+length C D = 3
+set dt 1/360
+"""
+
+
+@pytest.fixture
+def session(tmp_path):
+    with Session(out=tmp_path) as session:
+        yield session
+
+
+def test_statements_are_carried_out_and_answered(session):
+    answer = session.run(FOUR_BAR + "step 90\nprint B, distance(A, B)\nlist points")
+    assert answer.values[0] == pytest.approx([0, 1], abs=1e-12)
+    assert answer.values[1] == pytest.approx(1, abs=1e-12)
+    assert len(answer.lines) == 1
+    assert answer.receipts[0]["frames"] == 90 and answer.receipts[0]["status"] == "converged"
+    listing = answer.objects[-2]
+    assert [point["name"] for point in listing["points"]] == ["A", "D", "B", "C"]
+    assert answer.objects[-1]["type"] == "statement" and answer.objects[-1]["frame"] == 90
+
+
+def test_values_keep_their_bits(session):
+    assert session.evaluate("0.1 + 0.2") == 0.1 + 0.2
+    assert session.evaluate("(1, 2)") == [1, 2]
+
+
+def test_a_mistake_is_an_error_with_its_place(session):
+    with pytest.raises(LinkworkError) as caught:
+        session.run("let r = 2\nlenght A B\nlet r = 3")
+    assert (caught.value.line, caught.value.column, caught.value.code) == (2, 1, "E0101")
+    assert caught.value.helps == ["did you mean `length`?"]
+    # What stands before it counts, what stands behind it does not.
+    assert session.evaluate("r") == 2
+
+
+def test_a_text_that_is_not_complete_is_a_mistake(session):
+    with pytest.raises(LinkworkError, match="block|`}`"):
+        session.run("for i in 1..3 {")
+    assert session.evaluate("1") == 1
+
+
+def test_questions_are_answered_by_dicts(session):
+    session.run(FOUR_BAR)
+    assert session.ask("check")["degrees_of_freedom"] == 0
+    limits = session.ask("limits crank")
+    assert limits["reach"] == "full" and limits["angle"]
+    assert session.ask("show coupler")["constraints"][0]["points"] == ["B", "C"]
+
+
+def test_traces_are_arrays(session):
+    numpy = pytest.importorskip("numpy")
+    session.run(FOUR_BAR + "trace B; step 360")
+    x, y = session.traces()["B"]
+    assert isinstance(x, numpy.ndarray) and x.shape == (360,)
+    assert numpy.abs(numpy.hypot(x, y) - 1).max() < 1e-12
+
+
+def test_traces_are_lists_without_numpy(session, monkeypatch):
+    monkeypatch.setitem(sys.modules, "numpy", None)
+    session.run(FOUR_BAR + "trace B; step 2")
+    x, _ = session.traces()["B"]
+    assert isinstance(x, list) and x[0] == pytest.approx(math.cos(math.tau / 360))
+
+
+def test_files_lie_in_the_folder(session, tmp_path):
+    answer = session.run(FOUR_BAR + 'svg "now.svg"')
+    assert [tmp_path / "now.svg"] == [tmp_path / path.rsplit("/", 1)[-1] for path in answer.files]
+    assert (tmp_path / "now.svg").read_text().startswith("<svg")
+
+
+def test_a_notebook_shows_the_picture(session):
+    session.run(FOUR_BAR)
+    assert session._repr_svg_().startswith("<svg class=\"linkwork\"")
+
+
+def test_a_script_brings_the_session_back(session):
+    session.run(FOUR_BAR + "step 30")
+    with Session() as other:
+        other.run(session.script())
+        assert other.evaluate("C") == session.evaluate("C")
+
+
+def test_parameters_are_set_from_outside():
+    with Session(set={"r": 2.5}) as session:
+        assert session.run("let r = 1; print r").values == [2.5]
+
+
+def test_a_program_that_is_gone_is_told(session):
+    session._process.kill()
+    with pytest.raises((EOFError, BrokenPipeError)):
+        session.run("step")
+
+
+def test_recordings_are_written_at_the_end(tmp_path):
+    with Session(out=tmp_path) as session:
+        session.run(FOUR_BAR + 'trace C; record "c.csv"; step 3')
+    assert (tmp_path / "c.csv").read_text().count("\n") == 4
+
+
+def test_the_version_is_that_of_the_schema():
+    assert linkwork.VERSION == 1

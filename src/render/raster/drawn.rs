@@ -1,0 +1,175 @@
+//! Draws documents in pixels; the only file that knows `resvg` and `gif`.
+
+use std::io::{self, Write};
+use std::sync::{Arc, LazyLock};
+
+use gif::{AnyExtension, DisposalMethod, Encoder, Frame, Repeat};
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::fontdb::Database;
+use resvg::usvg::{Options, Tree};
+
+/// How much the colours of a frame are thinned out while they are chosen, from 1 to 30: 10 is what
+/// the crate advises.
+const COLOUR_SPEED: i32 = 10;
+
+/// The fonts of pictures.
+static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
+    let mut fonts = Database::new();
+    for font in [
+        &include_bytes!("../../../fonts/Arimo-Regular.ttf")[..],
+        include_bytes!("../../../fonts/Arimo-Italic.ttf"),
+    ] {
+        fonts.load_font_data(font.to_vec());
+    }
+    fonts.set_sans_serif_family("Arimo");
+    Arc::new(fonts)
+});
+
+fn drawn(svg: &str, scale: f32) -> io::Result<Pixmap> {
+    let options = Options { fontdb: FONTS.clone(), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).map_err(io::Error::other)?;
+    let side = |px: f32| ((px * scale).round() as u32).max(1);
+    let (width, height) = (side(tree.size().width()), side(tree.size().height()));
+    let mut pixels =
+        Pixmap::new(width, height).ok_or_else(|| io::Error::other("too large for a picture"))?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    Ok(pixels)
+}
+
+/// A document as PNG, `scale` pixels for each of its px; it carries `notes` along.
+///
+/// # Errors
+/// Where the document cannot be drawn.
+pub fn png(svg: &str, scale: f32, notes: &[(String, String)]) -> io::Result<Vec<u8>> {
+    let bytes = drawn(svg, scale)?.encode_png().map_err(io::Error::other)?;
+    // Behind the signature and the header, which are always as long.
+    let (head, rest) = bytes.split_at(33);
+    let mut all = head.to_vec();
+    push_text(&mut all, "Software", "linkwork");
+    for (key, value) in notes {
+        push_text(&mut all, key, value);
+    }
+    all.extend_from_slice(rest);
+    Ok(all)
+}
+
+/// Adds a chunk of text as the PNG specification has it (third edition, 11.3.3.2).
+fn push_text(bytes: &mut Vec<u8>, key: &str, value: &str) {
+    let is_plain = |text: &str| text.bytes().all(|byte| (0x20..0x7f).contains(&byte));
+    if !is_plain(key) || !is_plain(value) || key.len() > 79 {
+        return;
+    }
+    let content = [b"tEXt", key.as_bytes(), b"\0", value.as_bytes()].concat();
+    bytes.extend((content.len() as u32 - 4).to_be_bytes());
+    bytes.extend(&content);
+    bytes.extend(crc_32(&content).to_be_bytes());
+}
+
+/// The checksum of a chunk (ISO 3309).
+fn crc_32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, &byte: &u8| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+            if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 }
+        })
+    };
+    !bytes.iter().fold(!0, step)
+}
+
+/// A GIF that grows frame by frame and plays without an end.
+pub struct Motion<'a> {
+    out: Option<&'a mut dyn Write>,
+    encoder: Option<Encoder<&'a mut dyn Write>>,
+    is_transparent: bool,
+    last: Option<Pixmap>,
+}
+
+impl<'a> Motion<'a> {
+    /// An empty one.
+    pub fn new(out: &'a mut dyn Write, is_transparent: bool) -> Self {
+        Self { out: Some(out), encoder: None, is_transparent, last: None }
+    }
+
+    /// Adds a document, shown for so many seconds.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn or written.
+    pub fn add(&mut self, svg: &str, seconds: f64) -> io::Result<()> {
+        let pixels = drawn(svg, 1.0)?;
+        let (width, height) = (side(pixels.width())?, side(pixels.height())?);
+        if let Some(out) = self.out.take() {
+            let mut encoder = Encoder::new(out, width, height, &[]).map_err(io::Error::other)?;
+            let mark = AnyExtension(0xfe);
+            encoder.write_raw_extension(mark, &[b"linkwork"]).map_err(io::Error::other)?;
+            encoder.set_repeat(Repeat::Infinite).map_err(io::Error::other)?;
+            self.encoder = Some(encoder);
+        }
+        let Some(encoder) = &mut self.encoder else { return Ok(()) };
+        let part = match &self.last {
+            // What shows through would show the frame before.
+            Some(last) if !self.is_transparent => changed(last, &pixels),
+            _ => Part { left: 0, top: 0, width: pixels.width(), height: pixels.height() },
+        };
+        let mut colours = part.colours(&pixels);
+        let (width, height) = (side(part.width)?, side(part.height)?);
+        let mut frame = Frame::from_rgba_speed(width, height, &mut colours, COLOUR_SPEED);
+        (frame.left, frame.top) = (side(part.left)?, side(part.top)?);
+        frame.delay = (seconds * 100.0).round() as u16;
+        frame.dispose =
+            if self.is_transparent { DisposalMethod::Background } else { DisposalMethod::Keep };
+        encoder.write_frame(&frame).map_err(io::Error::other)?;
+        self.last = Some(pixels);
+        Ok(())
+    }
+}
+
+fn side(px: u32) -> io::Result<u16> {
+    u16::try_from(px).map_err(|_| io::Error::other("too large for a GIF"))
+}
+
+/// A rectangle of a picture.
+struct Part {
+    left: u32,
+    top: u32,
+    width: u32,
+    height: u32,
+}
+
+impl Part {
+    /// Its colours, red, green, blue and how opaque, not multiplied.
+    fn colours(&self, pixels: &Pixmap) -> Vec<u8> {
+        let rows = self.top..self.top + self.height;
+        let places = rows.flat_map(|y| (self.left..self.left + self.width).map(move |x| (x, y)));
+        places
+            .flat_map(|(x, y)| {
+                let colour = pixels.pixel(x, y).expect("within the picture").demultiply();
+                [colour.red(), colour.green(), colour.blue(), colour.alpha()]
+            })
+            .collect()
+    }
+}
+
+/// The least rectangle that holds all that changed; of pictures that are the same, one pixel.
+fn changed(last: &Pixmap, next: &Pixmap) -> Part {
+    let width = next.width() as usize;
+    let differs = |k: &usize| last.pixels()[*k] != next.pixels()[*k];
+    let changed = (0..next.pixels().len()).filter(differs);
+    let bounds = changed.fold(None, |bounds: Option<[u32; 4]>, k| {
+        let (x, y) = ((k % width) as u32, (k / width) as u32);
+        let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
+        Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
+    });
+    let [left, top, right, bottom] = bounds.unwrap_or_default();
+    Part { left, top, width: right - left + 1, height: bottom - top + 1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_are_those_of_the_standard() {
+        assert_eq!(crc_32(b"123456789"), 0xcbf4_3926);
+        // Of the chunk that ends every PNG.
+        assert_eq!(crc_32(b"IEND"), 0xae42_6082);
+    }
+}

@@ -1,0 +1,296 @@
+//! `fit`: the numbers of parameters with which a motion does something best.
+
+use super::run::Limits;
+use crate::constraint::Point;
+use crate::diag::{Diagnostic, Span, format_count, format_number, format_rounded, format_seconds};
+use crate::errors;
+use crate::interrupt;
+use crate::lang::ast::{Expr, FitRange, Goal, Text};
+use crate::optimise::{Best, least_squares, minimum};
+use crate::session::curve::{Curve, read_curve};
+use crate::session::execution::Execution;
+use crate::session::quotas::Quota;
+use crate::study::Trial;
+use crate::terms::Shape;
+use crate::world::{Entity, Formula, NameText, ParameterId};
+
+/// A parameter that is fitted.
+struct Fitted {
+    id: ParameterId,
+    name: NameText,
+    lo: f64,
+    hi: f64,
+    /// What it is now.
+    now: f64,
+}
+
+impl Fitted {
+    /// The number at a place from 0 to 1.
+    fn number(&self, place: f64) -> f64 {
+        place.mul_add(self.hi - self.lo, self.lo)
+    }
+
+    /// The place of what it is now, or the nearest.
+    fn place(&self) -> f64 {
+        ((self.now - self.lo) / (self.hi - self.lo)).clamp(0.0, 1.0)
+    }
+}
+
+/// What came of a search.
+struct Found {
+    best: Option<Best>,
+    n_runs: u64,
+    /// What there was at first; none where that is not solved.
+    before: Option<f64>,
+    /// Whether there were different values.
+    differs: bool,
+}
+
+/// Work of a trial, in ticks, for each frame.
+const FRAME: usize = 1000;
+/// The most parameters: a search among more takes longer than anyone waits.
+const MOST: usize = 12;
+
+impl Execution<'_> {
+    pub(crate) fn fit(
+        &mut self,
+        ranges: &[FitRange],
+        goal: &Goal,
+        over: Option<&Expr>,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let fitted = self.fitted(ranges)?;
+        let most = self.input.quotas.of(Quota::Frames) as f64;
+        let n_frames = match over {
+            Some(n) => Some(self.resolve().count(n, 0.0, most, "frames")?),
+            None => None,
+        };
+        let begun = self.host.seconds();
+        let (found, what) = match goal {
+            Goal::Minimise(value) => (self.best_of(&fitted, value, 1.0, n_frames)?, value.span),
+            Goal::Maximise(value) => (self.best_of(&fitted, value, -1.0, n_frames)?, value.span),
+            Goal::Path(file) => (self.nearest_path(&fitted, file, n_frames)?, file.span),
+        };
+        let Some(best) = found.best.as_ref().filter(|_| found.differs) else {
+            return Err(no_minimum(&found, span, what));
+        };
+        self.take_best(&fitted, best)?;
+        let seconds = begun.and_then(|begun| Some(self.host.seconds()? - begun));
+        self.tell_best(&fitted, goal, &found, best, seconds);
+        Ok(())
+    }
+
+    fn fitted(&mut self, ranges: &[FitRange]) -> Result<Vec<Fitted>, Diagnostic> {
+        if let Some(range) = ranges.get(MOST) {
+            return Err(Diagnostic::error(errors::TOO_MUCH, "too many numbers to look for")
+                .at(range.name.span, format!("no more than {MOST}")));
+        }
+        let mut all: Vec<Fitted> = Vec::new();
+        for FitRange { name, range } in ranges {
+            let Entity::Parameter(id) = self.resolve().entity(name)? else {
+                return Err(Diagnostic::error(errors::WRONG_SORT, "`fit` looks for parameters")
+                    .at(name.span, "expected the name of a parameter")
+                    .help("`let a = 3`, and `length A B = a` follows it"));
+            };
+            if all.iter().any(|other| other.id == id) {
+                return Err(Diagnostic::error(errors::NAME_TAKEN, "this one is fitted already")
+                    .at(name.span, "said twice"));
+            }
+            let parameter = self.state.world.parameter(id).expect("it is named").clone();
+            let is_number =
+                parameter.formula.shape() == Shape::Number && parameter.depends.is_constant();
+            if !is_number {
+                let name_text = &parameter.name;
+                return Err(Diagnostic::error(
+                    errors::WRONG_SORT,
+                    format!("`{name_text}` is not a number by itself"),
+                )
+                .at(name.span, "it follows something else")
+                .help("fit what it follows, or give it a number first: `let a = 3`"));
+            }
+            let (lo, hi) = (self.resolve().number(&range.from)?, self.resolve().number(&range.to)?);
+            if lo >= hi {
+                return Err(Diagnostic::error(errors::OUT_OF_RANGE, "this range has no inside")
+                    .at(range.from.span.to(range.to.span), "expected the least number first"));
+            }
+            let now = parameter.value.map_or(lo, crate::world::Value::number);
+            all.push(Fitted { id, name: parameter.name, lo, hi, now });
+        }
+        Ok(all)
+    }
+
+    /// A trial of so many frames from here.
+    fn trial(&self, n_frames: u64, path_of: Option<&Curve>) -> Trial {
+        let state = &self.state;
+        let (memory, settings) = (state.solver.memory(), state.preferences.solve);
+        Trial::new(&state.world, memory, settings, n_frames, path_of.map(|curve| curve.point))
+    }
+
+    /// The least value, or with the other sign the greatest.
+    fn best_of(
+        &mut self,
+        fitted: &[Fitted],
+        value: &Expr,
+        sign: f64,
+        n_frames: Option<u64>,
+    ) -> Result<Found, Diagnostic> {
+        let formula: Formula = self.resolve().live(value)?.into_formula(value);
+        if formula.shape() != Shape::Number {
+            return Err(Diagnostic::error(errors::MIXED_SORTS, "expected a number")
+                .at(value.span, "this is a vector"));
+        }
+        let n_frames = n_frames.unwrap_or(0);
+        let trial = self.trial(n_frames, None);
+        let mut values = Values::default();
+        let now: Vec<(ParameterId, f64)> = fitted.iter().map(|it| (it.id, it.now)).collect();
+        let before = trial.run(&now).and_then(|mut tried| tried.value(&formula));
+        let mut ask = |at: &[f64]| {
+            interrupt::tick(FRAME * (n_frames as usize + 10));
+            let mut tried = trial.run(&numbers(fitted, at))?;
+            let value = sign * tried.value(&formula)?;
+            values.note(value);
+            Some(value)
+        };
+        let first: Vec<f64> = fitted.iter().map(Fitted::place).collect();
+        let best = minimum(&first, &mut ask);
+        let best = best.map(|best| Best { value: sign * best.value, ..best });
+        Ok(values.found(best, before))
+    }
+
+    /// The numbers with which a point comes nearest to a path.
+    fn nearest_path(
+        &mut self,
+        fitted: &[Fitted],
+        file: &Text,
+        n_frames: Option<u64>,
+    ) -> Result<Found, Diagnostic> {
+        let saved = self.saved(std::path::Path::new(&*file.value)).map(|(_, text)| text);
+        let text = if let Some(text) = saved {
+            text
+        } else {
+            let path = self.find(file)?;
+            self.read(&path, file)?
+        };
+        self.input.is_unrepeatable = true;
+        let curve = read_curve(&self.state.world, &text, file.span)?;
+        let n_needed = curve.places.iter().map(|(frame, _)| *frame).max().unwrap_or(0) as u64;
+        if n_frames.is_some_and(|n| n < n_needed) {
+            return Err(Diagnostic::error(errors::NOT_A_PATH, "the path is longer than the run")
+                .at(file.span, format!("its last place is that of frame {n_needed}"))
+                .help(format!("`over {n_needed}`, or none, follows all of it")));
+        }
+        let trial = self.trial(n_needed, Some(&curve));
+        let off = |places: &[Point]| -> Option<Vec<f64>> {
+            let mut off = Vec::with_capacity(2 * curve.places.len());
+            for (frame, wanted) in &curve.places {
+                let v = *places.get(*frame)? - *wanted;
+                off.extend([v.x, v.y]);
+            }
+            Some(off)
+        };
+        let n_places = curve.places.len().max(1) as f64;
+        let rms = |square: f64| (square / n_places).sqrt();
+        let run = |numbers: &[(ParameterId, f64)]| {
+            let tried = trial.run(numbers)?;
+            off(&tried.path().collect::<Vec<_>>())
+        };
+        let now: Vec<(ParameterId, f64)> = fitted.iter().map(|it| (it.id, it.now)).collect();
+        let before = run(&now).map(|off| rms(off.iter().map(|it| it * it).sum()));
+        let mut values = Values::default();
+        let mut ask = |at: &[f64]| {
+            interrupt::tick(FRAME * (n_needed as usize + 10));
+            let off = run(&numbers(fitted, at))?;
+            values.note(off.iter().map(|it| it * it).sum());
+            Some(off)
+        };
+        let first: Vec<f64> = fitted.iter().map(Fitted::place).collect();
+        let best = least_squares(&first, &mut ask);
+        let best = best.map(|best| Best { value: rms(best.value), ..best });
+        Ok(values.found(best, before))
+    }
+
+    /// Gives the parameters the best numbers and solves the pose, as each trial did.
+    fn take_best(&mut self, fitted: &[Fitted], best: &Best) -> Result<(), Diagnostic> {
+        for (it, (id, number)) in fitted.iter().zip(numbers(fitted, &best.at)) {
+            self.set_parameter(id, it.name.clone(), Formula::constant(number))?;
+        }
+        self.begin_motion();
+        self.settle(&Limits::default())?;
+        Ok(())
+    }
+
+    fn tell_best(
+        &mut self,
+        fitted: &[Fitted],
+        goal: &Goal,
+        found: &Found,
+        best: &Best,
+        seconds: Option<f64>,
+    ) {
+        let numbers = numbers(fitted, &best.at);
+        let texts = fitted.iter().zip(&numbers);
+        let texts =
+            texts.map(|(it, (_, number))| format!("{} = {}", it.name, format_number(*number)));
+        self.note(texts.collect::<Vec<_>>().join(", "));
+        let what = match goal {
+            Goal::Minimise(value) | Goal::Maximise(value) => value.to_string(),
+            Goal::Path(_) => "root mean square distance".to_owned(),
+        };
+        let before = found.before.map_or_else(
+            || "not solved before".to_owned(),
+            |before| format!("{} before", format_rounded(before)),
+        );
+        let time = seconds.map_or_else(String::new, |it| format!(" in {}", format_seconds(it)));
+        let n_runs = format_count(found.n_runs as f64);
+        let value = format_rounded(best.value);
+        self.note(format!("{what} = {value}, {before}; {n_runs} runs{time}"));
+        for (it, at) in fitted.iter().zip(&best.at) {
+            if *at <= 0.0 || *at >= 1.0 {
+                let end = format_number(it.number(*at));
+                let text = format!("`{}` is at the end of its range, {end}", it.name);
+                self.warn(
+                    &Diagnostic::warning(text).help("a wider range may hold something better"),
+                );
+            }
+        }
+    }
+}
+
+/// The numbers that places from 0 to 1 stand for.
+fn numbers(fitted: &[Fitted], at: &[f64]) -> Vec<(ParameterId, f64)> {
+    fitted.iter().zip(at).map(|(it, at)| (it.id, it.number(*at))).collect()
+}
+
+/// The values that a search met.
+#[derive(Default)]
+struct Values {
+    n: u64,
+    ends: Option<[f64; 2]>,
+}
+
+impl Values {
+    fn note(&mut self, value: f64) {
+        self.n += 1;
+        let [lo, hi] = self.ends.unwrap_or([value; 2]);
+        self.ends = Some([lo.min(value), hi.max(value)]);
+    }
+
+    fn found(&self, best: Option<Best>, before: Option<f64>) -> Found {
+        let differs = self.ends.is_some_and(|[lo, hi]| lo < hi);
+        Found { best, n_runs: self.n, before, differs }
+    }
+}
+
+/// Why there is no best.
+fn no_minimum(found: &Found, span: Span, what: Span) -> Diagnostic {
+    if found.best.is_none() {
+        return Diagnostic::error(errors::NO_MINIMUM, "none of these numbers gives a motion")
+            .at(span, "each was unsolved in some frame, or has no value")
+            .help(
+                "narrow the ranges to what can be assembled: `limits NAME` says how far it goes",
+            );
+    }
+    Diagnostic::error(errors::NO_MINIMUM, "this is the same for all numbers in these ranges")
+        .at(what, "nothing to choose by")
+        .help("name what follows the parameters: `measure d = ...`, then `... to minimise d.span`")
+}

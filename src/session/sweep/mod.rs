@@ -1,0 +1,10 @@
+//! Many runs of one script, each with other values: the grid, and one variant of it.
+
+mod grid;
+mod quiet;
+mod table;
+mod variant;
+
+pub use grid::{Axis, Grid, Shard, parse_axis};
+pub use table::{Columns, picture_sheet};
+pub use variant::{SweepScript, Variant};

@@ -1,0 +1,159 @@
+//! What a sweep writes: rows of a table, objects, a sheet of pictures.
+
+use std::fmt::Write;
+
+use super::grid::Grid;
+use super::variant::Variant;
+use crate::diag::{format_decimals, format_number, format_rounded};
+use crate::render::FIRST_WORDS;
+use crate::session::json;
+
+/// The columns of a table: the same in every row, and in every part of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    parameters: Vec<String>,
+    results: Vec<String>,
+}
+
+/// The columns behind the results.
+const LAST: [&str; 5] = ["status", "residual", "missed", "dead_points", "error"];
+
+impl Columns {
+    /// Those of a grid whose variants have such results.
+    pub fn new(grid: &Grid, model: Option<&Variant>) -> Self {
+        let results = model.into_iter().flat_map(|variant| variant.results.iter());
+        Self {
+            parameters: grid.axes.iter().map(|axis| axis.name.clone()).collect(),
+            results: results.map(|(name, _)| name.to_owned()).collect(),
+        }
+    }
+
+    /// The heading of the table, with its line end.
+    pub fn heading(&self) -> String {
+        let names = self.parameters.iter().chain(&self.results).map(|name| quoted(name));
+        let names: Vec<String> = names.chain(LAST.map(str::to_owned)).collect();
+        format!("variant,{}\n", names.join(","))
+    }
+
+    /// The row of a variant, with its line end.
+    pub fn row(&self, variant: &Variant) -> String {
+        let mut row = variant.number.to_string();
+        for value in &variant.values {
+            row.push(',');
+            row.push_str(&format_number(*value));
+        }
+        for name in &self.results {
+            row.push(',');
+            if let Some(value) = variant.results.get(name) {
+                row.push_str(&format_number(value));
+            }
+        }
+        let status = variant.word();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            row,
+            ",{status},{},{},{},{}",
+            format_number(variant.residual),
+            variant.n_missed,
+            variant.n_dead_points,
+            variant.failure.as_deref().map_or_else(String::new, quoted)
+        );
+        row
+    }
+
+    /// The object of a variant, with its line end.
+    pub fn object(&self, variant: &Variant) -> String {
+        format!("{}\n", json::variant(&self.parameters, variant))
+    }
+}
+
+/// A cell as RFC 4180 has it.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The width of a picture on its sheet, and the room below it for its values, px.
+const CELL: [f64; 2] = [220.0, 34.0];
+
+/// Pictures of variants side by side, each with the values of its parameters.
+pub fn picture_sheet(grid: &Grid, pictures: &[(u64, String)]) -> String {
+    let n_columns = (pictures.len() as f64).sqrt().ceil().max(1.0) as usize;
+    let n_rows = pictures.len().div_ceil(n_columns).max(1);
+    let [side, caption] = CELL;
+    let (width, height) = (n_columns as f64 * side, n_rows as f64 * (side + caption));
+    let mut sheet = format!(
+        "{FIRST_WORDS} xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+         width=\"{width}\" height=\"{height}\" font-family=\"Helvetica, Arial, 'Liberation Sans', \
+         sans-serif\" font-size=\"11\">\n<rect width=\"{width}\" height=\"{height}\" \
+         fill=\"#fdfdfb\"/>\n"
+    );
+    for (k, (number, picture)) in pictures.iter().enumerate() {
+        let x = (k % n_columns) as f64 * side;
+        let y = (k / n_columns) as f64 * (side + caption);
+        let values = grid.axes.iter().zip(grid.values(*number));
+        let told: Vec<String> = values
+            .map(|(axis, value)| format!("{} = {}", axis.name, format_rounded(value)))
+            .collect();
+        let told = told.join(", ").replace('&', "&amp;").replace('<', "&lt;");
+        let number = |value: f64| format_decimals(value, 1);
+        // A picture within a picture has a style sheet of its own only as an image.
+        let _ = write!(
+            sheet,
+            "<image x=\"{}\" y=\"{}\" width=\"{side}\" height=\"{side}\" \
+             href=\"data:image/svg+xml;base64,{}\"/>\n\
+             <text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"#273542\">{told}</text>\n",
+            number(x),
+            number(y),
+            base_64(picture.as_bytes()),
+            number(x + 0.5 * side),
+            number(y + side + 0.5 * caption),
+        );
+    }
+    sheet.push_str("</svg>\n");
+    sheet
+}
+
+/// Bytes in letters (RFC 4648).
+fn base_64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let at = |k: usize| u32::from(three.get(k).copied().unwrap_or(0));
+        let all = (at(0) << 16) | (at(1) << 8) | at(2);
+        for k in 0..4 {
+            let letter = LETTERS[(all >> (18 - 6 * k) & 63) as usize];
+            text.push(if k <= three.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_are_those_of_the_standard() {
+        let vectors = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("foobar", "Zm9vYmFy"),
+        ];
+        for (text, wanted) in vectors {
+            assert_eq!(base_64(text.as_bytes()), wanted);
+        }
+    }
+
+    #[test]
+    fn cells_are_quoted_where_they_have_to_be() {
+        assert_eq!(quoted("a b"), "a b");
+        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
+    }
+}

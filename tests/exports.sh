@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Gives what `export` writes to the programs that it is for: vpype reads the strokes, ezdxf audits the
+# parts, OpenSCAD makes solids of them. Installs them: vpype and ezdxf from PyPI into a folder of
+# their own, OpenSCAD from Debian unless it is there.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program="${1:-target/debug/linkwork}"
+room="$(mktemp -d)"
+trap 'rm -rf "$room"' EXIT
+
+python3 -m venv "$room/python"
+"$room/python/bin/pip" install --quiet 'vpype>=1.14,<2' 'ezdxf>=1.3,<2'
+if ! command -v openscad > /dev/null; then
+    apt-get install --quiet --yes --no-install-recommends openscad > /dev/null
+fi
+
+cat > "$room/parts.link" << 'END'
+point A = (0, 0) frozen, B = (1, 0), C = (4, 3), D = (4, 0) frozen
+point P = (6, 0), Q = (9, 0), R = (6, 4)
+crank: motor A B radius 1 speed 1rev
+coupler: length B C = 3 * sqrt(2)
+rocker: length C D = 3
+plate: rigid P Q R
+set dt 1/360; trace B, C; step 360
+export "parts.dxf" in mm scale 10 width 12 hole 4 kerf 0.2
+export "parts.svg" in mm scale 10 width 12 hole 4 kerf 0.2
+export "plot.svg" in mm scale 10
+END
+"$program" run "$room/parts.link" --quiet --out "$room"
+"$room/python/bin/python" tests/exports.py "$room"

@@ -1,0 +1,213 @@
+//! `linkwork sweep`: every variant has its row, whoever runs it and however often it was stopped.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::support::program::{folder, run, text};
+
+/// The largest height of a slider's crank is its radius; a rod that is too short stops it.
+const SLIDER: &str = "let r = 1, l = 3
+point O = (0, 0) frozen, P = (r, 0), S = (r + l, 0), E = (20, 0) frozen
+crank: motor O P radius r speed 1rev
+rod: length P S = l
+glider S on O E unbounded
+set dt 1/36
+measure y = P.y
+measure x = S.x
+step 36
+result height = y.max, stroke = x.span
+";
+
+fn sweep(folder: &Path, args: &[&str]) -> Output {
+    run(folder, &[&["sweep", "slider.link"], args].concat(), "")
+}
+
+#[track_caller]
+fn fine(out: &Output) {
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+}
+
+fn table(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).expect("the table is there")
+}
+
+/// The cells of the rows, without the heading.
+fn rows(table: &str) -> Vec<Vec<&str>> {
+    table.lines().skip(1).map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn each_variant_has_its_row() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    fine(&sweep(folder.path(), &["--set", "r=0.5..1:0.25", "--set", "l=2,3"]));
+    let table = table(folder.path(), "sweep.csv");
+    let heading = "variant,r,l,height,stroke,status,residual,missed,dead_points,error\n";
+    assert!(table.starts_with(heading), "{table}");
+    let rows = rows(&table);
+    assert_eq!(rows.len(), 6);
+    let grid = [(0.5, 2.0), (0.5, 3.0), (0.75, 2.0), (0.75, 3.0), (1.0, 2.0), (1.0, 3.0)];
+    for (k, (row, (r, l))) in rows.iter().zip(grid).enumerate() {
+        let number = |at: usize| row[at].parse::<f64>().expect("a number");
+        assert_eq!((row[0], number(1), number(2)), (k.to_string().as_str(), r, l));
+        // The slider goes from l - r to l + r, whatever the rod.
+        assert!((number(3) - r).abs() < 1e-9 && (number(4) - 2.0 * r).abs() < 1e-9, "{row:?}");
+        assert_eq!((row[5], row[7], row[8], row[9]), ("converged", "0", "0", ""));
+        assert!(number(6) <= 1e-12);
+    }
+}
+
+#[test]
+fn what_goes_wrong_is_in_its_row() {
+    let script = SLIDER.replace("step 36", "step 36; assert l > 1.5");
+    let folder = folder(&[("slider.link", &script)]);
+    let out = sweep(folder.path(), &["--set", "l=0.5,1.25,2"]);
+    fine(&out);
+    let told = text(&out.stderr);
+    assert!(told.contains("3 rows in sweep.csv") && told.contains("2 ended in an error"), "{told}");
+    assert!(told.contains("1 met dead points"), "{told}");
+    let table = table(folder.path(), "sweep.csv");
+    let rows = rows(&table);
+    assert_eq!(rows[0][4], "error");
+    assert_ne!(rows[0][7], "0", "a rod of half the radius stops the crank");
+    assert!(rows[0][8].contains("line 9"), "{:?}", rows[0]);
+    assert_eq!((rows[1][4], rows[1][7], rows[2][4]), ("error", "0", "converged"));
+    // What came after the mistake is missing.
+    assert_eq!((rows[1][2], rows[2][3].is_empty()), ("", false));
+}
+
+#[test]
+fn the_table_is_the_same_on_any_number_of_cores_and_in_parts() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    let grid = ["--set", "r=0.5..1:0.05", "--set", "l=2..3:0.1"];
+    let with = |args: &[&str]| fine(&sweep(folder.path(), &[&grid, args].concat()));
+    with(&["-j", "1", "--to", "one.csv"]);
+    with(&["-j", "3", "--to", "three.csv"]);
+    let whole = table(folder.path(), "one.csv");
+    assert_eq!(whole, table(folder.path(), "three.csv"));
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    for part in 1..=4 {
+        let name = format!("part-{part}.csv");
+        with(&["--shard", &format!("{part}/4"), "--to", &name]);
+        let table = table(folder.path(), &name);
+        assert_eq!(table.lines().next(), whole.lines().next());
+        lines.extend(table.lines().skip(1).map(|line| {
+            let number = line.split(',').next().expect("a cell");
+            (number.parse().expect("a number"), line.to_owned())
+        }));
+    }
+    lines.sort();
+    let joined: Vec<&str> = lines.iter().map(|(_, line)| line.as_str()).collect();
+    assert_eq!(joined, whole.lines().skip(1).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_sweep_goes_on_to_the_byte_wherever_it_was_cut() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    for json in [&[][..], &["--json"]] {
+        let with = |args: &[&str]| {
+            let grid = ["--set", "r=0.5..1:0.1", "--set", "l=2,3"];
+            sweep(folder.path(), &[&grid, json, args].concat())
+        };
+        fine(&with(&["--to", "whole"]));
+        let whole = fs::read(folder.path().join("whole")).expect("the table");
+        for cut in [0, 1, 20, whole.len() / 3, whole.len() / 2, whole.len() - 1, whole.len()] {
+            fs::write(folder.path().join("cut"), &whole[..cut]).expect("a table");
+            fine(&with(&["--resume", "--to", "cut"]));
+            let found = fs::read(folder.path().join("cut")).expect("the table");
+            assert!(found == whole, "cut at {cut}: {}", String::from_utf8_lossy(&found));
+        }
+        fine(&with(&["--resume", "--to", "new"]));
+        assert!(fs::read(folder.path().join("new")).expect("the table") == whole);
+        for name in ["whole", "cut", "new"] {
+            fs::remove_file(folder.path().join(name)).expect("it is there");
+        }
+    }
+}
+
+#[test]
+fn a_table_that_is_there_is_not_lost() {
+    let folder = folder(&[("slider.link", SLIDER), ("mine.csv", "a,b\n1,2\n")]);
+    let refused = |args: &[&str], wanted: &str| {
+        let out = sweep(folder.path(), args);
+        assert_eq!(out.status.code(), Some(2));
+        assert!(text(&out.stderr).contains(wanted), "{}", text(&out.stderr));
+    };
+    fine(&sweep(folder.path(), &["--set", "r=1,2"]));
+    let before = table(folder.path(), "sweep.csv");
+    refused(&["--set", "r=1,2"], "`--resume` goes on with it");
+    refused(&["--set", "r=1,3", "--resume"], "of another sweep");
+    refused(&["--set", "l=3,4", "--resume"], "of another sweep");
+    refused(&["--set", "r=1,2", "--shard", "2/2", "--resume"], "of another sweep");
+    refused(&["--set", "r=1,2", "--resume", "--to", "mine.csv"], "of another sweep");
+    assert_eq!(table(folder.path(), "sweep.csv"), before);
+    assert_eq!(table(folder.path(), "mine.csv"), "a,b\n1,2\n");
+    fine(&sweep(folder.path(), &["--set", "r=1,2", "--force"]));
+}
+
+#[test]
+fn objects_say_what_rows_say() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    let out = sweep(folder.path(), &["--set", "r=0.5,1", "--json", "--to", "-"]);
+    fine(&out);
+    let page = include_str!("../../docs/json.md");
+    let row = page.lines().find(|line| line.starts_with("| `variant`")).expect("it is there");
+    for (k, line) in text(&out.stdout).lines().enumerate() {
+        let object: Value = serde_json::from_str(line).expect("an object");
+        assert_eq!(
+            (&object["type"], object["variant"].as_u64()),
+            (&"variant".into(), Some(k as u64))
+        );
+        let r = object["parameters"]["r"].as_f64().expect("a number");
+        assert!((object["results"]["height"].as_f64().expect("a number") - r).abs() < 1e-9);
+        for field in object.as_object().expect("an object").keys().filter(|it| *it != "type") {
+            assert!(row.contains(&format!("`{field}`")), "no `{field}` in docs/json.md");
+        }
+    }
+}
+
+#[test]
+fn a_contact_sheet_shows_each_variant() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    fine(&sweep(folder.path(), &["--set", "r=0.5..1:0.1", "--pictures"]));
+    let sheet = table(folder.path(), "sweep.svg");
+    assert_eq!(sheet.matches("<image ").count(), 6);
+    assert!(sheet.contains(">r = 0.7</text>"), "{sheet}");
+    roxmltree::Document::parse(&sheet).expect("it is well formed");
+}
+
+#[test]
+fn a_wish_that_cannot_be_is_told_with_what_to_type() {
+    let folder = folder(&[("slider.link", SLIDER), ("plain.link", "print 1\n")]);
+    let check = |args: &[&str], status: i32, wanted: &str| {
+        let out = run(folder.path(), args, "");
+        let told = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(status), "of {args:?}: {told}");
+        assert!(told.contains(wanted), "of {args:?}: {told}");
+        assert!(!folder.path().join("sweep.csv").exists(), "of {args:?}");
+    };
+    check(&["sweep", "slider.link", "--set", "rr=1,2"], 2, "did you mean `r`?");
+    check(&["sweep", "slider.link", "--set", "width=1,2"], 2, "the script declares");
+    check(&["sweep", "plain.link", "--set", "r=1,2"], 2, "`let r = 1` in the script declares it");
+    check(&["sweep", "slider.link", "--set", "r=1", "--set", "r=2"], 2, "given twice");
+    let many = ["sweep", "slider.link", "--set", "r=1..20000", "--set", "l=1..20000"];
+    check(&many, 2, "`--force` runs them all the same");
+    check(&["sweep", "slider.link", "--set", "r=2..1"], 2, "LEAST..MOST:STEP");
+    check(&["sweep", "slider.link", "--set", "r=1", "--shard", "3/2"], 2, "2/8");
+    check(&["sweep", "nowhere.link", "--set", "r=1"], 3, "nowhere.link");
+    check(&["run", "slider.link", "--set", "r=1,2"], 2, "`linkwork sweep` takes them");
+    fs::write(folder.path().join("slider.link"), "let r = 1\nlenght A B\n").expect("a script");
+    check(&["sweep", "slider.link", "--set", "r=1,2"], 2, "did you mean `length`?");
+}
+
+#[test]
+fn a_file_that_is_included_may_declare_what_is_swept() {
+    let folder = folder(&[
+        ("slider.link", "include \"size.link\"\nresult twice = 2 * size\n"),
+        ("size.link", "let size = 3\n"),
+    ]);
+    fine(&sweep(folder.path(), &["--set", "size=1,2"]));
+    assert_eq!(rows(&table(folder.path(), "sweep.csv"))[1][2], "4");
+}

@@ -1,0 +1,138 @@
+// Parts of the page that need no browser.
+
+import assert from "node:assert/strict";
+import { dirname, join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const SOURCES = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
+
+async function part(name) {
+  const result = await build({
+    entryPoints: [join(SOURCES, name)],
+    bundle: true,
+    write: false,
+    format: "esm",
+  });
+  const source = Buffer.from(result.outputFiles[0].contents).toString("base64");
+  return import(`data:text/javascript;base64,${source}`);
+}
+
+test("numbers are typed as finely as a pixel tells", async () => {
+  const { typed } = await part("camera.ts");
+  for (const [value, scale, wanted] of [
+    [1.23456, 100, "1.23"],
+    [0.1 + 0.2, 10, "0.3"],
+    [-0.0001, 100, "0"],
+    [123456, 0.001, "123000"],
+    [1.5e-7, 1e9, "1.5e-7"],
+    [2, 1, "2"],
+  ]) {
+    assert.equal(typed(value, scale), wanted, `${value} at ${scale} px a unit`);
+  }
+  // Whatever the scale, what is typed is no farther off than a pixel.
+  for (let power = -12; power <= 12; power++) {
+    const scale = 3.7 * 10 ** power;
+    for (const value of [Math.PI / scale, 12345.678 / scale, -987.6 / scale]) {
+      assert.ok(Math.abs(Number(typed(value, scale)) - value) * scale <= 1, `${value} at ${scale}`);
+    }
+  }
+});
+
+test("the plane and the canvas are one another's inverse, and zooming keeps a place", async () => {
+  const { Camera } = await part("camera.ts");
+  const camera = new Camera(37, { x: 3, y: -2 }, 640, 480, 2).zoomed(1.7, { x: 100, y: 50 });
+  const there = new Camera(37, { x: 3, y: -2 }, 640, 480, 2).toPlane({ x: 100, y: 50 });
+  const again = camera.toPlane({ x: 100, y: 50 });
+  assert.ok(Math.hypot(there.x - again.x, there.y - again.y) < 1e-12);
+  const back = camera.toCanvas(camera.toPlane({ x: 7, y: 9 }));
+  assert.ok(Math.hypot(back.x - 7, back.y - 9) < 1e-9);
+});
+
+test("what is fitted is on the canvas, whatever its size", async () => {
+  const { Camera } = await part("camera.ts");
+  for (const size of [1e-9, 1, 1e9]) {
+    for (const [width, height] of [
+      [1200, 800],
+      [300, 240],
+    ]) {
+      const corners = [
+        { x: -size, y: 0 },
+        { x: 2 * size, y: size },
+      ];
+      const camera = new Camera(1, { x: 0, y: 0 }, width, height).fitted({
+        lo: corners[0],
+        hi: corners[1],
+      });
+      for (const corner of corners) {
+        const { x, y } = camera.toCanvas(corner);
+        assert.ok(x > 10 && x < width - 10 && y > 10 && y < height - 10, `${x}, ${y}`);
+      }
+    }
+  }
+});
+
+test("a typed value is a number with a unit, or neither", async () => {
+  const { quantity } = await part("panels/value_row.ts");
+  assert.deepEqual(quantity("90deg"), { number: 90, unit: "deg" });
+  assert.deepEqual(quantity("-.5rev"), { number: -0.5, unit: "rev" });
+  assert.deepEqual(quantity("1e-3"), { number: 0.001, unit: "" });
+  assert.deepEqual(quantity("250ms"), { number: 250, unit: "ms" });
+  for (const other of ["2 * r", "1/60", "(1, 2)", "r", "", "3 m"])
+    assert.equal(quantity(other), undefined, other);
+});
+
+test("a script comes back from an address", async () => {
+  const { packed, wanted } = await part("share.ts");
+  const script = 'point A = (0, 0)\nprint "Übergröße ∞ 𝕏"\n'.repeat(50);
+  const hash = `#${await packed(script)}`;
+  assert.ok(hash.length < script.length / 4, "it is packed");
+  assert.match(hash, /^#z=[\w-]+$/);
+  assert.deepEqual(await wanted(hash), { is: "script", text: script });
+  assert.deepEqual(await wanted("#t=a%3B%20b"), { is: "script", text: "a; b" });
+  assert.deepEqual(await wanted("#example=klann"), { is: "example", name: "klann" });
+  assert.equal(await wanted("#else"), undefined);
+  await assert.rejects(wanted("#z=nonsense"));
+});
+
+test("texts of any length fit into messages and come out whole", async () => {
+  const { pieces } = await part("engine/pieces.ts");
+  for (const text of [
+    "",
+    "a",
+    "x".repeat(5000),
+    "\u0001".repeat(2000),
+    "𝕏".repeat(1999),
+    "a\ud835",
+  ]) {
+    const parts = pieces(text);
+    assert.equal(parts.join(""), text);
+    for (const piece of parts) {
+      const message = JSON.stringify({ do: "exec", text: piece, more: true, id: 123456 });
+      assert.ok(Buffer.byteLength(message) <= 4096, `${Buffer.byteLength(message)} bytes`);
+      assert.ok(!/^[\udc00-\udfff]/.test(piece), "a letter is not cut");
+    }
+  }
+});
+
+test("a frame is read, and what is none is not", async () => {
+  const { readFrame } = await part("engine/protocol.ts");
+  const buffer = new ArrayBuffer(24 + 16 * 2 + 12);
+  const view = new DataView(buffer);
+  view.setBigUint64(0, 7n, true);
+  view.setUint32(8, 5, true);
+  view.setFloat64(12, 0.25, true);
+  view.setFloat32(20, 0.5, true);
+  [1, 2, 3, 4].forEach((number, k) => {
+    view.setFloat64(24 + 8 * k, number, true);
+  });
+  [10, 20, 90].forEach((number, k) => {
+    view.setFloat32(56 + 4 * k, number, true);
+  });
+  const { at, place, ...head } = readFrame(buffer, 2);
+  assert.deepEqual(head, { seq: 7, topology: 5, time: 0.25, residual: 0.5 });
+  assert.deepEqual([...at, ...place], [1, 2, 3, 4, 10, 20, 90]);
+  assert.equal(readFrame(buffer, 5), undefined);
+  assert.equal(readFrame(new ArrayBuffer(10), 0), undefined);
+});
