@@ -96,6 +96,26 @@ pub fn is_below(folder: &Path, path: &Path) -> io::Result<bool> {
     }
 }
 
+/// Whether a file that was just made lies in a folder or below it. What its path leads to now need not be
+/// that file: it has to be found there. Nobody else knows its name, so if a link is put in its way later
+/// it is not there to be renamed.
+fn is_really_below(folder: &Path, file: &NamedTempFile) -> io::Result<bool> {
+    let (Some(folder), Some(place)) = (real(folder)?, real(file.path())?) else { return Ok(false) };
+    Ok(place.starts_with(folder) && is_same_file(&fs::symlink_metadata(place)?, file.as_file())?)
+}
+
+#[cfg(unix)]
+fn is_same_file(there: &fs::Metadata, file: &File) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let open = file.metadata()?;
+    Ok((there.dev(), there.ino()) == (open.dev(), open.ino()))
+}
+
+#[cfg(not(unix))]
+fn is_same_file(_there: &fs::Metadata, _file: &File) -> io::Result<bool> {
+    Ok(true)
+}
+
 /// A path without links; none if it leads nowhere.
 fn real(path: &Path) -> io::Result<Option<PathBuf>> {
     match or_here(path).canonicalize() {
@@ -112,13 +132,15 @@ fn is_nothing(error: &io::Error) -> bool {
 
 /// Writes a file as [`write_in_pieces`] does.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_in_pieces(path, &mut |out| out.write_all(bytes))
+    write_in_pieces(path, None, &mut |out| out.write_all(bytes))
 }
 
 /// Writes a file beside its place, then renames it into place; makes the folders it needs. It is
-/// on the disk before it has its name.
+/// on the disk before it has its name. Where it is to stay `within` a folder, that is seen of the new
+/// file itself: somebody may have put a link in its way since its path was looked at.
 pub fn write_in_pieces(
     path: &Path,
+    within: Option<&Path>,
     content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     // A link stays one, and what it leads to is written.
@@ -126,6 +148,11 @@ pub fn write_in_pieces(
     let folder = folder_of(&place);
     fs::create_dir_all(folder)?;
     let draft = draft_in(folder)?;
+    if let Some(root) = within
+        && !is_really_below(root, &draft)?
+    {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
     let mut out = BufWriter::with_capacity(1 << 16, draft.as_file());
     content(&mut out)?;
     out.flush()?;
@@ -197,4 +224,30 @@ pub fn folder_of(file: &Path) -> &Path {
 /// A path; that of the working folder if it is empty.
 fn or_here(path: &Path) -> &Path {
     if path.as_os_str().is_empty() { Path::new(".") } else { path }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::symlink;
+
+    use super::*;
+
+    #[test]
+    fn a_link_that_is_put_in_the_way_late_leads_nothing_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir_all(at("out/in")).unwrap();
+        fs::create_dir(at("else")).unwrap();
+        symlink(at("else"), at("out/dir")).unwrap();
+        symlink(at("out/in"), at("out/near")).unwrap();
+        let write = |name: &str| {
+            write_in_pieces(&at(name), Some(&at("out")), &mut |out| out.write_all(b"it"))
+        };
+        assert_eq!(write("out/dir/a").unwrap_err().kind(), io::ErrorKind::PermissionDenied);
+        assert_eq!(fs::read_dir(at("else")).unwrap().count(), 0);
+        write("out/a").unwrap();
+        write("out/near/a").unwrap();
+        assert_eq!(fs::read(at("out/in/a")).unwrap(), b"it");
+        assert_eq!(fs::read_dir(at("out")).unwrap().count(), 4);
+    }
 }

@@ -258,7 +258,8 @@ impl Host for ProcessHost {
         if self.tidy.insert(folder.to_path_buf()) {
             files::remove_leftovers(folder);
         }
-        files::write_in_pieces(path, content)
+        let within = (!self.allows_any_path).then_some(&*self.out);
+        files::write_in_pieces(path, within, content)
     }
 
     fn spool(&mut self) -> io::Result<Box<dyn Spool>> {

@@ -4,6 +4,7 @@ use super::figure::{Figure, Layer, Outline};
 use super::labels::Area;
 use super::page::Page;
 use crate::constraint::{Point, Vector};
+use crate::interrupt::tick;
 
 /// Width of a cell, px.
 const CELL: f64 = 2.0;
@@ -23,6 +24,9 @@ pub struct Occupancy {
     cells: Vec<u8>,
 }
 
+/// What noting a line takes, in ticks.
+const LINE: usize = 50;
+
 impl Occupancy {
     /// A page with nothing on it.
     pub fn new(page: &Page) -> Self {
@@ -41,6 +45,7 @@ impl Occupancy {
             };
             let half = shape.class.half_width() * mark;
             let mut line = |a: Point, b: Point| {
+                tick(LINE);
                 self.add_line(figure.placement.place(a), figure.placement.place(b), half, weight);
             };
             match &shape.outline {

@@ -2,6 +2,10 @@
 
 use crate::constraint::{Point, Vector};
 use crate::diag::push_decimals;
+use crate::interrupt::tick;
+
+/// What the writing of a verb takes, in ticks.
+const VERB: usize = 200;
 
 /// Lines and arcs; arcs lie around the origin.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -150,6 +154,7 @@ impl Path {
         let mut rest = numbers;
         let mut last = None;
         for &verb in &self.verbs {
+            tick(VERB);
             let (now, then) = rest.split_at(verb.n_numbers());
             rest = then;
             match verb {

@@ -190,7 +190,11 @@ impl Execution<'_> {
         };
         match format {
             Format::Table => {
-                self.write_in_pieces(path, kind, span, &mut |out| recorder.write_table(out))
+                let wish = self.deadline.wish(self.host);
+                let is_stopped = || !was_stopped && wish.as_ref().is_some_and(|wish| wish());
+                let table = &mut |out: &mut dyn Write| recorder.write_table(out, is_stopped);
+                self.write_in_pieces(path, kind, span, table)
+                    .map_err(|problem| if is_stopped() { stopped() } else { problem })
             }
             Format::Frames => {
                 let view = recorder.view().map_err(failed)?;

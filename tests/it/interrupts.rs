@@ -288,3 +288,20 @@ fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
     assert_eq!(hasty.kept, session.to_script());
     assert!(!hasty.is_ended, "the run had stopped when it was pressed again");
 }
+
+#[test]
+fn a_table_that_is_stopped_is_still_to_be_written() {
+    let mut talking = Talking::after(
+        "point A = (0, 0) frozen, B = (1, 0); motor A B speed 1rev; record \"t.csv\"; step 5000",
+    );
+    talking.talk.n_polls.set(0);
+    // It is asked before the first rows are written, and then now and then.
+    talking.talk.most_polls = Some(4);
+    let problem = talking.execute("record stop").expect_err("it was stopped");
+    assert_eq!(&*problem.message, "stopped before the recording was written");
+    assert!(talking.talk.files.is_empty());
+    talking.talk.most_polls = None;
+    talking.run("record stop");
+    let table = talking.talk.files.values().next().expect("it is written");
+    assert_eq!(table.lines().count(), 5001);
+}

@@ -2,6 +2,7 @@
 
 use super::effect_table::{EFFECTS, Rehearsal, Work};
 use crate::diag::{format_counted, format_digits};
+use crate::interrupt::tick;
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::host::{Host, NO_CLOCK};
@@ -48,6 +49,9 @@ const NAMES_TOLD: usize = 6;
 
 /// Columns of the table, most names left out.
 const WIDTH: usize = 68;
+
+/// What a frame takes, in ticks: after so many it is asked whether the user wants to stop.
+const FRAME: usize = 100_000;
 
 impl State {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
@@ -100,6 +104,7 @@ impl State {
             if let Work::Solving(again) = effect.work {
                 let begun = now();
                 for _ in 0..effects.n_frames {
+                    tick(FRAME);
                     std::hint::black_box(again(&copy.solver));
                 }
                 in_solving[k] = (now() - begun).max(0.0);
@@ -166,6 +171,8 @@ impl Rehearsal {
     /// Lets one frame pass with the effects that are on; gives how many islands were visited, none
     /// where something has no value then.
     fn frame(&mut self, settings: &Settings, are_on: &[bool], laps: &mut Laps) -> Option<usize> {
+        // Each may be long in a large scene.
+        tick(FRAME);
         let Self { world, solver, .. } = &mut *self;
         solver.sync(world, settings);
         world.advance().ok()?;

@@ -41,6 +41,11 @@ pub(crate) fn vector(x: f64, y: f64) -> Expr {
     expr(Syntax::Vector(Box::new([literal(x), literal(y)])))
 }
 
+/// Whether two numbers are one to the bit: what is left out has to come back, the sign of 0 too.
+fn is_same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits()
+}
+
 /// A string with this content.
 pub(crate) fn quoted(text: &str) -> Text {
     Text { value: Arc::from(text), span: NOWHERE }
@@ -154,7 +159,7 @@ impl<'a> Unbind<'a> {
                 Slot::Optional(role, default) => {
                     let value = record.constraint.get(field_of(role))?;
                     let is_live = record.driver(field_of(role)).is_some();
-                    if default == Some(value) && !is_live {
+                    if default.is_some_and(|default| is_same(default, value)) && !is_live {
                         return None;
                     }
                     Part::Value(role, self.value_of(record, field_of(role)))
@@ -200,7 +205,8 @@ impl<'a> Unbind<'a> {
     fn relation_if_needed(&self, record: &Record, default: Option<f64>) -> Option<Relation> {
         let traits = record.constraint.traits();
         let bounds = traits.bounds?;
-        let is_meant = default.map(Bounds::exactly) == Some(bounds) && record.drivers().is_empty();
+        let is_default = |default| is_same(default, bounds.lo) && is_same(default, bounds.hi);
+        let is_meant = default.is_some_and(is_default) && record.drivers().is_empty();
         let is_angle = traits.quantity == Quantity::Angle;
         (!is_meant).then(|| self.relation(record, bounds, is_angle))
     }

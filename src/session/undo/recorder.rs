@@ -103,6 +103,9 @@ impl Reel {
     }
 }
 
+/// Rows of a table between two looks at whether it is still wanted.
+const ROWS_AT_ONCE: usize = 1024;
+
 impl Recorder {
     /// A recording that has taken nothing yet.
     pub fn new(
@@ -320,10 +323,13 @@ impl Recorder {
             && self.shots.iter().all(|shot| shot.n_points == 0)
     }
 
-    fn write_columns(&self, out: &mut dyn Write) -> io::Result<()> {
+    fn write_columns(&self, out: &mut dyn Write, is_stopped: impl Fn() -> bool) -> io::Result<()> {
         writeln!(out, "{}", heading(&self.columns))?;
         let cell = |n: f64| if n.is_nan() { String::new() } else { format_number(n) };
-        for shot in &self.shots {
+        for (k, shot) in self.shots.iter().enumerate() {
+            if k % ROWS_AT_ONCE == 0 && is_stopped() {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
             let row = self.tape.get(shot.at, shot.n_points as usize)?;
             let cells: Vec<String> = row.into_iter().map(cell).collect();
             writeln!(out, "{}", cells.join(","))?;
@@ -341,9 +347,13 @@ impl Recorder {
     ///
     /// # Errors
     /// Where it cannot be written, or the tape cannot be read.
-    pub fn write_table(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_table(
+        &self,
+        out: &mut dyn Write,
+        is_stopped: impl Fn() -> bool,
+    ) -> io::Result<()> {
         if !self.columns.is_empty() {
-            return self.write_columns(out);
+            return self.write_columns(out, is_stopped);
         }
         // What was taken back may have left names.
         let mut columns: Vec<usize> = Vec::new();
@@ -365,7 +375,10 @@ impl Recorder {
         }
         line.push('\n');
         out.write_all(line.as_bytes())?;
-        for shot in &self.shots {
+        for (k, shot) in self.shots.iter().enumerate() {
+            if k % ROWS_AT_ONCE == 0 && is_stopped() {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
             line.clear();
             line.push_str(&format_number(shot.time));
             let row = self.row(shot)?;

@@ -104,6 +104,24 @@ fn what_was_made_and_deleted_before_a_constraint_is_not_seen() {
 }
 
 #[test]
+fn the_sign_of_zero_is_not_left_out() {
+    let points = "point p0 = (0, 0), p1 = (4, 1), p2 = (5, 3), p3 = (1, 6)";
+    for statement in [
+        "equal p0 p1, p2 p3 = -0",
+        "distance p0 to p1 p2 = -0",
+        "orientation p0 p1, p2 p3 = -0",
+        "hinge p0 on p1 p2 at -0",
+        "motor p0 p1 speed -0 phase -0",
+        "coordinate p0 at (-0, 1)",
+        "hold p0.x = -0",
+    ] {
+        let mut talking = Talking::after(points);
+        assert!(talking.execute(statement).is_ok(), "{statement}");
+        talking.assert_goes_on_from_its_file("step 2");
+    }
+}
+
+#[test]
 fn an_expression_that_has_no_value_in_the_pose_of_now_is_loaded_again() {
     for live in [
         "it: length p0 p1 = 8 / p0.x",
