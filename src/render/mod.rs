@@ -71,9 +71,8 @@ pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
 pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 #[cfg(feature = "terminal")]
 pub use pixels::Pixels;
-pub use scene::Scene;
+pub use scene::{Scene, Unmet};
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};
 pub(crate) use style::PAPER;
-pub use unmet::Unmet;
 pub use view::View;

@@ -1,14 +1,17 @@
 //! A scene: the symbols of a mechanism, where its points are, and what they left behind.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::classify;
 use super::page::BoundingBox;
 use super::symbols::{Symbol, SymbolForm};
 use super::trace::Curve;
-use super::unmet::Unmet;
 use crate::constraint::Point;
-use crate::world::{Ghost, World};
+use crate::world::{ConstraintId, Ghost, World};
+
+/// Constraints that do not hold, each with by how much it is off, in words.
+pub type Unmet = BTreeMap<ConstraintId, Arc<str>>;
 
 /// What is to be drawn, as plain data that owes nothing to the world it came from.
 ///

@@ -1,17 +1,10 @@
 //! What does not hold in a pose: drawn red, with the amount by which it is off.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
 use super::canvas::Canvas;
 use super::figure::{Figure, Key, Layer, Placement};
 use super::scene::Scene;
 use super::style::Class;
 use crate::constraint::Point;
-use crate::world::ConstraintId;
-
-/// Constraints that do not hold, each with by how much it is off, in words.
-pub type Unmet = BTreeMap<ConstraintId, Arc<str>>;
 
 /// From the middle of what is off up to its amount, px.
 const RISE: f64 = 11.0;

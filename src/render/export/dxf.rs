@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::parts::PLACES;
+use super::notation::PLACES;
 use super::rounded::Stretch;
 use super::sheet::Placed;
 use crate::constraint::Point;

@@ -1,12 +1,15 @@
 //! Files for machines, in true size: strokes for plotters, parts for cutters.
 
 mod dxf;
+mod notation;
+mod outlines;
 mod parts;
 mod plotter;
 mod rounded;
 mod sheet;
 
 pub use dxf::dxf;
-pub use parts::{Cut, Part, PartFlaw, parts, svg as parts_svg};
+pub use outlines::outlines;
+pub use parts::{Cut, Part, PartFlaw, parts};
 pub use plotter::strokes;
 pub use sheet::{Placed, lay_out};

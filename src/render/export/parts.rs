@@ -1,18 +1,9 @@
-//! Which parts a mechanism is made of, and how a cutter makes them.
+//! Which parts a mechanism is made of.
 
-use std::fmt::Write;
-
-use super::rounded::{Rounded, Stretch};
-use super::sheet::Placed;
+use super::rounded::Rounded;
 use crate::constraint::{Constraint, ConstraintKind as _, Point, PointIdx, Vector};
-use crate::diag::format_decimals;
-use crate::render::FIRST_WORDS;
 use crate::render::symbols::hull;
-use crate::render::text::printable;
 use crate::world::{PointId, Record, World};
-
-/// Digits after the point of a mm: a millionth.
-pub const PLACES: usize = 6;
 
 /// How parts are made; all in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,62 +120,4 @@ fn part(world: &World, member: &Member, cut: &Cut) -> Result<Part, PartFlaw> {
     let holes = holes.into_iter().map(|(hole, _)| hole).collect();
     let hole_radius = 0.5 * (cut.hole.unwrap_or(0.0) - cut.kerf);
     Ok(Part { name: member.name.clone(), outline, holes, hole_radius })
-}
-
-/// The parts on their sheet as SVG, one path each.
-pub fn svg(sheet: &Placed) -> String {
-    let number = |value: f64| format_decimals(value, PLACES);
-    let [width, height] = sheet.size.map(number);
-    let mut text = format!(
-        "{FIRST_WORDS} xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" \
-         height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n\
-         <g id=\"parts\" fill=\"none\" stroke=\"#ff0000\" stroke-width=\"0.1\">\n"
-    );
-    // On a page y points down.
-    let point = |p: Point| format!("{} {}", number(p.x), number(sheet.size[1] - p.y));
-    for part in &sheet.parts {
-        let name = escaped(&part.name);
-        let _ = write!(text, "<path d=\"{}", outline_data(&part.outline, &point));
-        for &hole in &part.holes {
-            text.push_str(&circle_data(hole, part.hole_radius, &point));
-        }
-        let _ = writeln!(text, "\"><title>{name}</title></path>");
-    }
-    text.push_str("</g>\n</svg>\n");
-    text
-}
-
-/// A name as XML has it.
-pub fn escaped(name: &str) -> String {
-    printable(name).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
-}
-
-fn outline_data(outline: &Rounded, point: &dyn Fn(Point) -> String) -> String {
-    let stretches = outline.stretches();
-    let radius = format_decimals(outline.radius, PLACES);
-    if let [Stretch::Arc { centre, .. }] = stretches[..] {
-        return circle_data(centre, outline.radius, point);
-    }
-    let mut data = String::new();
-    for stretch in &stretches {
-        match *stretch {
-            Stretch::Line { to, .. } => data.extend(["L", &point(to)]),
-            Stretch::Arc { centre, angles: [from, to] } => {
-                let [from, to] =
-                    [from, to].map(|angle| point(centre + Vector::polar(outline.radius, angle)));
-                if data.is_empty() {
-                    data.extend(["M", &from]);
-                }
-                data.extend(["A", &radius, " ", &radius, " 0 0 0 ", &to]);
-            }
-        }
-    }
-    data + "Z"
-}
-
-fn circle_data(centre: Point, radius: f64, point: &dyn Fn(Point) -> String) -> String {
-    let [a, b, c] = [0.0, 1.0, 2.0]
-        .map(|third| point(centre + Vector::polar(radius, third * std::f64::consts::TAU / 3.0)));
-    let r = format_decimals(radius, PLACES);
-    format!("M{a}A{r} {r} 0 0 0 {b}A{r} {r} 0 0 0 {c}A{r} {r} 0 0 0 {a}Z")
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::parts::escaped;
+use super::notation::escaped;
 use crate::constraint::{Point, Vector};
 use crate::diag::format_decimals;
 use crate::render::FIRST_WORDS;

@@ -4,7 +4,7 @@ use crate::diag::{Diagnostic, Span, format_rounded};
 use crate::errors;
 use crate::lang::ast::{ExportPart, Expr, Ident, Text};
 use crate::render::Scene;
-use crate::render::export::{Cut, PartFlaw, Placed, dxf, lay_out, parts, parts_svg, strokes};
+use crate::render::export::{Cut, PartFlaw, Placed, dxf, lay_out, outlines, parts, strokes};
 use crate::session::execution::Execution;
 use crate::session::file_kind::{FileKind, ends_in};
 use crate::session::output_file::wrong_ending;
@@ -42,7 +42,7 @@ impl Execution<'_> {
         let bytes = match wish.width {
             Some((width, _)) => {
                 let sheet = self.cut(&wish, scale, width, span)?;
-                if is_dxf { dxf(&sheet) } else { parts_svg(&sheet) }
+                if is_dxf { dxf(&sheet) } else { outlines(&sheet) }
             }
             None if is_dxf => {
                 return Err(Diagnostic::error(errors::UNMAKEABLE, "how wide are the parts?")
