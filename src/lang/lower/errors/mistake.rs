@@ -145,7 +145,7 @@ impl Reader<'_> {
                     .to_owned()
             }
             _ if verb == "fit" && expected.has(PATH) && !word.is_empty() => {
-                format!("say which: `to minimise {0}`, or `to maximise {0}`", brief(word))
+                format!("say which: `to minimise {word}{0}`, or `to maximise ...`", brief(behind))
             }
             _ if expected.has(PATH) && !word.is_empty() => {
                 format!(
