@@ -51,6 +51,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         &[
             "live/drawn.rs",
             "render/document.rs",
+            "render/pixels/markup.rs",
             "render/symbols/round.rs",
             "session/commands/touch.rs",
             "world/compile.rs",
