@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::commands::diagnose::Check;
-use super::commands::effects::Effects;
+use super::check::Check;
+use super::effects::Effects;
 use super::summary::Summary;
 use crate::mobility::DriverRange;
 use crate::solve::Halt;

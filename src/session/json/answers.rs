@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::VERSION;
-use crate::session::commands::diagnose::Check;
-use crate::session::commands::effects::{EffectRow, Effects};
+use crate::session::check::Check;
+use crate::session::effects::{EffectRow, Effects};
 
 impl Check {
     /// The findings as one JSON object, indented.
