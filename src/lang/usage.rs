@@ -309,7 +309,10 @@ mod tests {
         check("drag A to (1, 2) + B ", "[over FRAMES]");
         check("move A ", "to POSITION");
         check("freeze ", "NAMES | all");
-        check("record \"a.svg\" ", "[every FRAMES]");
+        check(
+            "record \"a.svg\" ",
+            "[of VALUE [in UNIT], ...] [every FRAMES] [width PX] [dark] [transparent] [without names] [title TEXT]",
+        );
         check("for i in 1", "..TO { ... }");
         check("length B C = 3.5", "-");
         check("step 360 ", "[within TOLERANCE] [in WALL_TIME]");

@@ -33,8 +33,10 @@ impl Pace {
         let Some(last) = self.last.replace(now) else { return 0 };
         let gone = (now - last).max(0.0);
         // Where frames took too long fewer pass at once.
-        if gone > SLOW && self.n_last > 1 {
-            self.most = (self.most / 2).max(1);
+        if gone > SLOW {
+            if self.n_last > 1 {
+                self.most = (self.most / 2).max(1);
+            }
         } else {
             self.most = (self.most + 1).min(MOST);
         }

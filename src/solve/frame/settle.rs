@@ -50,6 +50,8 @@ const SMALL_PART: f64 = 1e-3;
 const DETOUR: f64 = 1.25;
 const SMALL_STEPS: f64 = 0.1;
 const MORE_STEPS: u32 = 4;
+/// A solution that is nearer by less than this part is not worth another one.
+const CLEARLY: f64 = 0.05;
 /// Ways whose lengths differ by no more than this part are as long.
 const SAME_WAY: f64 = 1e-9;
 /// The part of the energy a push has to gain to count.
@@ -172,7 +174,8 @@ fn by_small_steps(
     let pose = Pose { constraints: &island.constraints, x: &mut island.x };
     workspace.evaluate(&pose, work);
     let off = (2.0 * workspace.rows.energy).sqrt();
-    let mut nearest = Nearest(Some((way, found, here)));
+    // Only what is clearly nearer counts: what is symmetric is to stay so.
+    let mut nearest = Nearest(Some(((1.0 - CLEARLY) * way, found, here)));
     if way > DETOUR * off {
         let small = Limits { size: SMALL_STEPS * limits.size, ..*limits };
         nearest.look_around(island, workspace, start, &[0.0], &small, work);
