@@ -349,7 +349,7 @@ fn series_are_undone_saved_and_plotted() {
     let problem =
         run(&mut session, &mut notebook, "plot \"e.svg\"").expect_err("there is nothing to plot");
     assert_eq!(&*problem.message, "there is nothing to plot");
-    let problem = run(&mut session, &mut notebook, "sample \"c\" = 2; plot \"e.png\"")
-        .expect_err("not an SVG");
+    let problem = run(&mut session, &mut notebook, "sample \"c\" = 2; plot \"e.pdf\"")
+        .expect_err("no picture");
     assert_eq!(&*problem.message, "this is no name of a picture");
 }
