@@ -351,5 +351,5 @@ fn series_are_undone_saved_and_plotted() {
     assert_eq!(&*problem.message, "there is nothing to plot");
     let problem = run(&mut session, &mut notebook, "sample \"c\" = 2; plot \"e.pdf\"")
         .expect_err("no picture");
-    assert_eq!(&*problem.message, "this is no name of a picture");
+    assert_eq!(&*problem.message, "the ending says what is written");
 }
