@@ -33,6 +33,7 @@ pub(crate) use parts::function::{length, limited_argument, power, value_of};
 #[doc(hidden)]
 pub use parts::geometry;
 pub use parts::geometry::{Point, Vector};
+pub use parts::heading::Heading;
 #[doc(hidden)]
 pub use parts::jet::{Jet, Real};
 #[doc(hidden)]

@@ -39,6 +39,8 @@ pub mod chart;
 // Figures that stand still, as a document.
 mod document;
 mod drawable;
+#[cfg(any(feature = "terminal", feature = "pictures"))]
+mod png_chunk;
 mod still;
 mod text;
 mod unmet;
@@ -71,6 +73,8 @@ pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
 pub(crate) use figure::{Figure, FigureShape, Key, Outline};
 #[cfg(feature = "terminal")]
 pub use pixels::Pixels;
+#[cfg(any(feature = "terminal", feature = "pictures"))]
+pub use png_chunk::push_chunk;
 pub use scene::{Scene, Unmet};
 pub use sketch::{Cell, Ink, Sketch};
 pub use still::{svg, svg_with_view};

@@ -35,7 +35,7 @@ pub use hinge::Hinge;
 pub use hold::Hold;
 pub use length::Length;
 pub use measured::Measured;
-pub use motor::{Heading, Motor};
+pub use motor::Motor;
 pub use orientation::{Orientation, Period};
 pub use rack::Rack;
 pub use rigid::Rigid;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::constraint::parts::carried_crank::CarriedCrank;
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
+use crate::constraint::parts::heading::Heading;
 use crate::constraint::parts::linear::Linear;
 use crate::constraint::parts::two_rows;
 use crate::constraint::{
@@ -36,15 +37,6 @@ enum Points {
     Between(Box<[PointIdx; 4]>),
 }
 
-/// All that time changes of a motor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Heading {
-    /// How far it has turned since it was made.
-    turned: Turns,
-    /// Where the driven point belongs, from the centre, if the angle is measured from the x axis.
-    target: Vector,
-}
-
 /// The values of a motor.
 #[derive(Debug, Clone, PartialEq)]
 struct Drive {
@@ -55,17 +47,6 @@ struct Drive {
     mean_speed: f64,
     /// The angle that the last step of time made at this speed, and the same in turns.
     step: (f64, Turns),
-}
-
-impl Heading {
-    /// Whether another is the same to the bit.
-    pub fn is_same(&self, other: Self) -> bool {
-        let bits = |heading: Self| {
-            let [whole, hi, lo] = heading.turned.to_numbers();
-            [whole, hi, lo, heading.target.x, heading.target.y].map(f64::to_bits)
-        };
-        bits(*self) == bits(other)
-    }
 }
 
 impl Motor {

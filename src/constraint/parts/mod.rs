@@ -6,6 +6,7 @@ pub mod content;
 pub mod function;
 pub mod gearing;
 pub mod geometry;
+pub mod heading;
 pub mod jet;
 pub mod line;
 pub mod linear;

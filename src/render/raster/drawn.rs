@@ -8,6 +8,8 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
 
+use crate::render::push_chunk;
+
 /// How much the colours of a frame are thinned out while they are chosen, from 1 to 30: 10 is what
 /// the crate advises.
 const COLOUR_SPEED: i32 = 10;
@@ -59,20 +61,7 @@ fn push_text(bytes: &mut Vec<u8>, key: &str, value: &str) {
     if !is_plain(key) || !is_plain(value) || key.len() > 79 {
         return;
     }
-    let content = [b"tEXt", key.as_bytes(), b"\0", value.as_bytes()].concat();
-    bytes.extend((content.len() as u32 - 4).to_be_bytes());
-    bytes.extend(&content);
-    bytes.extend(crc_32(&content).to_be_bytes());
-}
-
-/// The checksum of a chunk (ISO 3309).
-fn crc_32(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, &byte: &u8| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 }
-        })
-    };
-    !bytes.iter().fold(!0, step)
+    push_chunk(bytes, *b"tEXt", &[key.as_bytes(), b"\0", value.as_bytes()].concat());
 }
 
 /// A GIF that grows frame by frame and plays without an end.
@@ -160,16 +149,4 @@ fn changed(last: &Pixmap, next: &Pixmap) -> Part {
     });
     let [left, top, right, bottom] = bounds.unwrap_or_default();
     Part { left, top, width: right - left + 1, height: bottom - top + 1 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn checksums_are_those_of_the_standard() {
-        assert_eq!(crc_32(b"123456789"), 0xcbf4_3926);
-        // Of the chunk that ends every PNG.
-        assert_eq!(crc_32(b"IEND"), 0xae42_6082);
-    }
 }
