@@ -169,8 +169,10 @@ pub fn open() -> rustyline::Result<LineEditor> {
         is_coloured: output::wants_colours(),
         is_blank: Cell::new(true),
     }));
-    let enter = KeyEvent(KeyCode::Enter, Modifiers::NONE);
-    editor.bind_sequence(enter, EventHandler::Conditional(Box::new(GoOn)));
+    // What was typed while a command ran ends its lines with the other of the two.
+    for key in [KeyEvent(KeyCode::Enter, Modifiers::NONE), KeyEvent::ctrl('J')] {
+        editor.bind_sequence(key, EventHandler::Conditional(Box::new(GoOn)));
+    }
     Ok(editor)
 }
 

@@ -130,6 +130,19 @@ fn a_statement_goes_on_with_a_prompt_of_its_own() {
 }
 
 #[test]
+fn what_is_typed_while_a_command_runs_is_the_next_line() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("step 3e5\r");
+    // The terminal is the program's no more: what is typed waits in it.
+    terminal.wait_for_line("");
+    terminal.press("for i in 1..2 {\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("print 7 * i\r}\r");
+    terminal.wait_for("7\n14\n");
+}
+
+#[test]
 fn a_pasted_transcript_is_typed_without_its_prompts_and_answers() {
     let home = tempdir().expect("a folder");
     let terminal = Terminal::session(home.path());
