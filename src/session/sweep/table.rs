@@ -15,6 +15,25 @@ pub struct Columns {
     results: Vec<String>,
 }
 
+/// What a sweep came to: its table, and how its variants went.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Swept {
+    /// What the table is called.
+    pub table: String,
+    /// What its columns are called.
+    pub columns: Vec<String>,
+    /// How many rows it has.
+    pub n_rows: u64,
+    /// How many it is to have.
+    pub n_wanted: u64,
+    /// Variants that ended in an error, of those that were run now.
+    pub n_failed: u64,
+    /// Those that missed their tolerance.
+    pub n_missed: u64,
+    /// Those in which a motor could not go on.
+    pub n_dead: u64,
+}
+
 /// The columns behind the results.
 const LAST: [&str; 5] = ["status", "residual", "missed", "dead_points", "error"];
 
@@ -28,11 +47,16 @@ impl Columns {
         }
     }
 
+    /// What the columns are called.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let given = self.parameters.iter().chain(&self.results).map(String::as_str);
+        std::iter::once("variant").chain(given).chain(LAST)
+    }
+
     /// The heading of the table, with its line end.
     pub fn heading(&self) -> String {
-        let names = self.parameters.iter().chain(&self.results).map(|name| quoted(name));
-        let names: Vec<String> = names.chain(LAST.map(str::to_owned)).collect();
-        format!("variant,{}\n", names.join(","))
+        let names: Vec<String> = self.names().map(quoted).collect();
+        format!("{}\n", names.join(","))
     }
 
     /// The row of a variant, with its line end.
@@ -56,7 +80,7 @@ impl Columns {
             format_number(variant.residual),
             variant.n_missed,
             variant.n_dead_points,
-            variant.failure.as_deref().map_or_else(String::new, quoted)
+            variant.failure.as_ref().map_or_else(String::new, |failure| quoted(&failure.text))
         );
         row
     }

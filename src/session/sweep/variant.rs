@@ -10,6 +10,7 @@ use crate::lang::ast::Statement;
 use crate::lang::parse;
 use crate::render::{Options, Scene, svg};
 use crate::session::host::Host;
+use crate::session::json;
 use crate::session::results::Results;
 use crate::session::{Quota, Session};
 use crate::solve::{Status, verdict};
@@ -43,7 +44,16 @@ pub struct Variant {
     /// How often a motor could not go on.
     pub n_dead_points: u64,
     /// What was wrong, where a statement failed.
-    pub failure: Option<String>,
+    pub failure: Option<Failure>,
+}
+
+/// Why a variant came to no end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failure {
+    /// In a line, with the line of the script.
+    pub text: String,
+    /// As an object of the schema, with its places.
+    pub problem: json::Object,
 }
 
 impl Variant {
@@ -145,10 +155,12 @@ impl SweepScript {
             }
             if let Err(problem) = result {
                 let line = problem.place().and_then(|place| session.sources().place(place));
-                failure = Some(match line {
+                let text = match line {
                     Some(place) => format!("line {}: {problem}", place.line),
                     None => problem.to_string(),
-                });
+                };
+                let problem = json::diagnostic(&problem, session.sources());
+                failure = Some(Failure { text, problem });
                 break;
             }
         }
