@@ -64,7 +64,7 @@ pub use finding::{
     ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
 };
 pub use host::{Clock, Done, Host, Kept, Nowhere, contained, reason};
-pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request};
+pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request, problem_alone};
 pub use overview::{ConstraintView, Offence, ParameterView, Standing};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};

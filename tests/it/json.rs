@@ -185,6 +185,21 @@ fn the_numbers_of_a_fit_and_the_name_of_a_path_are_data() {
 }
 
 #[test]
+fn a_script_that_fails_is_an_object_to_those_who_examine_it() {
+    let folder = folder(&[("wrong.link", "point A = (0, 0)\nlenght A B\n")]);
+    for command in ["check", "effects", "accuracy"] {
+        let out = run(folder.path(), &[command, "--json", "wrong.link"], "");
+        assert_eq!((out.status.code(), &*text(&out.stderr)), (Some(2), ""), "of {command}");
+        let error: Value = serde_json::from_str(&text(&out.stdout)).expect("an object");
+        let place = &error["places"][0];
+        assert_eq!((&error["type"], &error["version"]), (&json!("error"), &json!(1)));
+        assert_eq!((&error["code"], &place["line"]), (&json!("E0101"), &json!(2)));
+    }
+    let (_, found) = objects(&["run", "--json", "four-bar.link", "--set", "nobody=1"], "");
+    assert_eq!(found.last().expect("objects")["type"], "warning");
+}
+
+#[test]
 fn requests_are_answered_up_to_done() {
     let requests = [
         json!({ "id": 7, "run": format!("{FOUR_BAR}trace B; set dt 1/4; step 4\nprint time") }),
