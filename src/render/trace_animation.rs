@@ -45,7 +45,7 @@ pub fn follow(
     vec![(faint, None), (drawn, Some(Keyframes { duration, tracks: vec![track] }))]
 }
 
-/// How long the path is up to each of its samples, px.
+/// How long the path is up to each of its samples, px, and where it closes all of it.
 fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
     let mut length = 0.0;
     let mut last = None;
@@ -54,5 +54,5 @@ fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
         length += last.replace(here).map_or(0.0, |before| here.distance(before));
         length
     };
-    curve.samples.read(|samples| samples.iter().map(|sample| sample.at).map(up_to).collect())
+    curve.read(|samples| samples.iter().map(|sample| sample.at).map(up_to).collect())
 }

@@ -30,7 +30,7 @@ enum Stroke {
 pub fn strokes(scene: &Scene, scale: f64) -> Option<String> {
     let mut layers = vec![("mechanism".to_owned(), mechanism(scene, scale))];
     for curve in &scene.curves {
-        let points = curve.samples.read(|all| {
+        let points = curve.read(|all| {
             let places = all.iter().map(|sample| scaled(sample.at, scale));
             thin(&places.collect::<Vec<_>>(), TOLERANCE)
         });
