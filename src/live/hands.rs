@@ -35,8 +35,7 @@ impl Live {
         if self.grip.is_some() {
             return refused("a point is held already");
         }
-        self.close(session, host);
-        self.keep(session, host);
+        self.rest(session, host);
         match session.take_hold(point, self.pace.is_some()) {
             Ok(_) => {
                 self.grip = Some(Grip { client, point, place: None, is_to_move: false });
@@ -66,6 +65,8 @@ impl Live {
             self.close(session, host);
         }
         if self.ongoing.is_none() {
+            // It begins with what was tried.
+            self.keep(session, host);
             self.ongoing = match self.grip {
                 None => Some(Ongoing::time()),
                 Some(grip) => session.take_hold(grip.point, self.pace.is_some()).ok(),
@@ -91,6 +92,13 @@ impl Live {
             self.close(session, host);
         }
         goes_on
+    }
+
+    /// Something else is to be done: what goes on is written, what was tried stays.
+    pub(super) fn rest(&mut self, session: &mut Session, host: &mut dyn Host) {
+        self.lead(session, host);
+        self.close(session, host);
+        self.keep(session, host);
     }
 
     /// Writes what goes on as a statement; gives it.

@@ -15,8 +15,7 @@ impl Live {
         session: &mut Session,
         host: &mut dyn Host,
     ) -> Value {
-        self.close(session, host);
-        self.keep(session, host);
+        self.rest(session, host);
         let mut listener = Listener::new(host);
         listener.source = Some(session.sources().next_id());
         let Outcome { flow, failure } = self.transcript.enter(text, session, &mut listener);
@@ -38,6 +37,7 @@ impl Live {
         session: &mut Session,
         host: &mut dyn Host,
     ) -> Value {
+        self.lead(session, host);
         self.close(session, host);
         if let Some(attempt) = self.attempt.take() {
             session.take_back(&attempt);

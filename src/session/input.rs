@@ -22,6 +22,8 @@ pub struct Input {
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
+    /// Whether the last command changed something that `undo` takes back.
+    pub is_change: bool,
     /// How much is allowed.
     pub quotas: Quotas,
     /// The statement of a text that was reached last.
@@ -40,6 +42,7 @@ impl Default for Input {
             overrides: BTreeMap::new(),
             typed: Vec::new(),
             is_unrepeatable: false,
+            is_change: false,
             quotas: Quotas::default(),
             reached: Span::new(SourceId(0), 0..0),
             n_files: 0,

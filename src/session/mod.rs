@@ -331,7 +331,8 @@ impl Session {
 
     /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
     fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
-        let leaves_a_mark = transcript::leaves_a_mark(&statement.command);
+        // Who asks for a turn has it counted from then on.
+        let leaves_a_mark = transcript::leaves_a_mark(&statement.command) || self.input.is_change;
         self.input.note_typed(statement.span, leaves_a_mark);
         let is_unrepeatable = std::mem::take(&mut self.input.is_unrepeatable);
         if !host.is_keeping() || !leaves_a_mark {
