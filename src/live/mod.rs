@@ -12,6 +12,7 @@
 //! [`work`](Live::work), so that of many moves that wait only the last counts; what is to be told is
 //! gathered by [`take`](Live::take).
 
+mod anchor;
 mod drawn;
 mod files;
 mod hands;
@@ -143,8 +144,7 @@ impl Live {
 
     /// The session is to be asked by others: what goes on is written, what was tried stays.
     pub fn hand_over(&mut self, session: &mut Session, host: &mut dyn Host) {
-        self.close(session, host);
-        self.keep(session, host);
+        self.rest(session, host);
     }
 
     /// Others may have changed the session.
@@ -233,8 +233,7 @@ impl Live {
             }
             Wish::Play(speed) => {
                 if self.pace.is_none() {
-                    self.close(session, host);
-                    self.keep(session, host);
+                    self.rest(session, host);
                 }
                 self.pace = Some(Pace::new(speed));
                 self.speed = speed;
@@ -246,6 +245,7 @@ impl Live {
                 return Some(complete(&self.completion, &text, at));
             }
             Wish::File(wish) => {
+                self.lead(session, host);
                 self.close(session, host);
                 return Some(match files::file(&wish, session, host) {
                     Ok(mut file) => {
