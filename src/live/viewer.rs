@@ -5,9 +5,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Message;
 use super::anchor::Places;
 use super::drawn;
+use super::message::Message;
 use super::pose::Pose;
 use crate::render::{Drawing, Followed, Scene};
 use crate::session::Session;
