@@ -10,8 +10,9 @@ use crate::constraint::Point;
 use crate::session::{Flow, Host, Ongoing, Session};
 use crate::world::PointId;
 
-/// Places of a gesture that are written in one statement; one that goes on is written in several.
-const MOST_PLACES: u64 = 5000;
+/// Places of a gesture that are written in one statement, minutes of it: its text is about a megabyte. One
+/// that goes on is written in several.
+const MOST_PLACES: u64 = 50_000;
 
 impl Live {
     pub(super) fn grab(

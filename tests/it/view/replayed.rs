@@ -69,9 +69,9 @@ struct Theatre {
 }
 
 impl Theatre {
-    fn new() -> Self {
+    fn on(scene: &str) -> Self {
         let mut session = Session::new();
-        session.run(SCENE).expect("the scene is right");
+        session.run(scene).expect("the scene is right");
         let mut live = Live::new("test");
         live.take_back_over(&session);
         let host = Answer::default();
@@ -144,7 +144,7 @@ impl Theatre {
 }
 
 fn is_as_its_journal(deeds: &[Deed]) {
-    let mut theatre = Theatre::new();
+    let mut theatre = Theatre::on(SCENE);
     deeds.iter().for_each(|deed| theatre.act(deed));
     let journal = theatre.journal();
     let mut again = Session::new();
@@ -167,4 +167,31 @@ proptest! {
     fn what_pages_did_is_what_the_journal_says(deeds in prop::collection::vec(deed(), 1..60)) {
         is_as_its_journal(&deeds);
     }
+}
+
+#[test]
+fn a_gesture_of_twenty_thousand_places_is_one_statement_and_one_step_of_undo() {
+    const SCENE: &str = "point A = (0, 0) frozen, B = (3, 0), C = (6, 0)\nlength A B; length B C";
+    let mut theatre = Theatre::on(SCENE);
+    theatre.act(&Deed::Tells(None));
+    let (before, bytes_before) = (theatre.session.to_script(), theatre.session.undo_bytes());
+    theatre.act(&Deed::Grabs(0, "C"));
+    for k in 0..20_000 {
+        let phi = f64::from(k) / 100.0;
+        let to = [4.0 * phi.cos(), 4.0 * phi.sin()];
+        theatre.act(&Deed::Says(0, json!({ "do": "move", "to": to })));
+        theatre.act(&Deed::Works(1));
+    }
+    theatre.act(&Deed::Says(0, json!({ "do": "release" })));
+    let bytes = theatre.session.undo_bytes() - bytes_before;
+    assert!(bytes < 4096, "what undo keeps is where points were before, not their ways: {bytes}");
+    let journal = theatre.journal();
+    assert_eq!(journal.len(), 1);
+    assert_eq!(journal[0].matches('(').count(), 20_000);
+    let mut again = Session::new();
+    again.run(SCENE).expect("the scene is right");
+    again.run(&journal[0]).expect("the statement is right");
+    assert_eq!(theatre.session.to_script(), again.to_script());
+    theatre.session.run("undo").expect("there is something to undo");
+    assert_eq!(theatre.session.to_script(), before);
 }

@@ -361,6 +361,26 @@ test("fingers drag a point, two of them move the view", async (t) => {
   }, "fingers twice as far apart make it twice as large");
 });
 
+test("Enter carries out what is there, however slowly the session answers", async (t) => {
+  const session = await s.session(t, ARM);
+  // A session that is asked what may stand here is a while about it.
+  const page = await s.openAt(t, session.address, {
+    before: () => {
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (message) {
+        setTimeout(() => send.call(this, message), 150);
+      };
+    },
+  });
+  await page.focus("#text");
+  await page.keyboard.type("point K = (0, 1)");
+  await page.keyboard.press("Enter");
+  await s.written(page, /^point K/);
+  await page.keyboard.type("for i in 1..2 {");
+  await page.keyboard.press("Enter");
+  await s.until(async () => (await page.inputValue("#text")).endsWith("{\n"), "the line goes on");
+});
+
 test("the box completes", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);
