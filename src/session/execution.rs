@@ -73,6 +73,7 @@ impl<'a> Execution<'a> {
     ) -> Self {
         let deadline = Deadline::after(input.quotas.seconds(), host);
         input.is_change = false;
+        input.n_done = None;
         Self {
             state,
             input,

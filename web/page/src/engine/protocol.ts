@@ -87,6 +87,8 @@ export interface ParameterState {
   readonly value: number | readonly number[] | null;
   /** Whether it depends on others. */
   readonly live: boolean;
+  /** Whether others depend on it. */
+  readonly used: boolean;
 }
 
 export interface SettingState {
