@@ -8,7 +8,7 @@ use super::execution::Flow;
 use super::host::Host;
 use super::{Session, next_of};
 use crate::diag::{Diagnostic, SourceId, Span};
-use crate::lang::ast::{Command, Running};
+use crate::lang::ast::Command;
 use crate::lang::parse;
 
 /// How a text went. The host was told what is wrong with it.
@@ -140,15 +140,10 @@ pub(super) fn leaves_a_mark(command: &Command) -> bool {
 }
 
 /// The statement that does what a statement did which was stopped after so many frames or iterations,
-/// where there is one: it depends on no clock.
+/// where there is one.
 pub(super) fn what_was_done(command: &Command, n: u64) -> Option<String> {
     match command {
-        Command::Running(Running::Step { promise, .. } | Running::Run { promise, .. })
-            if promise.within.is_none() && promise.in_time.is_none() =>
-        {
-            Some(format!("step {n}"))
-        }
-        Command::Running(Running::Relax(_)) => Some(format!("relax {n}")),
+        Command::Running(it) => it.stopped_after(n),
         _ => None,
     }
 }
