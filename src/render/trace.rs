@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::canvas::Canvas;
 use super::figure::{Figure, Key, Layer};
+use super::laps::once;
 use super::page::{BoundingBox, Page};
 use super::path::Path;
 use super::samples::Samples;
@@ -59,13 +60,6 @@ impl Curve {
             && (n == 0 || self.samples.at(n - 1) == other.samples.at(n - 1))
     }
 
-    /// Looks at the samples to be joined: all of them, and where they close the first once more.
-    pub fn read<T>(&self, look: impl FnOnce(&[Sample]) -> T) -> T {
-        self.samples.read(|samples| {
-            if closes(samples) { look(&[samples, &samples[..1]].concat()) } else { look(samples) }
-        })
-    }
-
     /// Grows the box to hold it.
     pub fn extend(&self, bounds: &mut BoundingBox) {
         self.samples.read(|all| all.iter().for_each(|sample| bounds.include(sample.at)));
@@ -95,33 +89,26 @@ impl Curve {
     /// The stretches that met their tolerance, and those that did not.
     fn paths(&self, page: &Page) -> [Path; 2] {
         let mut paths = [Path::default(), Path::default()];
-        self.read(|samples| {
-            for run in runs(samples) {
+        self.samples.read(|samples| {
+            let once = once(samples);
+            let lap: Vec<Sample> = once.of(samples).collect();
+            let runs = runs(&lap);
+            let is_closed = once.is_closed && runs.len() == 1;
+            for run in runs {
                 let is_missed = run[1].missed;
                 let points: Vec<Point> = run.iter().map(|sample| page.px(sample.at)).collect();
-                paths[usize::from(is_missed)].append(Path::polyline(thin(&points, TOLERANCE)));
+                let mut points = thin(&points, TOLERANCE);
+                let path = if is_closed {
+                    points.pop();
+                    Path::polygon(points)
+                } else {
+                    Path::polyline(points)
+                };
+                paths[usize::from(is_missed)].append(path);
             }
         });
         paths
     }
-}
-
-/// A path of fewer samples is never closed.
-const FEW: usize = 12;
-/// How far the step that closes a path may lead past its end, in steps.
-const ASTRAY: f64 = 0.3;
-
-/// Whether a path comes back to where it began: gone on with evenly by one more step, either way, it
-/// comes to its other end.
-fn closes(samples: &[Sample]) -> bool {
-    let &[first, second, third, .., before, last_but_one, last] = samples else { return false };
-    let next = |c: Sample, b: Sample, a: Sample| a.at + (a.at - b.at) * 2.0 - (b.at - c.at);
-    let step = (last.at - last_but_one.at).norm().max((second.at - first.at).norm());
-    let leads = |to: Point, end: Sample| to.distance(end.at) <= ASTRAY * step;
-    samples.len() >= FEW
-        && step > 0.0
-        && leads(next(before, last_but_one, last), first)
-        && leads(next(third, second, first), last)
 }
 
 /// Cuts a path where frames begin or cease to miss their tolerance. Each piece begins with
@@ -229,22 +216,6 @@ mod tests {
         check("rosette", &|t| Vector::polar(200.0 * libm::cos(28.0 * t), 7.0 * t).to_point(), 800);
         check("one place", &|_| Point::new(3.0, 4.0), 2);
         check("noise", &|t| Point::new(0.02 * libm::sin(1e4 * t), 0.02 * libm::cos(7e3 * t)), 3);
-    }
-
-    #[test]
-    fn a_path_closes_where_one_more_step_does() {
-        let path = |at: &dyn Fn(f64) -> Point, n: u32| -> Vec<Sample> {
-            (1..=n).map(|k| Sample { at: at(f64::from(k)), missed: false }).collect()
-        };
-        let turn = std::f64::consts::TAU / 36.0;
-        let circle = |k: f64| Vector::polar(2.0, turn * k).to_point();
-        // A whole turn, and two; a step less leaves a gap, and a spiral never comes back.
-        assert!(closes(&path(&circle, 36)) && closes(&path(&circle, 72)));
-        assert!(!closes(&path(&circle, 34)) && !closes(&path(&circle, 2)));
-        assert!(!closes(&path(&|k| Vector::polar(2.0 + 0.01 * k, turn * k).to_point(), 36)));
-        assert!(!closes(&path(&|k| Point::new(k, 0.0), 36)));
-        // It ends where it begins, but in another direction.
-        assert!(!closes(&path(&|k| Point::new((k - 18.0).abs(), 0.0), 35)));
     }
 
     #[test]

@@ -22,6 +22,10 @@ pub struct Input {
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
+    /// Whether the last command changed something that `undo` takes back.
+    pub is_change: bool,
+    /// How many frames or iterations the last command did, where it was stopped on its way.
+    pub n_done: Option<u64>,
     /// How much is allowed.
     pub quotas: Quotas,
     /// The statement of a text that was reached last.
@@ -40,6 +44,8 @@ impl Default for Input {
             overrides: BTreeMap::new(),
             typed: Vec::new(),
             is_unrepeatable: false,
+            is_change: false,
+            n_done: None,
             quotas: Quotas::default(),
             reached: Span::new(SourceId(0), 0..0),
             n_files: 0,
@@ -71,6 +77,12 @@ impl Input {
             self.folders.insert(id, folder);
         }
         id
+    }
+
+    /// Keeps a text of one statement; gives all of it.
+    pub fn add_whole(&mut self, name: &str, text: &str) -> Span {
+        let source = self.add_piece(name, text, 1, None);
+        Span::new(source, 0..text.len())
     }
 
     /// Keeps a text that others keep too.
