@@ -308,8 +308,8 @@ fn in_words(swept: &Swept) -> String {
         (swept.n_dead, "met dead points"),
     ];
     let told = told.into_iter().filter(|(n, _)| *n > 0);
-    let told: String = told.map(|(n, what)| format!(", {n} {what}")).collect();
-    format!("{rows} in {table}{told}")
+    let told: Vec<String> = told.map(|(n, what)| format!(", {n} {what}")).collect();
+    format!("{rows} in {table}{}", told.concat())
 }
 
 /// Refuses to replace a picture that this program did not draw.

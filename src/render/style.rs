@@ -325,7 +325,9 @@ impl Class {
                 text.push_str("px");
             }
             Self::Amount => {
-                text.push_str(&format!(";paint-order:stroke;font-size:{AMOUNT}px"));
+                text.push_str(";paint-order:stroke;font-size:");
+                push_decimals(&mut text, AMOUNT, 1);
+                text.push_str("px");
             }
             Self::Headline => text.push_str(";font-size:17px"),
             Self::RingWheel => text.push_str(";fill-rule:evenodd"),

@@ -240,16 +240,19 @@ fn words(chart: &str) -> Vec<(String, [f64; 4])> {
 fn no_words_of_a_chart_lie_on_each_other() {
     // Curves that end close together, or in one place, with short and long names.
     for (n, spread) in [(2, 0.0), (5, 0.0), (7, 0.01), (7, 0.3), (9, 0.05)] {
-        let mut script = "point A = (0, 0) frozen, B = (1, 0)
-            motor A B radius 1 speed 1rev; set dt 1/24\n"
-            .to_owned();
-        let names: Vec<String> =
-            (0..n).map(|k| format!("m{}", "long".repeat(k % 3) + &k.to_string())).collect();
-        for (k, name) in names.iter().enumerate() {
+        let names = (0..n).map(|k| format!("m{}{k}", "long".repeat(k % 3)));
+        let names: Vec<String> = names.collect();
+        let measures = names.iter().enumerate().map(|(k, name)| {
             let (shift, tilt) = (spread * k as f64, 0.2 * k as f64);
-            script += &format!("measure {name} = B.x + {shift} + {tilt} * (time - 1)\n");
-        }
-        script += &format!("step 24; plot \"c.svg\" {} against time", names.join(", "));
+            format!("measure {name} = B.x + {shift} + {tilt} * (time - 1)\n")
+        });
+        let script = format!(
+            "point A = (0, 0) frozen, B = (1, 0)
+             motor A B radius 1 speed 1rev; set dt 1/24
+             {}step 24; plot \"c.svg\" {} against time",
+            measures.collect::<Vec<_>>().concat(),
+            names.join(", ")
+        );
         let answer = Session::new().run(&script).unwrap_or_else(|e| panic!("{e}\n{script}"));
         let chart = answer.files.get(Path::new("c.svg")).expect("a chart");
         let words = words(std::str::from_utf8(chart).expect("a text"));
