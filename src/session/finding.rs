@@ -5,7 +5,6 @@ use std::path::Path;
 use super::check::Check;
 use super::effects::Effects;
 use super::summary::Summary;
-use super::sweep::Swept;
 use crate::mobility::DriverRange;
 use crate::solve::Halt;
 use crate::world::Value;
@@ -59,6 +58,25 @@ pub struct Fit {
     pub n_runs: u64,
     /// How long that took, where somebody has a clock.
     pub seconds: Option<f64>,
+}
+
+/// What a sweep came to: its table, and how its variants went.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Swept {
+    /// What the table is called.
+    pub table: String,
+    /// What its columns are called.
+    pub columns: Vec<String>,
+    /// How many rows it has.
+    pub n_rows: u64,
+    /// How many it is to have.
+    pub n_wanted: u64,
+    /// Variants that ended in an error, of those that were run now.
+    pub n_failed: u64,
+    /// Those that missed their tolerance.
+    pub n_missed: u64,
+    /// Those in which a motor could not go on.
+    pub n_dead: u64,
 }
 
 /// How far a driver can go.

@@ -61,7 +61,8 @@ pub use effects::{EffectRow, Effects};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
 pub use finding::{
-    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
+    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, Swept,
+    TraceRow,
 };
 pub use host::{Clock, Done, Host, Kept, Nowhere, contained, reason};
 pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request, problem_alone};
@@ -73,7 +74,7 @@ pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use sweep::{
-    Axis, Columns, Failure, Grid, Shard, SweepScript, Swept, Variant, parse_axis, picture_sheet,
+    Axis, Columns, Failure, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet,
 };
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 

@@ -7,11 +7,8 @@ mod request;
 
 pub use answers::problem_alone;
 pub use host::Objects;
-pub(super) use objects::{diagnostic, variant};
+pub(super) use objects::variant;
 pub use request::{answer_request, is_request};
-
-/// An object of the schema.
-pub type Object = serde_json::Value;
 
 /// The number of the schema. Fields and types are added under the same number; what would break who
 /// reads them takes the next one.

@@ -6,10 +6,10 @@ use super::VERSION;
 use crate::diag::{Diagnostic, Label, Severity, Sources, Span};
 use crate::mobility::{DriverRange, RangeEnd, Reach};
 use crate::session::finding::{
-    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow,
+    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, Swept,
 };
 use crate::session::summary::Summary;
-use crate::session::sweep::{Swept, Variant};
+use crate::session::sweep::Variant;
 use crate::solve::Halt;
 use crate::world::{self, World};
 
@@ -291,7 +291,7 @@ pub fn variant(parameters: &[String], variant: &Variant) -> Value {
     });
     if let Some(failure) = &variant.failure {
         object["error"] = json!(failure.text);
-        object["problem"] = failure.problem.clone();
+        object["problem"] = diagnostic(&failure.problem, &failure.sources);
     }
     object
 }

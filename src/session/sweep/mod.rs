@@ -6,5 +6,5 @@ mod table;
 mod variant;
 
 pub use grid::{Axis, Grid, Shard, parse_axis};
-pub use table::{Columns, Swept, picture_sheet};
+pub use table::{Columns, picture_sheet};
 pub use variant::{Failure, SweepScript, Variant};

@@ -15,25 +15,6 @@ pub struct Columns {
     results: Vec<String>,
 }
 
-/// What a sweep came to: its table, and how its variants went.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Swept {
-    /// What the table is called.
-    pub table: String,
-    /// What its columns are called.
-    pub columns: Vec<String>,
-    /// How many rows it has.
-    pub n_rows: u64,
-    /// How many it is to have.
-    pub n_wanted: u64,
-    /// Variants that ended in an error, of those that were run now.
-    pub n_failed: u64,
-    /// Those that missed their tolerance.
-    pub n_missed: u64,
-    /// Those in which a motor could not go on.
-    pub n_dead: u64,
-}
-
 /// The columns behind the results.
 const LAST: [&str; 5] = ["status", "residual", "missed", "dead_points", "error"];
 

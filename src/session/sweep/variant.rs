@@ -10,7 +10,6 @@ use crate::lang::ast::Statement;
 use crate::lang::parse;
 use crate::render::{Options, Scene, svg};
 use crate::session::host::Host;
-use crate::session::json;
 use crate::session::results::Results;
 use crate::session::{Quota, Session};
 use crate::solve::{Status, verdict};
@@ -27,7 +26,7 @@ pub struct SweepScript {
 }
 
 /// What came of a variant.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Variant {
     /// Its number in the grid, from 0.
     pub number: u64,
@@ -48,12 +47,14 @@ pub struct Variant {
 }
 
 /// Why a variant came to no end.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Failure {
     /// In a line, with the line of the script.
     pub text: String,
-    /// As an object of the schema, with its places.
-    pub problem: json::Object,
+    /// The whole of it.
+    pub problem: Diagnostic,
+    /// The texts that its places are in.
+    pub sources: Sources,
 }
 
 impl Variant {
@@ -159,8 +160,7 @@ impl SweepScript {
                     Some(place) => format!("line {}: {problem}", place.line),
                     None => problem.to_string(),
                 };
-                let problem = json::diagnostic(&problem, session.sources());
-                failure = Some(Failure { text, problem });
+                failure = Some(Failure { text, problem, sources: session.sources().clone() });
                 break;
             }
         }
