@@ -26,6 +26,7 @@ impl Island {
         let found = self.run_closed(&mut form, tolerance);
         if found.is_some() {
             self.history.advance();
+            self.accept_pose();
         }
         self.closed_form = Compiled::List(form);
         found

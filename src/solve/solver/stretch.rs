@@ -106,7 +106,7 @@ impl Solver {
                     riders.iter().for_each(|rider| write_back(&rider.island, world));
                     failure = keep(&mut riders, world, kept, on).err();
                 }
-                is_side_by_side = true;
+                is_side_by_side = riders.iter().all(|rider| rider.form.is_for_lanes());
             } else {
                 break;
             }
@@ -307,6 +307,7 @@ impl Rider {
     fn accept(&mut self, stretch: &mut Stretch) {
         let Self { island, found, .. } = self;
         island.history.advance();
+        island.accept_pose();
         island.position_error = 0.0;
         if found.is_sensitive() {
             let size = island.size_before();
@@ -377,6 +378,10 @@ impl Rider {
     fn end_side_by_side(&mut self, n: usize) {
         let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
         lanes.accept(n, form, island);
+        if n > 0 {
+            // What is carried on of a pose here does not depend on those before.
+            island.accept_pose();
+        }
         if let Some(last) = n.checked_sub(1) {
             *found = lanes.found(last);
         }
