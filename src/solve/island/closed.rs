@@ -145,6 +145,12 @@ impl Island {
         self.size_between(corners(free.chain(still)))
     }
 
+    /// What its size is at least, wherever its free points are.
+    pub fn least_size(&self) -> f64 {
+        let (lo, hi) = corners(self.x[self.n_free..].iter().copied());
+        (hi.x - lo.x).max(hi.y - lo.y).max(self.wanted())
+    }
+
     fn compile(&self) -> Option<Box<ClosedForm>> {
         let degree = self.highest_degree();
         ClosedForm::new(&self.plan, &self.constraints, self.points.len(), degree).map(Box::new)
