@@ -225,6 +225,21 @@ test("what cannot be met is red, with its error", async (t) => {
   assert.ok(reds > 300, `${reds} red pixels`);
 });
 
+test("the largest residual is that of the last picture", async (t) => {
+  const session = await s.session(t, `${ARM}solve\n`);
+  const page = await s.openAt(t, session.address);
+  const fact = page.locator(".fact", { hasText: "largest residual" });
+  const shown = async () => Number(/residual(.*)/.exec(await fact.textContent())?.[1]);
+  for (let k = 0; k < 3; k++) {
+    // One picture soon after the other.
+    await s.tell(page, "move B to (9, 9)");
+    await s.tell(page, "undo");
+    await s.until(async () => (await shown()) < 1e-9, "it holds again");
+  }
+  await s.tell(page, "move B to (9, 9)");
+  await s.until(async () => (await shown()) > 0.1, "it is off");
+});
+
 test("two pages show one session, and the prompt is a third", async (t) => {
   const session = await s.session(t, ARM);
   const [one, two] = [await s.openAt(t, session.address), await s.openAt(t, session.address)];
