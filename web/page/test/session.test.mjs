@@ -430,6 +430,40 @@ test("Enter carries out what is there, however slowly the session answers", asyn
   await s.until(async () => (await page.inputValue("#text")).endsWith("{\n"), "the line goes on");
 });
 
+test("places that a slow engine has not come to are left out, all but the last", async (t) => {
+  const session = await s.session(t, ARM);
+  const page = await s.openAt(t, session.address, {
+    before: () => {
+      window.nMoves = 0;
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (message) {
+        const isMove = message.includes('"do":"move"');
+        if (isMove) window.nMoves += 1;
+        // What is sent takes its time, and keeps its order.
+        setTimeout(() => send.call(this, message), 300);
+      };
+    },
+  });
+  const from = await s.screen(page, { x: 3, y: 1 });
+  const to = await s.screen(page, { x: 2.5, y: 1.4 });
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let k = 1; k <= 40; k++) {
+    const share = k / 40;
+    await page.mouse.move(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
+  }
+  await page.mouse.up();
+  const statement = await s.written(page, /^pull C/);
+  const [x, y] = statement
+    .match(/-?[\d.]+/g)
+    .slice(-3, -1)
+    .map(Number);
+  s.near({ x, y }, { x: 2.5, y: 1.4 }, 0.01);
+  const begun = statement.match(/\(/g).length;
+  assert.equal(await page.evaluate(() => window.nMoves), begun, "each that was sent was led to");
+  assert.ok(begun < 30, `${begun} places`);
+});
+
 test("the box completes", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);
