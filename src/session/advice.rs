@@ -11,7 +11,8 @@ use crate::world::Entity;
 
 impl Session {
     /// What is wrong with a text, said to who has this world in front of them: `coupler = 4` asks
-    /// for a `change` where `coupler` is a constraint.
+    /// for a `change` where `coupler` is a constraint, and `A B` begins with no misspelt command where
+    /// `A` is a point.
     #[must_use]
     pub fn advise(&self, problem: Diagnostic) -> Diagnostic {
         self.state.advise(problem, self.sources())
@@ -21,12 +22,19 @@ impl Session {
 impl State {
     /// As [`Session::advise`].
     pub(super) fn advise(&self, mut problem: Diagnostic, sources: &Sources) -> Diagnostic {
-        if problem.code != Some(errors::ASSIGNMENT) {
-            return problem;
-        }
         let Some(place) = problem.place() else { return problem };
         let name = sources.slice(place);
         let Some(entity) = self.world.names().get(name) else { return problem };
+        let before = sources.get(place.source).map_or("", |it| &it.text[..place.range().start]);
+        let begins = before.trim_end_matches([' ', '\t']);
+        let is_first = begins.is_empty() || begins.ends_with(['\n', ';', '{']);
+        if problem.code == Some(errors::UNKNOWN_COMMAND) && is_first {
+            problem.helps =
+                vec![format!("`{name}` is {}: `show {name}` tells of it", noun(entity))];
+        }
+        if problem.code != Some(errors::ASSIGNMENT) {
+            return problem;
+        }
         let text = sources.get(place.source).map_or("", |source| &source.text);
         let value = assigned(&text[place.range().end..]);
         let (what, statement) = match entity {
@@ -47,6 +55,16 @@ impl State {
         };
         problem.helps = vec![format!("{what}, write `{statement}`")];
         problem
+    }
+}
+
+/// What a thing is, as a sentence ends.
+const fn noun(entity: Entity) -> &'static str {
+    match entity {
+        Entity::Point(_) => "a point",
+        Entity::Parameter(_) => "a parameter",
+        Entity::Constraint(_) => "a constraint",
+        Entity::Measure(_) => "a measure",
     }
 }
 

@@ -22,6 +22,10 @@ pub struct Input {
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
+    /// How far the last command came, where the user stopped it and what it did stays.
+    pub stopped_after: Option<u64>,
+    /// How far the next statement is to come, which was stopped when it was carried out first.
+    pub next_stop: Option<u64>,
     /// How much is allowed.
     pub quotas: Quotas,
     /// The statement of a text that was reached last.
@@ -40,6 +44,8 @@ impl Default for Input {
             overrides: BTreeMap::new(),
             typed: Vec::new(),
             is_unrepeatable: false,
+            stopped_after: None,
+            next_stop: None,
             quotas: Quotas::default(),
             reached: Span::new(SourceId(0), 0..0),
             n_files: 0,

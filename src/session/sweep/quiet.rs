@@ -5,7 +5,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Sources};
-use crate::interrupt::Wish;
 use crate::session::finding::Finding;
 use crate::session::host::Host;
 use crate::solve::Status;
@@ -32,12 +31,28 @@ impl<'a> Quiet<'a> {
 }
 
 impl Host for Quiet<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&*self.outside)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut *self.outside)
+    }
+
     fn print(&mut self, _line: &str) {}
 
     fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
 
     fn is_listening(&self) -> bool {
         false
+    }
+
+    fn is_keeping(&self) -> bool {
+        false
+    }
+
+    fn opening(&mut self, _path: &Path) -> io::Result<Option<Vec<u8>>> {
+        Ok(None)
     }
 
     fn takes_findings(&self) -> bool {
@@ -57,18 +72,6 @@ impl Host for Quiet<'_> {
         }
     }
 
-    fn wish_to_stop(&self) -> Option<Wish> {
-        self.outside.wish_to_stop()
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.outside.is_interrupted()
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.outside.resolve(path)
-    }
-
     fn read(&mut self, path: &Path) -> io::Result<String> {
         match self.written.get(path) {
             Some(bytes) => Ok(String::from_utf8_lossy(bytes).into_owned()),
@@ -76,16 +79,8 @@ impl Host for Quiet<'_> {
         }
     }
 
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.outside.find(folder, path)
-    }
-
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         self.written.insert(path.to_path_buf(), bytes.to_vec());
         Ok(())
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.outside.seconds()
     }
 }

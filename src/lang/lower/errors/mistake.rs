@@ -14,7 +14,7 @@ use super::expected::{Expected, PATH};
 use super::refusal;
 use crate::lang::grammar::Rule;
 use crate::lang::lower::Reader;
-use crate::lang::lower::prefix::{first_word, is_word_char};
+use crate::lang::lower::prefix::{first_word, is_short, is_word_char, reads};
 
 impl Reader<'_> {
     /// What to say when `rule` does not fit the bytes `range`.
@@ -57,7 +57,14 @@ impl Reader<'_> {
         let behind = &self.text[found.span.range().end..range.end];
         let short = misspelt.is_none() || found.word(self).len() <= 2;
         let other_points = other_points(word, before, found.word(self), behind, &expected);
+        let statement = &self.text[range.clone()];
+        let reworded = if is_bare {
+            compared(before, found.term.trim_matches('`'), behind)
+        } else {
+            without_parentheses(statement, word)
+        };
         let help = match (misspelt, other_points.filter(|_| short)) {
+            _ if reworded.is_some() => reworded,
             (_, Some(name)) => Some(format!(
                 "a constraint keeps its points: `delete {}`, and state it anew with others",
                 brief(name)
@@ -162,6 +169,9 @@ impl Reader<'_> {
             }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
+            }
+            _ if expected.has("`,`") && expected.has("`)`") && found.what == Found::Word => {
+                "a comma stands between two values".to_owned()
             }
             _ if word.starts_with('\'') => "a string stands in double quotes: `\"...\"`".to_owned(),
             _ if before.ends_with(|char: char| char.is_ascii_digit())
@@ -273,6 +283,33 @@ impl FoundAt {
 
 const NO_BREAK_SPACE: &str = "no-break space";
 const ODD_BLANK: &str = "odd blank";
+
+/// What asks whether a comparison holds that stands there as a value.
+fn compared(left: &str, sign: &str, right: &str) -> Option<String> {
+    let sign = match sign {
+        "=" | "<" | "<=" | ">" | ">=" => sign,
+        "==" => "=",
+        "=<" => "<=",
+        "=>" => ">=",
+        _ => return None,
+    };
+    let statement = format!("assert {left} {sign} {}", right.trim());
+    let is_one = is_short(&statement) && reads(&statement);
+    is_one.then(|| format!("to ask whether that holds, write `{statement}`"))
+}
+
+/// What to type where a command has its parts in parentheses, as functions have.
+fn without_parentheses(statement: &str, word: &str) -> Option<String> {
+    let inside = statement.strip_prefix(word)?.trim_start().strip_prefix('(')?;
+    let (inside, behind) = inside.split_once(')')?;
+    let blanks = inside.replace(',', " ");
+    let mut reworded = [inside, &blanks].into_iter().map(|inside| {
+        let words = format!("{word} {inside} {behind}");
+        words.split_whitespace().collect::<Vec<_>>().join(" ")
+    });
+    let statement = reworded.find(|statement| is_short(statement) && reads(statement))?;
+    Some(format!("a command has no parentheses: `{statement}`"))
+}
 
 /// The name in a `change` that gives other points, as the statement does that makes a constraint:
 /// two names stand behind it.
