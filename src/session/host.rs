@@ -107,7 +107,7 @@ pub trait Host {
 
     /// Whether a journal is kept of what is typed.
     fn is_keeping(&self) -> bool {
-        self.behind().is_some_and(|host| host.is_keeping())
+        self.behind().is_some_and(Host::is_keeping)
     }
 
     /// Takes what its journal needs to bring the session back, as it was after a statement.
@@ -119,7 +119,7 @@ pub trait Host {
 
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {
-        self.behind().is_some_and(|host| host.is_interrupted())
+        self.behind().is_some_and(Host::is_interrupted)
     }
 
     /// What says the same within a long piece of work, which is then left half done and taken back;
@@ -200,7 +200,10 @@ pub trait Host {
     /// # Errors
     /// Where there is no room for it.
     fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        self.behind_mut().map_or_else(|| Ok(Box::new(Vec::new()) as _), |host| host.spool())
+        match self.behind_mut() {
+            Some(host) => host.spool(),
+            None => Ok(Box::new(Vec::new())),
+        }
     }
 
     /// Lets a page look at the session from here on; gives its address.
