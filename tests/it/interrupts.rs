@@ -246,9 +246,9 @@ impl Host for Hasty {
 
     fn keep(&mut self, kept: Kept<'_>) {
         match kept {
-            Kept::Statement(text) => self.kept += &format!("{text}\n"),
+            Kept::Statement(text) => self.kept.extend([text, "\n"]),
             Kept::Stopped { text, n_done } => {
-                self.kept += &format!("restore stop = {n_done}\n{text}\n");
+                self.kept.extend([&*format!("restore stop = {n_done}\n"), text, "\n"]);
             }
             Kept::Whole(script) => {
                 self.is_ended |= self.is_asked.replace(true);
