@@ -121,7 +121,8 @@ impl<'a> Reader<'a> {
         let fits = |word: &str| !expects_constraint || constraint::rule(word).is_some();
         if let Some(trade) = catalogue::trade(word).filter(|trade| fits(trade.command)) {
             let statement = in_our_words(trade, prefix.label.as_ref(), rest);
-            return problem.help(format!("`{shown}` {}: `{statement}`", trade.says));
+            let problem = problem.help(format!("`{shown}` {}: `{statement}`", trade.says));
+            return called(word, rest).into_iter().fold(problem, Diagnostic::help);
         }
         if let Some(called) = called(word, rest).filter(|_| !expects_constraint) {
             return problem.help(called);

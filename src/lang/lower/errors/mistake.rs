@@ -61,7 +61,10 @@ impl Reader<'_> {
         let reworded = if is_bare {
             compared(before, found.term.trim_matches('`'), behind)
         } else {
+            let rest = &self.text[found.span.range().start..range.end];
             without_parentheses(statement, word)
+                .or_else(|| with_word(before, &expected, rest))
+                .or_else(|| as_position(statement))
         };
         let help = match (misspelt, other_points.filter(|_| short)) {
             _ if reworded.is_some() => reworded,
@@ -169,6 +172,11 @@ impl Reader<'_> {
             }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
+            }
+            _ if expected.has("`frozen`")
+                && catalogue::trade(word).is_some_and(|trade| trade.command == "freeze") =>
+            {
+                "did you mean `frozen`?".to_owned()
             }
             _ if expected.has("`,`") && expected.has("`)`") && found.what == Found::Word => {
                 "a comma stands between two values".to_owned()
@@ -309,6 +317,34 @@ fn without_parentheses(statement: &str, word: &str) -> Option<String> {
     });
     let statement = reworded.find(|statement| is_short(statement) && reads(statement))?;
     Some(format!("a command has no parentheses: `{statement}`"))
+}
+
+/// The statement with the only word or sign that could stand before its rest.
+fn with_word(before: &str, expected: &Expected, rest: &str) -> Option<String> {
+    let [word] = &expected.terms[..] else { return None };
+    let word = word.strip_prefix('`')?.strip_suffix('`')?;
+    let rests = [Some(rest.to_owned()), vector(rest)].into_iter().flatten();
+    let mut statements = rests.map(|rest| format!("{before} {word} {rest}"));
+    let statement = statements.find(|statement| is_short(statement) && reads(statement))?;
+    Some(format!("did you mean `{statement}`?"))
+}
+
+/// The statement with a position in parentheses where two numbers stand behind its `=` or `to`.
+fn as_position(statement: &str) -> Option<String> {
+    [" = ", " to "].into_iter().find_map(|sign| {
+        let (before, numbers) = statement.split_once(sign)?;
+        let statement = format!("{before}{sign}{}", vector(numbers)?);
+        let is_one = is_short(&statement) && reads(&statement);
+        is_one.then(|| format!("a position is a vector: `{statement}`"))
+    })
+}
+
+/// Two numbers as a vector.
+fn vector(text: &str) -> Option<String> {
+    let mut numbers = text.split([' ', '\t', ',']).filter(|number| !number.is_empty());
+    let (x, y) = (numbers.next()?, numbers.next()?);
+    let are_numbers = [x, y].iter().all(|number| number.parse::<f64>().is_ok());
+    (are_numbers && numbers.next().is_none()).then(|| format!("({x}, {y})"))
 }
 
 /// The name in a `change` that gives other points, as the statement does that makes a constraint:
