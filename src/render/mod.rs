@@ -24,6 +24,7 @@ mod trace;
 mod canvas;
 mod figure;
 mod labels;
+mod laps;
 mod legend;
 mod lettering;
 mod occupancy;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::canvas::Canvas;
 use super::figure::{Figure, Key, Layer};
+use super::laps::once;
 use super::page::{BoundingBox, Page};
 use super::path::Path;
 use super::samples::Samples;
@@ -89,10 +90,21 @@ impl Curve {
     fn paths(&self, page: &Page) -> [Path; 2] {
         let mut paths = [Path::default(), Path::default()];
         self.samples.read(|samples| {
-            for run in runs(samples) {
+            let once = once(samples);
+            let lap: Vec<Sample> = once.of(samples).collect();
+            let runs = runs(&lap);
+            let is_closed = once.is_closed && runs.len() == 1;
+            for run in runs {
                 let is_missed = run[1].missed;
                 let points: Vec<Point> = run.iter().map(|sample| page.px(sample.at)).collect();
-                paths[usize::from(is_missed)].append(Path::polyline(thin(&points, TOLERANCE)));
+                let mut points = thin(&points, TOLERANCE);
+                let path = if is_closed {
+                    points.pop();
+                    Path::polygon(points)
+                } else {
+                    Path::polyline(points)
+                };
+                paths[usize::from(is_missed)].append(path);
             }
         });
         paths

@@ -3,6 +3,7 @@
 use super::canvas::{Canvas, Lettering};
 use super::figure::{Figure, Outline};
 use super::keyframes::{AnimatedAttribute, Keyframes, track};
+use super::laps::once;
 use super::page::Page;
 use super::style::{Class, colour_number};
 use super::trace::Curve;
@@ -54,5 +55,11 @@ fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
         length += last.replace(here).map_or(0.0, |before| here.distance(before));
         length
     };
-    curve.samples.read(|samples| samples.iter().map(|sample| sample.at).map(up_to).collect())
+    curve.samples.read(|samples| {
+        let lap = once(samples).of(samples);
+        let mut lengths: Vec<f64> = lap.map(|sample| sample.at).map(up_to).collect();
+        // Later laps add nothing.
+        lengths.resize(samples.len(), lengths.last().copied().unwrap_or(0.0));
+        lengths
+    })
 }

@@ -523,3 +523,26 @@ fn empty_recordings_and_single_frames_are_pictures() {
     let frames = motion(&mut session(FOUR_BAR), 1);
     assert!(!animation(&frames).contains("<animate"));
 }
+
+#[test]
+fn ten_laps_are_drawn_as_one_that_closes() {
+    let drawn = |n: u32| {
+        let mut session = session(FOUR_BAR);
+        run(&mut session, &format!("step {n}"));
+        let elements = check(&picture_of(session.world()));
+        let paths = ["trace-0", "trace-1"].map(|class| {
+            let of_class = with_class(&elements, class).into_iter();
+            of_class.filter_map(|e| e.get("d").map(str::to_owned)).collect::<Vec<_>>()
+        });
+        paths.concat()
+    };
+    let (lap, ten) = (drawn(91), drawn(901));
+    assert_eq!((lap.len(), ten.len()), (4, 4), "each path and its legend");
+    let is_closed = |path: &&String| path.ends_with('Z');
+    assert_eq!(lap.iter().filter(is_closed).count(), 2);
+    for (one, all) in lap.iter().zip(&ten) {
+        // What the laps begin with, and so where lines are thinned, may differ by rounding.
+        assert!(all.len() <= one.len() + 20, "{} and {}", one.len(), all.len());
+    }
+    assert_eq!(drawn(45).iter().filter(is_closed).count(), 0);
+}

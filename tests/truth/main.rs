@@ -30,7 +30,7 @@ const LIMITS: [(&str, u64, &[usize]); 23] = [
     ("dead_points", 80, &[0, 0]),
     ("change_points", 20, &[0, 0]),
     ("velocities", 150, &[0]),
-    ("receipts", 60, &[0, 0, 1, 0]),
+    ("receipts", 300, &[0; 4]),
     ("looser", 20, &[0]),
     ("effects", 2, &[0]),
     ("order", 60, &[0]),

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use crate::constraint::parts::carried_crank::CarriedCrank;
 use crate::constraint::parts::content::add_all;
-use crate::constraint::parts::geometry::has_direction;
+use crate::constraint::parts::geometry::{has_direction, wrap};
 use crate::constraint::parts::heading::Heading;
 use crate::constraint::parts::linear::Linear;
+use crate::constraint::parts::sines::sines_and_cosines;
 use crate::constraint::parts::two_rows;
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
@@ -90,7 +91,13 @@ impl Motor {
 
     /// How far the driven point went around the centre since it pointed elsewhere.
     pub fn way_since(&self, before: Heading) -> f64 {
-        self.heading.turned.apart(before.turned) * self.drive.radius
+        self.way_between(before, self.heading)
+    }
+
+    /// How far the driven point goes around the centre from where it points at to there.
+    #[inline]
+    pub fn way_between(&self, before: Heading, now: Heading) -> f64 {
+        now.turned.apart(before.turned) * self.drive.radius
     }
 
     /// Puts it where a copy of it was, or will be.
@@ -118,7 +125,7 @@ impl Motor {
 
     /// The angle without whole turns, radians.
     pub fn angle(&self) -> f64 {
-        crate::constraint::parts::geometry::wrap(self.drive.phase + self.heading.turned.angle())
+        self.angle_at(self.heading.turned)
     }
 
     /// The angle with whole turns, `phase + turned`, radians.
@@ -148,6 +155,45 @@ impl Motor {
         if mean != self.drive.mean_speed {
             Arc::make_mut(&mut self.drive).mean_speed = mean;
         }
+    }
+
+    /// Advances so many times by `dt`; where it points after each.
+    #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
+    #[inline(always)]
+    pub fn advance_each<const N: usize>(&mut self, dt: f64) -> [Heading; N] {
+        let mut headings = [self.heading; N];
+        let Some(step) = self.step(dt) else { return headings };
+        let mut angles = [0.0; N];
+        let mut turned = self.heading.turned;
+        for (heading, angle) in headings.iter_mut().zip(&mut angles) {
+            turned = turned.plus(step);
+            heading.turned = turned;
+            *angle = self.angle_at(turned);
+        }
+        let [sines, cosines] = sines_and_cosines(&angles);
+        let radius = self.drive.radius;
+        for (l, heading) in headings.iter_mut().enumerate() {
+            heading.target = Vector::new(radius * cosines[l], radius * sines[l]);
+        }
+        self.heading = headings[N - 1];
+        headings
+    }
+
+    /// How far it turns in `dt`; none if it stands still.
+    fn step(&mut self, dt: f64) -> Option<Turns> {
+        let step = self.drive.mean_speed * dt;
+        if step == 0.0 {
+            return None;
+        }
+        if step != self.drive.step.0 {
+            Arc::make_mut(&mut self.drive).step = (step, Turns::from_radians(step));
+        }
+        Some(self.drive.step.1)
+    }
+
+    /// The angle without whole turns once it has turned so far, radians.
+    fn angle_at(&self, turned: Turns) -> f64 {
+        wrap(self.drive.phase + turned.angle())
     }
 
     fn aim(&mut self) {
@@ -386,14 +432,8 @@ impl Stateful for Motor {
 
     /// Turns on by `dt` times the mean speed; `-dt` takes the frame back that `dt` was.
     fn advance(&mut self, dt: f64) -> bool {
-        let step = self.drive.mean_speed * dt;
-        if step == 0.0 {
-            return false;
-        }
-        if step != self.drive.step.0 {
-            Arc::make_mut(&mut self.drive).step = (step, Turns::from_radians(step));
-        }
-        self.heading.turned = self.heading.turned.plus(self.drive.step.1);
+        let Some(step) = self.step(dt) else { return false };
+        self.heading.turned = self.heading.turned.plus(step);
         self.aim();
         true
     }

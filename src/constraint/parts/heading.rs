@@ -13,6 +13,11 @@ pub struct Heading {
 }
 
 impl Heading {
+    /// Where the driven point belongs, from the centre, if the angle is measured from the x axis.
+    pub const fn target(self) -> Vector {
+        self.target
+    }
+
     /// Whether another is the same to the bit.
     pub fn is_same(&self, other: Self) -> bool {
         let bits = |heading: Self| {

@@ -12,6 +12,7 @@ pub mod line;
 pub mod linear;
 pub mod program;
 pub mod row;
+pub(crate) mod sines;
 pub mod turns;
 pub mod two_rows;
 pub mod vec2;

@@ -64,6 +64,10 @@ impl Turns {
     #[must_use]
     pub fn plus(self, by: Self) -> Self {
         let fraction = self.fraction.plus(by.fraction);
+        if fraction.hi.abs() < 0.5 && fraction.hi != 0.0 {
+            // Nothing is carried, as in most frames, and it is a sum already.
+            return Self { whole: self.whole.saturating_add(by.whole), fraction };
+        }
         let carry = fraction.hi.round();
         Self {
             whole: self.whole.saturating_add(by.whole).saturating_add(carry as i64),

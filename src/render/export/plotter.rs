@@ -6,6 +6,7 @@ use super::notation::escaped;
 use crate::constraint::{Point, Vector};
 use crate::diag::format_decimals;
 use crate::render::FIRST_WORDS;
+use crate::render::laps::once;
 use crate::render::page::BoundingBox;
 use crate::render::scene::Scene;
 use crate::render::symbols::SymbolForm;
@@ -31,7 +32,7 @@ pub fn strokes(scene: &Scene, scale: f64) -> Option<String> {
     let mut layers = vec![("mechanism".to_owned(), mechanism(scene, scale))];
     for curve in &scene.curves {
         let points = curve.samples.read(|all| {
-            let places = all.iter().map(|sample| scaled(sample.at, scale));
+            let places = once(all).of(all).map(|sample| scaled(sample.at, scale));
             thin(&places.collect::<Vec<_>>(), TOLERANCE)
         });
         layers.push((curve.name.to_string(), vec![Stroke::Chain(points)]));

@@ -1,6 +1,7 @@
 //! Where two circles around known points meet.
 
-use super::found::Found;
+use super::abreast::{Meeting, Met};
+use super::found::larger;
 use crate::constraint::{Point, PointIdx};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -31,7 +32,7 @@ pub(super) struct Circles {
 }
 
 /// Sixteen times the square of the area between the centres and the point.
-#[inline]
+#[inline(always)]
 fn area_squared([outer, inner]: [f64; 2], apart_squared: f64) -> f64 {
     (outer - apart_squared) * (apart_squared - inner)
 }
@@ -65,41 +66,61 @@ impl Circles {
         self.apart = e.norm_squared().sqrt();
         self.side = if e.cross(x[self.to as usize] - a) < 0.0 { -1.0 } else { 1.0 };
     }
+}
 
-    /// Puts the point where the circles meet, on the side where it was, if no pose on the way is
-    /// nearly singular.
-    #[inline]
-    pub fn run(&mut self, x: &mut [Point], ways: &mut [f64], found: &mut Found) -> Option<()> {
-        let [a, b] = self.from.map(|p| x[p as usize]);
+impl Meeting<2> for Circles {
+    fn to(&self) -> PointIdx {
+        self.to
+    }
+
+    fn from(&self) -> [PointIdx; 2] {
+        self.from
+    }
+
+    /// The distance of the centres.
+    #[inline(always)]
+    fn gauge(&self, [a, b]: [Point; 2]) -> f64 {
+        (b - a).norm_squared().sqrt()
+    }
+
+    fn last(&mut self) -> &mut f64 {
+        &mut self.apart
+    }
+
+    /// Where the circles meet, on the side where the point was, if no pose on the way is nearly
+    /// singular.
+    #[inline(always)]
+    fn meet(&self, [a, b]: [Point; 2], [before, apart]: [f64; 2], ways: [f64; 2]) -> Met {
         let e = b - a;
         let apart_squared = e.norm_squared();
         let squared = area_squared(self.reach_squares, apart_squared);
-        let apart = apart_squared.sqrt();
-        let way = ways[self.from[0] as usize] + ways[self.from[1] as usize];
+        let way = ways[0] + ways[1];
         // The distance changes by no more than the ways of both centres, there and back included.
-        let middle = apart + self.apart;
+        let middle = apart + before;
         let (near, far) = (0.5 * (middle - way), 0.5 * (middle + way));
-        let ends = [near, far].map(|d| area_squared(self.reach_squares, d * d));
-        let least = if ends[0] < ends[1] { ends[0] } else { ends[1] };
+        let at_near = area_squared(self.reach_squares, near * near);
+        let at_far = area_squared(self.reach_squares, far * far);
+        let least = if at_near < at_far { at_near } else { at_far };
         let [outer, inner] = self.reach;
         // False for what is not a number.
-        let is_proved = near > inner && far < outer && least > self.least && squared > self.least;
-        if !is_proved {
-            return None;
-        }
-        // Its velocity is that of the centres over the sine, at most.
-        ways[self.to as usize] = way * self.scale / least.sqrt();
+        let is_proved =
+            (near > inner) & (far < outer) & (least > self.least) & (squared > self.least);
         let half = 0.5 / apart_squared;
         let along = 0.5 + (self.squares[0] - self.squares[1]) * half;
         let across = self.side * squared.sqrt() * half;
         let v = e * along + e.perp() * across;
-        let p = a + v;
-        x[self.to as usize] = p;
-        let w = p - b;
-        found.add(((p - a).norm_squared() - self.squares[0]) * self.half_inverses[0]);
-        found.add((w.norm_squared() - self.squares[1]) * self.half_inverses[1]);
-        found.add_side(squared * self.inverse_square);
-        self.apart = apart;
-        Some(())
+        let at = a + v;
+        let w = at - b;
+        let off = larger(
+            (((at - a).norm_squared() - self.squares[0]) * self.half_inverses[0]).abs(),
+            (w.norm_squared() - self.squares[1]) * self.half_inverses[1],
+        );
+        Met {
+            at,
+            // Its velocity is that of the centres over the sine, at most.
+            way: way * self.scale / least.sqrt(),
+            off: if is_proved { off } else { f64::NAN },
+            side_squared: squared * self.inverse_square,
+        }
     }
 }

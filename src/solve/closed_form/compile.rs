@@ -1,5 +1,6 @@
 //! From the constraints of an island to its list of steps.
 
+use super::abreast::Abreast;
 use super::{CircleLine, Circles, ClosedForm, Crank, Radius, Ray, Step, Sum};
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Block, Form, Plan};
@@ -32,7 +33,7 @@ impl ClosedForm {
             steps: Vec::with_capacity(plan.blocks.len()),
             cranks: Vec::new(),
             degree,
-            ways: vec![0.0; n_points],
+            one: Abreast::new(n_points, 0),
             n_constraints: plan.constraints.len() as u32,
             knows_pose: false,
         };
@@ -41,6 +42,7 @@ impl ClosedForm {
             let step = form.step(block, which, constraints)?;
             form.steps.push(step);
         }
+        form.one = Abreast::new(n_points, form.cranks.len());
         Some(form)
     }
 
@@ -73,11 +75,11 @@ impl ClosedForm {
                 if driven != to || from == to {
                     return None;
                 }
-                self.cranks.push(Crank { to, from, motor: c, before: motor.heading(), way: 0.0 });
+                self.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
                 Some(Step::Crank(self.cranks.len() as u32 - 1))
             }
             Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
-            _ => Some(Step::Sum(Sum::new(to, c, constraint, self.ways.len())?)),
+            _ => Some(Step::Sum(Sum::new(to, constraint, self.one.ways.len())?)),
         }
     }
 }

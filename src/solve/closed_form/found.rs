@@ -5,7 +5,7 @@ use crate::solve::frame::branch::SENSITIVE;
 /// What a frame came to.
 #[derive(Clone, Copy)]
 pub(crate) struct Found {
-    /// The largest distance to satisfaction.
+    /// The largest distance to satisfaction; not a number where the pose was not found.
     pub worst: f64,
     /// How near the pose is to a singular one, as the square of the sine of an angle.
     pub least_side_squared: f64,
@@ -19,24 +19,14 @@ impl Found {
     pub fn is_sensitive(&self) -> bool {
         self.least_side_squared < SENSITIVE * SENSITIVE
     }
+}
 
-    /// Takes in a distance to satisfaction, which may have a sign.
-    #[inline]
-    pub fn add(&mut self, off: f64) {
-        let off = off.abs();
-        // What is not a number stays: it meets nothing.
-        if off > self.worst || off.is_nan() {
-            self.worst = off;
-        }
-    }
-
-    /// Takes in the square of the sine of an angle.
-    #[inline]
-    pub fn add_side(&mut self, squared: f64) {
-        if squared < self.least_side_squared {
-            self.least_side_squared = squared;
-        }
-    }
+/// The larger of two distances to satisfaction, the second of which may have a sign. What is not a
+/// number stays: it meets nothing.
+#[inline(always)]
+pub(super) fn larger(worst: f64, off: f64) -> f64 {
+    let off = off.abs();
+    if (worst >= off) | worst.is_nan() { worst } else { off }
 }
 
 #[cfg(test)]
@@ -46,9 +36,8 @@ mod tests {
     #[test]
     fn what_is_not_a_number_meets_nothing() {
         for places in [[f64::NAN, 1e-20], [1e-20, f64::NAN]] {
-            let mut found = Found::NOTHING;
-            places.into_iter().for_each(|off| found.add(off));
-            assert!(found.worst.is_nan());
+            assert!(places.into_iter().fold(0.0, larger).is_nan());
         }
+        assert_eq!([1e-20, -3.0, 2.0].into_iter().fold(0.0, larger), 3.0);
     }
 }

@@ -1,6 +1,7 @@
 //! Where a circle around a known point meets a line that stands still.
 
-use super::found::Found;
+use super::abreast::{Meeting, Met};
+use super::found::larger;
 use crate::constraint::{Point, PointIdx};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -54,43 +55,57 @@ impl CircleLine {
         self.height = e.cross(c - a) / e.norm_squared().sqrt();
         self.side = if e.dot(x[self.to as usize] - c) < 0.0 { -1.0 } else { 1.0 };
     }
+}
 
-    /// Puts the point where the circle meets the line, on the side where it was, if no pose on the
-    /// way is nearly singular.
-    #[inline]
-    pub fn run(&mut self, x: &mut [Point], ways: &mut [f64], found: &mut Found) -> Option<()> {
-        if ways[self.line[0] as usize] + ways[self.line[1] as usize] != 0.0 {
-            return None;
-        }
-        let [a, b] = self.line.map(|p| x[p as usize]);
-        let c = x[self.from as usize];
+impl Meeting<3> for CircleLine {
+    fn to(&self) -> PointIdx {
+        self.to
+    }
+
+    fn from(&self) -> [PointIdx; 3] {
+        [self.line[0], self.line[1], self.from]
+    }
+
+    /// The signed distance of the centre from the line.
+    #[inline(always)]
+    fn gauge(&self, [a, b, c]: [Point; 3]) -> f64 {
+        let e = b - a;
+        e.cross(c - a) / e.norm_squared().sqrt()
+    }
+
+    fn last(&mut self) -> &mut f64 {
+        &mut self.height
+    }
+
+    /// Where the circle meets the line, on the side where the point was, if the line stands still and
+    /// no pose on the way is nearly singular.
+    #[inline(always)]
+    fn meet(&self, [a, b, c]: [Point; 3], [before, height]: [f64; 2], ways: [f64; 3]) -> Met {
         let (e, u) = (b - a, c - a);
         let length_squared = e.norm_squared();
         let length = length_squared.sqrt();
-        let height = e.cross(u) / length;
-        let way = ways[self.from as usize];
-        let middle = height + self.height;
+        let way = ways[2];
+        let middle = height + before;
         let farthest = 0.5 * (middle.abs() + way);
         let least = self.square - farthest * farthest;
         let squared = self.square - height * height;
         let floor = NEARLY_SINGULAR * NEARLY_SINGULAR * self.square;
-        // False for what is not a number.
-        let is_proved = least > floor && squared > floor;
-        if !is_proved {
-            return None;
-        }
-        // Its velocity is that of the centre over the cosine of the angle of the bar, at most.
-        ways[self.to as usize] = way * (self.square / least).sqrt();
         let along = e.dot(u) / length_squared + self.side * squared.sqrt() / length;
-        if self.is_bounded && !(0.0..=1.0).contains(&along) {
-            return None;
+        let is_between = !self.is_bounded | (along >= 0.0) & (along <= 1.0);
+        // False for what is not a number.
+        let is_proved =
+            (ways[0] + ways[1] == 0.0) & (least > floor) & (squared > floor) & is_between;
+        let at = a + e * along;
+        let off = larger(
+            (((at - c).norm_squared() - self.square) * self.half_inverse).abs(),
+            e.cross(at - a) / length,
+        );
+        Met {
+            at,
+            // Its velocity is that of the centre over the cosine of the angle of the bar, at most.
+            way: way * (self.square / least).sqrt(),
+            off: if is_proved { off } else { f64::NAN },
+            side_squared: squared / self.square,
         }
-        let p = a + e * along;
-        x[self.to as usize] = p;
-        found.add(((p - c).norm_squared() - self.square) * self.half_inverse);
-        found.add(e.cross(p - a) / length);
-        found.add_side(squared / self.square);
-        self.height = height;
-        Some(())
     }
 }

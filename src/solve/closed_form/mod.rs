@@ -9,18 +9,32 @@
 //! how far each point went at most, and so how near any pose on the way can have been to the one
 //! where the two places meet. Where that cannot be proved, or a constraint is not met, the frame
 //! is left to [`frame`](super::frame), which follows the motion.
+//!
+//! Where many frames pass, they are found [side by side](Lanes) by the same steps.
 
+#![allow(
+    clippy::inline_always,
+    clippy::needless_bitwise_bool,
+    clippy::manual_range_contains,
+    reason = "steps become part of the loop over frames, and their conditions part of its vectors"
+)]
+
+mod abreast;
 mod circles;
 mod compile;
 mod found;
+mod lanes;
 mod line;
 mod ray;
 mod run;
 mod sum;
 
 use crate::constraint::{Heading, PointIdx};
+use abreast::Abreast;
+pub(crate) use abreast::WIDE;
 use circles::Circles;
 pub(crate) use found::Found;
+pub(crate) use lanes::Lanes;
 use line::CircleLine;
 use ray::Ray;
 use sum::Sum;
@@ -34,8 +48,8 @@ pub(crate) struct ClosedForm {
     /// Up to which degree the motion of any point is smooth enough to extrapolate: poses are kept
     /// for those who do.
     pub degree: u8,
-    /// How far each point went in this frame at most, along its way.
-    ways: Vec<f64>,
+    /// What drives a frame by itself, and what it comes to.
+    one: Abreast<1>,
     /// How many constraints a frame evaluates.
     n_constraints: u32,
     /// Whether what steps know of the pose is of the present one.
@@ -96,8 +110,6 @@ struct Crank {
     motor: u32,
     /// Where it pointed at the beginning of the frame.
     before: Heading,
-    /// How far its end went in this frame, around the centre.
-    way: f64,
 }
 
 /// The radius of a circle.

@@ -1,6 +1,7 @@
 //! Where the end of a slotted link is, whose other end and slider are known.
 
-use super::found::Found;
+use super::abreast::{Meeting, Met};
+use super::found::larger;
 use crate::constraint::{Point, PointIdx};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -56,32 +57,49 @@ impl Ray {
         self.apart = e.norm_squared().sqrt();
         self.side = if e.dot(x[self.to as usize] - from) < 0.0 { -1.0 } else { 1.0 };
     }
+}
 
-    /// Puts the point in line with the slider, on the side where it was, if the slider is nowhere on
-    /// its way nearly at the known end.
-    #[inline]
-    pub fn run(&mut self, x: &mut [Point], ways: &mut [f64], found: &mut Found) -> Option<()> {
-        let [from, slider] = [self.from, self.through].map(|p| x[p as usize]);
+impl Meeting<2> for Ray {
+    fn to(&self) -> PointIdx {
+        self.to
+    }
+
+    fn from(&self) -> [PointIdx; 2] {
+        [self.from, self.through]
+    }
+
+    /// The distance of the slider from the known end.
+    #[inline(always)]
+    fn gauge(&self, [from, slider]: [Point; 2]) -> f64 {
+        (slider - from).norm_squared().sqrt()
+    }
+
+    fn last(&mut self) -> &mut f64 {
+        &mut self.apart
+    }
+
+    /// In line with the slider, on the side where the point was, if the slider is nowhere on its way
+    /// nearly at the known end.
+    #[inline(always)]
+    fn meet(&self, [from, slider]: [Point; 2], [before, apart]: [f64; 2], ways: [f64; 2]) -> Met {
         let e = slider - from;
-        let apart = e.norm_squared().sqrt();
-        let way = ways[self.from as usize] + ways[self.through as usize];
-        let least = 0.5 * (apart + self.apart - way);
+        let way = ways[0] + ways[1];
+        let least = 0.5 * (apart + before - way);
+        let is_between = (self.side > 0.0) & (apart <= self.length);
         // False for what is not a number.
-        let is_proved = least > NEARLY_SINGULAR * self.length;
-        let is_between = self.side > 0.0 && apart <= self.length;
-        if !is_proved || self.is_bounded && !is_between {
-            return None;
+        let is_proved = (least > NEARLY_SINGULAR * self.length) & (!self.is_bounded | is_between);
+        let at = from + e * (self.side * self.length / apart);
+        let arm = at - from;
+        let off = larger(
+            ((arm.norm_squared() - self.square) * self.half_inverse).abs(),
+            arm.cross(e) / self.length,
+        );
+        Met {
+            at,
+            // The line turns by the ways of both over their distance, at most.
+            way: ways[0] + way * self.length / least,
+            off: if is_proved { off } else { f64::NAN },
+            side_squared: (apart / self.length) * (apart / self.length),
         }
-        let arm = e * (self.side * self.length / apart);
-        let p = from + arm;
-        x[self.to as usize] = p;
-        // The line turns by the ways of both over their distance, at most.
-        ways[self.to as usize] = ways[self.from as usize] + way * self.length / least;
-        let arm = p - from;
-        found.add((arm.norm_squared() - self.square) * self.half_inverse);
-        found.add(arm.cross(e) / self.length);
-        found.add_side((apart / self.length) * (apart / self.length));
-        self.apart = apart;
-        Some(())
     }
 }

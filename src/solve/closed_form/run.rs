@@ -1,9 +1,10 @@
 //! Running the list of steps for a frame.
 
+use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
 use super::found::Found;
 use super::{ClosedForm, Crank, Radius, Step};
 use crate::constraint::{
-    Constraint, ConstraintKind as _, Field, Motor, Point, PointIdx, Stateful as _,
+    Constraint, ConstraintKind as _, Field, Motor, Point, PointIdx, Stateful as _, Vector,
 };
 use crate::solve::island::inputs::Inputs;
 use crate::world::{ConstraintId, World};
@@ -60,7 +61,12 @@ impl ClosedForm {
             }
             n_turning += usize::from(here.turns());
         }
-        self.ways.fill(0.0);
+        self.one.ways.fill([0.0]);
+        for step in &mut self.steps {
+            if let Step::Place { way, .. } = step {
+                *way = 0.0;
+            }
+        }
         if !self.knows_pose {
             self.look(x);
         }
@@ -70,11 +76,11 @@ impl ClosedForm {
     /// Turns the motors on by a frame.
     #[inline]
     pub fn turn_on(&mut self, constraints: &mut [Constraint], dt: f64) {
-        for crank in &mut self.cranks {
-            if let Constraint::Motor(motor) = &mut constraints[crank.motor as usize] {
+        for (crank, turned) in self.cranks.iter_mut().zip(&mut self.one.turned) {
+            if let Some(motor) = crank.motor(constraints) {
                 crank.before = motor.heading();
                 motor.advance(dt);
-                crank.way = motor.way_since(crank.before);
+                turned.set(0, motor.target(), motor.way_since(crank.before));
             }
         }
     }
@@ -82,7 +88,7 @@ impl ClosedForm {
     /// Turns the motors back to where they pointed before.
     pub fn turn_back(&self, constraints: &mut [Constraint]) {
         for crank in &self.cranks {
-            if let Constraint::Motor(motor) = &mut constraints[crank.motor as usize] {
+            if let Some(motor) = crank.motor(constraints) {
                 motor.set_heading(crank.before);
             }
         }
@@ -102,11 +108,11 @@ impl ClosedForm {
 
     /// Takes in what drove points and constraints in this frame, and how far that went.
     pub fn drive(&mut self, inputs: &Inputs, x: &[Point], constraints: &[Constraint]) {
-        self.ways.fill(0.0);
+        self.one.ways.fill([0.0]);
         for &(p, before) in &inputs.points {
-            self.ways[p as usize] = x[p as usize].distance(before);
+            self.one.ways[p as usize] = [x[p as usize].distance(before)];
         }
-        for crank in &mut self.cranks {
+        for (crank, to) in self.cranks.iter().zip(&mut self.one.turned) {
             let Constraint::Motor(now) = &constraints[crank.motor as usize] else {
                 continue;
             };
@@ -114,7 +120,7 @@ impl ClosedForm {
             let turned: f64 = turns.map(|&(_, before)| now.way_since(before)).sum();
             let values = inputs.values_before(crank.motor);
             let changed: f64 = values.map(|before| way_between(before, now)).sum();
-            crank.way = turned + changed;
+            to.set(0, now.target(), turned + changed);
         }
         for step in &mut self.steps {
             if let Step::Place { to, constraint, way } = step {
@@ -126,70 +132,105 @@ impl ClosedForm {
         }
     }
 
-    /// Puts the points where they are at the end of the frame; none where they are to be found in
-    /// another way, and then they are anywhere.
+    /// Puts the points where they are at the end of the frame. Where the pose is to be found in
+    /// another way the distance to satisfaction is not a number, and they are anywhere.
     #[inline]
-    pub fn run(&mut self, x: &mut [Point], constraints: &[Constraint]) -> Option<Found> {
-        let Self { steps, cranks, ways, .. } = self;
-        let mut found = Found::NOTHING;
-        for step in steps {
-            match step {
-                Step::Crank(k) => cranks[*k as usize].run(x, ways, constraints, &mut found),
-                Step::Circles(circles) => circles.run(x, ways, &mut found)?,
-                Step::CircleLine(meeting) => meeting.run(x, ways, &mut found)?,
-                Step::Ray(ray) => ray.run(x, ways, &mut found)?,
-                Step::Sum(sum) => sum.run(x, ways, constraints, &mut found),
-                Step::Place { to, constraint, way } => {
-                    x[*to as usize] = place(&constraints[*constraint as usize]);
-                    ways[*to as usize] = *way;
-                }
-                Step::Nearest { to, from, radius } => {
-                    nearest(*to, *from, radius.at(x), x, &mut found);
-                }
+    pub fn run(&mut self, x: &mut [Point], constraints: &[Constraint]) -> Found {
+        let Self { steps, cranks, one, .. } = self;
+        make(steps, cranks, constraints, x, one);
+        one.found(0)
+    }
+}
+
+/// Makes all steps, for as many frames as there are side by side.
+#[inline(always)]
+pub(super) fn make<const N: usize>(
+    steps: &mut [Step],
+    cranks: &[Crank],
+    constraints: &[Constraint],
+    x: &mut (impl Poses<N> + ?Sized),
+    abreast: &mut Abreast<N>,
+) {
+    abreast.begin();
+    for step in steps {
+        match step {
+            Step::Crank(k) => cranks[*k as usize].run(*k, x, abreast),
+            Step::Circles(circles) => circles.run(x, abreast),
+            Step::CircleLine(meeting) => meeting.run(x, abreast),
+            Step::Ray(ray) => ray.run(x, abreast),
+            Step::Sum(sum) => sum.run(x, abreast),
+            Step::Place { to, constraint, way } => {
+                x.put(*to, Places::all(place(&constraints[*constraint as usize])));
+                abreast.ways[*to as usize] = [*way; N];
             }
+            Step::Nearest { to, from, radius } => nearest(*to, *from, radius, x, abreast),
         }
-        Some(found)
     }
 }
 
 impl Crank {
-    #[inline]
-    fn run(
-        &self,
-        x: &mut [Point],
-        ways: &mut [f64],
-        constraints: &[Constraint],
-        found: &mut Found,
-    ) {
-        let (to, from) = (self.to as usize, self.from as usize);
-        if let Constraint::Motor(motor) = &constraints[self.motor as usize] {
-            x[to] = x[from] + motor.target();
-            ways[to] = ways[from] + self.way;
-            // It is there by definition, unless there is out of all numbers.
-            found.add(0.0 * x[to].x + 0.0 * x[to].y);
+    /// Its motor, among the constraints of its island.
+    #[inline(always)]
+    pub fn motor<'a>(&self, constraints: &'a mut [Constraint]) -> Option<&'a mut Motor> {
+        match &mut constraints[self.motor as usize] {
+            Constraint::Motor(motor) => Some(motor),
+            _ => None,
         }
     }
-}
 
-impl Radius {
-    fn at(self, x: &[Point]) -> f64 {
-        match self {
-            Self::Fixed(radius) => radius,
-            Self::Measured { between: [p, q], factor, offset } => {
-                factor * x[p as usize].distance(x[q as usize]) + offset
-            }
-        }
+    #[inline(always)]
+    fn run<const N: usize>(
+        &self,
+        k: u32,
+        x: &mut (impl Poses<N> + ?Sized),
+        abreast: &mut Abreast<N>,
+    ) {
+        let centre = x.get(self.from);
+        let Turned { x: along, y: across, way } = abreast.turned[k as usize];
+        let before = abreast.ways[self.from as usize];
+        put_each(self.to, x, abreast, |l| {
+            let at = centre.at(l) + Vector::new(along[l], across[l]);
+            // It is there by definition, unless there is out of all numbers.
+            (at, before[l] + way[l], 0.0 * at.x + 0.0 * at.y)
+        });
     }
 }
 
 /// Puts a point on a circle, where it is nearest to.
-fn nearest(to: PointIdx, from: PointIdx, radius: f64, x: &mut [Point], found: &mut Found) {
-    let centre = x[from as usize];
-    let arm = x[to as usize] - centre;
-    let p = centre + arm * (radius / arm.norm());
-    x[to as usize] = p;
-    let off = (p - centre).norm() - radius;
-    found.add(if radius >= 0.0 { off } else { f64::NAN });
+#[inline(always)]
+fn nearest<const N: usize>(
+    to: PointIdx,
+    from: PointIdx,
+    radius: &Radius,
+    x: &mut (impl Poses<N> + ?Sized),
+    abreast: &mut Abreast<N>,
+) {
+    let (centre, radii) = (x.get(from), radius.of(x));
+    // Each frame goes on from the one before.
+    let mut last = x.get(to).at(N - 1);
+    let mut found = [(last, 0.0, 0.0); N];
+    for (l, found) in found.iter_mut().enumerate() {
+        let (centre, radius) = (centre.at(l), radii[l]);
+        let arm = last - centre;
+        last = centre + arm * (radius / arm.norm());
+        let off = (last - centre).norm() - radius;
+        // How far it went is not said: nothing follows from where it is.
+        *found = (last, 0.0, if radius >= 0.0 { off } else { f64::NAN });
+    }
+    put_each(to, x, abreast, |l| found[l]);
+}
+
+impl Radius {
+    /// How long it is in each frame.
+    fn of<const N: usize>(&self, x: &(impl Poses<N> + ?Sized)) -> [f64; N] {
+        match *self {
+            Self::Fixed(radius) => [radius; N],
+            Self::Measured { between, factor, offset } => {
+                let [p, q] = between.map(|p| x.get(p));
+                std::array::from_fn(|l| factor * p.at(l).distance(q.at(l)) + offset)
+            }
+        }
+    }
 }
 
 /// Where a constraint says that its point is.

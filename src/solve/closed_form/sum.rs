@@ -1,22 +1,23 @@
 //! Where a constraint that adds up points, as a hinge does, puts one of them.
 
-use super::found::Found;
+use super::abreast::{Abreast, Poses, put_each};
+use super::found::larger;
 use crate::constraint::{Constraint, ConstraintKind as _, Point, PointIdx};
 
 /// A point that is so many parts of each of up to three others.
 pub(super) struct Sum {
     /// The point that is found.
     pub to: PointIdx,
-    /// The constraint.
-    constraint: u32,
     /// The others with their parts, which add up to 1, the largest first.
     parts: [(PointIdx, f64); 3],
     n_parts: usize,
+    /// How many times the constraint counts a distance of the point from there.
+    scale: f64,
 }
 
 impl Sum {
-    /// A point where the constraint of number `c` puts it; none where that is no sum of others.
-    pub fn new(to: PointIdx, c: u32, constraint: &Constraint, n_points: usize) -> Option<Self> {
+    /// A point where a constraint puts it; none where that is no sum of others.
+    pub fn new(to: PointIdx, constraint: &Constraint, n_points: usize) -> Option<Self> {
         let adds_up = matches!(
             constraint,
             Constraint::Coincidence(_) | Constraint::Equivalence(_) | Constraint::Hinge(_)
@@ -42,28 +43,27 @@ impl Sum {
             *part = (p, -times / own);
         }
         let is_sound = n_parts > 0 && parts.iter().all(|(_, part)| part.is_finite());
-        is_sound.then_some(Self { to, constraint: c, parts, n_parts })
+        is_sound.then_some(Self { to, parts, n_parts, scale: own.abs() })
     }
 
     /// Puts the point where it belongs.
-    #[inline]
-    pub fn run(
-        &self,
-        x: &mut [Point],
-        ways: &mut [f64],
-        constraints: &[Constraint],
-        found: &mut Found,
-    ) {
-        let [(first, part), ..] = self.parts;
-        // From there, so that no digits are lost far from the origin.
-        let base = x[first as usize];
-        let (mut at, mut way) = (base, part.abs() * ways[first as usize]);
-        for &(p, part) in &self.parts[1..self.n_parts] {
-            at += (x[p as usize] - base) * part;
-            way += part.abs() * ways[p as usize];
-        }
-        x[self.to as usize] = at;
-        ways[self.to as usize] = way;
-        found.add(constraints[self.constraint as usize].residual(x));
+    #[inline(always)]
+    pub fn run<const N: usize>(&self, x: &mut (impl Poses<N> + ?Sized), abreast: &mut Abreast<N>) {
+        // What has no part stands for the first, none of which is added to it.
+        let parts = &self.parts[..self.n_parts];
+        let of = self.parts.map(|(p, part)| if part == 0.0 { parts[0].0 } else { p });
+        let times = self.parts.map(|(_, part)| part);
+        let places = of.map(|p| x.get(p));
+        let ways = of.map(|p| abreast.ways[p as usize]);
+        put_each(self.to, x, abreast, |l| {
+            // From there, so that no digits are lost far from the origin.
+            let [base, second, third] = places.each_ref().map(|p| p.at(l));
+            let at = base + (second - base) * times[1] + (third - base) * times[2];
+            let went = ways.each_ref().map(|way| way[l]);
+            let way =
+                times[0].abs() * went[0] + times[1].abs() * went[1] + times[2].abs() * went[2];
+            let left = (base - at) * times[0] + (second - at) * times[1] + (third - at) * times[2];
+            (at, way, larger(left.x.abs(), left.y) * self.scale)
+        });
     }
 }

@@ -251,7 +251,8 @@ fn length(constraint: &Constraint) -> f64 {
 /// line, or the start is too far for the error to be told from the steps.
 ///
 /// A step d that meets both linearised equations leaves of a length l no more than
-/// d^2 / 2 (l - d). Once that is below the tolerance nothing needs to be evaluated again.
+/// d^2 / 2 (l - d). Once that is below the tolerance nothing needs to be evaluated again. By how much
+/// the length is too long in the end follows from the part of d across it, c: by c^2 / 2 l at most.
 fn meet(
     start: Point,
     others: [Point; 2],
@@ -279,8 +280,15 @@ fn meet(
             let correction = if x > y { x } else { y };
             let sine = side / (l * m);
             let apart_squared = 4.0 * (l * m) * (l * m) / (v - w).norm_squared();
+            let over = |across: f64, now: f64, length: f64| {
+                let across = across / now;
+                0.5 * across * across / length
+            };
+            let (over_l, over_m) =
+                (over(d.cross(v), l, lengths[0]), over(d.cross(w), m, lengths[1]));
+            let worst = if over_l > over_m { over_l } else { over_m };
             let side = Side { sine, other: 1 };
-            let found = Found { worst: left, n_steps, correction, sine, side, apart_squared };
+            let found = Found { worst, n_steps, correction, sine, side, apart_squared };
             return Some((at, found));
         }
     }

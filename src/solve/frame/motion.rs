@@ -4,7 +4,7 @@
 use smallvec::SmallVec;
 
 use super::decomposition::Part;
-use crate::constraint::{Constraint, ConstraintKind, Field, Jet, PointIdx, Vec2, Vector};
+use crate::constraint::{Constraint, ConstraintKind, Field, Jet, Point, PointIdx, Vec2, Vector};
 use crate::linalg::{MOST_UNKNOWNS, Square};
 use crate::solve::island::Island;
 
@@ -154,45 +154,75 @@ fn solve_part(
     rates.iter().all(|rate| rate.is_finite()).then_some(())
 }
 
+/// Steps that lead one point to where it belongs at most: next to a singular pose the first goes far
+/// too far, and each of those after it comes back half the way.
+const MOST_STEPS: u32 = 40;
+/// A step that is so much shorter than the whole way ends it.
+const ROUGHLY: f64 = 0.01;
+
 /// How far the farthest free point of an island that is found point by point is from where its
-/// constraints say, to first order.
+/// constraints say.
 pub(crate) fn position_error(island: &Island) -> f64 {
     // What is met to the bit may be off by the rounding of its value all the same.
     let rounding = f64::EPSILON * island.size();
-    let mut off = vec![Vector::ZERO; island.x.len()];
+    let mut x = island.x.clone();
     let mut rows = Vec::new();
+    let mut wanted = Vec::new();
     let mut worst = 0.0_f64;
     for block in &island.plan.blocks {
         let which = &island.plan.constraints[block.first as usize..block.end as usize];
+        let which = || which.iter().map(|&c| &island.constraints[c as usize]);
         let p = block.point;
-        rows.clear();
-        let mut push = |f: f64, g: Vector, known: f64| {
-            rows.push((g, -f.abs().max(rounding).copysign(f) - known));
-        };
-        for &c in which {
-            let constraint = &island.constraints[c as usize];
-            if let Constraint::Length(bar) = constraint
-                && let Some((f, g)) = bar.felt_by(p, &island.x)
-            {
-                let [a, b] = bar.points;
-                push(f, g, -g.dot(off[(if p == a { b } else { a }) as usize]));
-                continue;
-            }
-            constraint.jacobian(&island.x, &mut |row| {
-                let own = row.terms().find(|&(q, _)| q == p);
-                let length = own.map_or(0.0, |(_, g)| g.norm());
-                if let (true, Some((_, g))) = (row.is_active && length > 0.0, own) {
-                    let known: f64 = row.terms().map(|(q, g)| g.dot(off[q as usize])).sum();
-                    push(row.f / length, g / length, known / length);
-                }
-            });
-        }
+        rows_of(p, which(), &island.x, &mut rows);
         if block.has_branches() && block.side.sine.abs() < UNKNOWN {
             rows.truncate(1);
         }
-        let step = solve_one(&rows, false).unwrap_or(Vector::ZERO);
-        off[p as usize] = step;
-        worst = worst.max(step.norm_squared());
+        wanted.clear();
+        wanted.extend(rows.iter().map(|&(_, f)| f - f.abs().max(rounding).copysign(f)));
+        let from = x[p as usize];
+        let mut first = None;
+        let mut is_there = false;
+        for _ in 0..MOST_STEPS {
+            rows_of(p, which(), &x, &mut rows);
+            rows.truncate(wanted.len());
+            rows.iter_mut().zip(&wanted).for_each(|((_, f), wanted)| *f = wanted - *f);
+            let Some(step) = solve_one(&rows, false) else { break };
+            x[p as usize] += step;
+            first.get_or_insert(step);
+            is_there = step.norm() <= ROUGHLY * (x[p as usize] - from).norm();
+            if is_there {
+                break;
+            }
+        }
+        if !is_there {
+            x[p as usize] = from + first.unwrap_or(Vector::ZERO);
+        }
+        worst = worst.max((x[p as usize] - from).norm_squared());
     }
     worst.sqrt()
+}
+
+/// The rows of a point: their gradients by it, made unit vectors, and how far off they are.
+fn rows_of<'a>(
+    p: PointIdx,
+    which: impl Iterator<Item = &'a Constraint>,
+    x: &[Point],
+    rows: &mut Vec<(Vector, f64)>,
+) {
+    rows.clear();
+    for constraint in which {
+        if let Constraint::Length(bar) = constraint
+            && let Some((f, g)) = bar.felt_by(p, x)
+        {
+            rows.push((g, f));
+            continue;
+        }
+        constraint.jacobian(x, &mut |row| {
+            let own = row.terms().find(|&(q, _)| q == p);
+            let length = own.map_or(0.0, |(_, g)| g.norm());
+            if let (true, Some((_, g))) = (row.is_active && length > 0.0, own) {
+                rows.push((g / length, row.f / length));
+            }
+        });
+    }
 }

@@ -240,12 +240,15 @@ pub(crate) fn position_error(
     size: f64,
     known_error: f64,
 ) -> f64 {
-    if least_side < SENSITIVE {
-        let rough = worst.max(f64::EPSILON * size) / least_side;
-        if ROUGHLY * rough > known_error {
-            island.know_sides();
-            return velocity::position_error(island);
-        }
+    if least_side < SENSITIVE && may_exceed(worst, least_side, size, known_error) {
+        island.know_sides();
+        return velocity::position_error(island);
     }
     0.0
+}
+
+/// Whether the position error at a pose this near to a singular one may be more than is known already.
+pub(crate) fn may_exceed(worst: f64, least_side: f64, size: f64, known_error: f64) -> bool {
+    let rough = worst.max(f64::EPSILON * size) / least_side;
+    ROUGHLY * rough > known_error
 }

@@ -2,6 +2,7 @@
 //! another way at any time.
 
 use super::{Island, corners, rounding};
+use crate::constraint::Point;
 use crate::solve::closed_form::{ClosedForm, Compiled, Found};
 use crate::solve::frame::predict;
 use crate::solve::report::Status;
@@ -41,13 +42,17 @@ impl Island {
     pub fn run_closed(&mut self, form: &mut ClosedForm, tolerance: f64) -> Option<Found> {
         self.history.begin(&self.x[..self.n_free], form.degree);
         let found = form.run(&mut self.x, &self.constraints);
-        // The size is at least the longest length that is asked for.
-        let enough = tolerance * self.wanted();
-        let found = found.filter(|found| found.worst <= enough || found.worst <= self.rounding());
-        if found.is_none() {
+        let is_met = found.worst <= self.enough(tolerance) || found.worst <= self.rounding();
+        if !is_met {
             self.put_back(form);
         }
-        found
+        is_met.then_some(found)
+    }
+
+    /// The distance to satisfaction that a tolerance leaves: the size is at least the longest length
+    /// that is asked for.
+    pub fn enough(&self, tolerance: f64) -> f64 {
+        tolerance * self.wanted()
     }
 
     /// Puts everything back where the frame began.
@@ -57,7 +62,7 @@ impl Island {
     }
 
     /// What rounding leaves of numbers as large as those of the points that stand still.
-    fn rounding(&self) -> f64 {
+    pub fn rounding(&self) -> f64 {
         let still = &self.x[self.n_free..];
         rounding(still.iter().fold(0.0, |most: f64, p| most.max(p.x.abs()).max(p.y.abs())))
     }
@@ -130,8 +135,13 @@ impl Island {
     /// How large it was at the pose that the last frame that counts began with, as
     /// [`size`](Self::size) says.
     pub fn size_before(&self) -> f64 {
-        let still = &self.x[self.n_free..];
-        self.size_between(corners(self.history.past(1).iter().chain(still)))
+        self.size_at(self.history.past(1).iter().copied())
+    }
+
+    /// The same where the free points are there.
+    pub fn size_at(&self, free: impl Iterator<Item = Point>) -> f64 {
+        let still = self.x[self.n_free..].iter().copied();
+        self.size_between(corners(free.chain(still)))
     }
 
     fn compile(&self) -> Option<Box<ClosedForm>> {

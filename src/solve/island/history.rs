@@ -39,12 +39,17 @@ impl History {
     /// Keeps the pose that a frame begins with; `degree` is the highest up to which the motion
     /// of a point is smooth.
     pub fn begin(&mut self, free: &[Point], degree: u8) {
+        self.begin_with(free.iter().copied(), degree);
+    }
+
+    /// The same, of places that come one by one.
+    pub fn begin_with(&mut self, free: impl ExactSizeIterator<Item = Point>, degree: u8) {
         let n = free.len();
         let n_poses = if degree > 1 { 4 } else { 2 };
         if self.poses.len() != n_poses * n || self.n_points != n {
             *self = Self::with_past(&self.to_past(), n, n_poses);
         }
-        self.poses[self.head * n..][..n].copy_from_slice(free);
+        self.poses[self.head * n..][..n].iter_mut().zip(free).for_each(|(to, at)| *to = at);
     }
 
     /// Keeps the pose that a frame begins with, and no other.

@@ -395,7 +395,7 @@ impl Island {
 
     /// The least and the greatest coordinates of its points.
     fn corners(&self) -> (Point, Point) {
-        corners(self.x.iter())
+        corners(self.x.iter().copied())
     }
 
     /// How far a method is to go on this island.
@@ -458,7 +458,7 @@ impl Island {
 }
 
 /// The least and the greatest coordinates of points.
-fn corners<'a>(points: impl Iterator<Item = &'a Point>) -> (Point, Point) {
+fn corners(points: impl Iterator<Item = Point>) -> (Point, Point) {
     let far = Point::new(f64::INFINITY, f64::INFINITY);
     let (mut lo, mut hi) = (far, Point::new(-far.x, -far.y));
     for p in points {

@@ -1,15 +1,20 @@
 //! Many frames at once, where nothing but motors drives the scene and each pose has a closed form.
+//!
+//! The first is found by itself, and so is one that those side by side came to and could not vouch for;
+//! the others are found [side by side](Lanes), and looked at one after the other only where something is
+//! kept of each.
 
 use super::Solver;
 use crate::constraint::Vector;
 use crate::diag::Diagnostic;
-use crate::solve::closed_form::{ClosedForm, Compiled, Found};
+use crate::solve::closed_form::{ClosedForm, Compiled, Found, Lanes, WIDE};
 use crate::solve::dispatch::write_back;
+use crate::solve::frame::predict::may_exceed;
 use crate::solve::island::Island;
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
 use crate::solve::velocity;
-use crate::world::{ConstraintId, Extremes, Measuring, Rates, World};
+use crate::world::{ConstraintId, Extremes, Measuring, PointId, Rates, World};
 
 /// What frames came to that passed at once. Each was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,6 +49,17 @@ struct Rider {
     n_turning: usize,
     /// What the last frame came to.
     found: Found,
+    /// Its next frames, once many pass.
+    lanes: Option<Box<Lanes>>,
+    /// Its points that are traced.
+    traced: Vec<(usize, PointId)>,
+}
+
+/// What is kept of each frame.
+#[derive(Clone, Copy)]
+struct Kept {
+    is_traced: bool,
+    is_measured: bool,
 }
 
 impl Solver {
@@ -74,27 +90,34 @@ impl Solver {
             return Ok(stretch);
         }
         let is_measured = world.has_measures();
-        let is_traced = !world.traces().is_empty() || is_measured;
+        let kept = Kept { is_traced: !world.traces().is_empty() || is_measured, is_measured };
         let mut failure = None;
         let course = Course { dt, tolerance: budget.tolerance_of(settings), budget };
-        while stretch.n_frames < on.n && course.frame(&mut riders, &mut stretch) {
-            stretch.n_frames += 1;
-            if is_traced {
-                riders.iter().for_each(|rider| write_back(&rider.island, world));
-                world.pass(1);
-                world.sample_traces(false);
+        let mut is_side_by_side = false;
+        while stretch.n_frames < on.n && failure.is_none() {
+            let before = stretch.n_frames;
+            if is_side_by_side && on.n - before >= WIDE as u64 {
+                let n = course.find_side_by_side(&mut riders);
+                failure = course.accept(n, &mut riders, &mut stretch, world, kept, on).err();
+                is_side_by_side = n == WIDE;
+            } else if course.frame(&mut riders, &mut stretch) {
+                stretch.n_frames += 1;
+                if kept.is_traced {
+                    riders.iter().for_each(|rider| write_back(&rider.island, world));
+                    failure = keep(&mut riders, world, kept, on).err();
+                }
+                is_side_by_side = true;
+            } else {
+                break;
             }
-            if is_measured {
-                failure = measure(&mut riders, world, on.extremes).err();
-            }
-            if failure.is_some() || !(on.goes_on)() {
+            if stretch.n_frames > before && !(on.goes_on)() {
                 break;
             }
         }
         stretch.iterations = stretch.n_frames;
         if stretch.n_frames > 0 {
             self.missed.clear();
-            world.pass(if is_traced { 0 } else { stretch.n_frames });
+            world.pass(if kept.is_traced { 0 } else { stretch.n_frames });
         }
         for rider in riders {
             let k = rider.k;
@@ -133,6 +156,13 @@ impl Solver {
         }
         riders
     }
+}
+
+/// Keeps of a frame what is kept of each; the world has where points are.
+fn keep(riders: &mut [Rider], world: &mut World, kept: Kept, on: &Along) -> Result<(), Diagnostic> {
+    world.pass(1);
+    world.sample_traces(false);
+    if kept.is_measured { measure(riders, world, on.extremes) } else { Ok(()) }
 }
 
 /// Measures the pose of a frame, which the world has all of but how far motors have turned.
@@ -179,6 +209,46 @@ impl Course<'_> {
         }
         true
     }
+
+    /// Finds the next frames of all side by side; gives how many of them count.
+    fn find_side_by_side(&self, riders: &mut [Rider]) -> usize {
+        let mut n = WIDE;
+        for rider in riders {
+            n = n.min(rider.find_side_by_side(self));
+        }
+        n
+    }
+
+    /// The first `n` frames that were found side by side count, unless measuring one of them fails.
+    fn accept(
+        &self,
+        n: usize,
+        riders: &mut [Rider],
+        stretch: &mut Stretch,
+        world: &mut World,
+        kept: Kept,
+        on: &Along,
+    ) -> Result<(), Diagnostic> {
+        let mut result = Ok(());
+        let is_looked_at = riders.iter().any(|rider| rider.is_looked_at(n, stretch));
+        let mut n_done = n;
+        if is_looked_at || kept.is_traced {
+            for l in 0..n {
+                riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, stretch));
+                if kept.is_traced {
+                    riders.iter_mut().for_each(|rider| rider.tell(l, world, kept));
+                    result = keep(riders, world, kept, on);
+                }
+                if result.is_err() {
+                    n_done = l + 1;
+                    break;
+                }
+            }
+        }
+        riders.iter_mut().for_each(|rider| rider.end_side_by_side(n_done));
+        stretch.n_frames += n_done as u64;
+        result
+    }
 }
 
 impl Rider {
@@ -192,7 +262,12 @@ impl Rider {
         match form.begin(&island.x, &island.constraints, there, dt) {
             Some(n_turning) if n_turning > 0 => {
                 island.prepare();
-                Ok(Self { k, island, form, n_turning, found: Found::NOTHING })
+                let traces = world.traces().iter();
+                let traced = traces
+                    .filter_map(|trace| island.local_point(trace.point).map(|p| (p, trace.point)));
+                let traced = traced.filter(|&(p, _)| p < island.n_free).collect();
+                let (lanes, found) = (None, Found::NOTHING);
+                Ok(Self { k, island, form, n_turning, found, lanes, traced })
             }
             _ => {
                 island.closed_form = Compiled::List(form);
@@ -241,6 +316,69 @@ impl Rider {
         // The size is at least that, and asked for only where it might matter.
         if found.worst > stretch.residual * island.wanted() {
             stretch.residual = stretch.residual.max(found.worst / island.size_before());
+        }
+    }
+
+    /// Finds its next frames side by side; gives how many count, as far as it is asked.
+    fn find_side_by_side(&mut self, course: &Course) -> usize {
+        let Self { island, form, lanes, .. } = self;
+        let lanes = lanes.get_or_insert_with(|| Box::new(Lanes::new(form, island)));
+        lanes.find(form, island, course.dt);
+        let enough = island.enough(course.tolerance).max(island.rounding());
+        let counts = |l: &usize| {
+            let found = lanes.found(*l);
+            found.worst <= enough && course.is_promised(&found, island)
+        };
+        (0..WIDE).take_while(counts).count()
+    }
+
+    /// Whether one of the first frames side by side has an error that may matter.
+    fn is_looked_at(&self, n: usize, stretch: &Stretch) -> bool {
+        let enough = stretch.residual * self.island.wanted();
+        let lanes = self.lanes.as_deref();
+        let found = |l: usize| lanes.map_or(Found::NOTHING, |lanes| lanes.found(l));
+        (0..n).map(found).any(|found| found.is_sensitive() || found.worst > enough)
+    }
+
+    /// A frame that was found beside others counts.
+    fn accept_side_by_side(&mut self, l: usize, stretch: &mut Stretch) {
+        let Self { island, form, lanes: Some(lanes), .. } = self else { return };
+        let found = lanes.found(l);
+        let is_large = found.worst > stretch.residual * island.wanted();
+        if !found.is_sensitive() && !is_large {
+            return;
+        }
+        let size = island.size_at(lanes.origin(l));
+        let least_side = found.least_side_squared.sqrt();
+        if found.is_sensitive() && may_exceed(found.worst, least_side, size, stretch.position_error)
+        {
+            lanes.show(l, form, island);
+            island.position_error = 0.0;
+            island.note_closed_form(&found, size, stretch.position_error);
+            stretch.position_error = stretch.position_error.max(island.position_error);
+        }
+        if is_large {
+            stretch.residual = stretch.residual.max(found.worst / size);
+        }
+    }
+
+    /// Tells the world of a frame that was found beside others what is kept of it.
+    fn tell(&mut self, l: usize, world: &mut World, kept: Kept) {
+        let Self { island, form, lanes: Some(lanes), traced, .. } = self else { return };
+        if kept.is_measured {
+            lanes.show(l, form, island);
+            write_back(island, world);
+        } else {
+            traced.iter().for_each(|&(p, id)| world.set_position(id, lanes.at(p, l)));
+        }
+    }
+
+    /// The first `n` frames that were found side by side count, and no other.
+    fn end_side_by_side(&mut self, n: usize) {
+        let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
+        lanes.accept(n, form, island);
+        if let Some(last) = n.checked_sub(1) {
+            *found = lanes.found(last);
         }
     }
 

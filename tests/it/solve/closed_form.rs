@@ -64,6 +64,25 @@ fn what_sleeps_and_what_is_traced_makes_no_difference() {
 }
 
 #[test]
+fn what_is_measured_makes_no_difference() {
+    let measures = "trace B; measure swing = angle(A, B); measure rise = velocity(C).y";
+    check_same("measured", &format!("{}\n{measures}", scene("w1-four-bar")), 100);
+    check_same("measured", &format!("{CARRIED}\ntrace Q; measure rise = velocity(Q).y"), 50);
+}
+
+#[test]
+fn a_measure_without_a_value_ends_frames_where_it_has_none() {
+    // Beside others as by itself: when the crank has gone 84 degrees.
+    let scene = format!("{}\nmeasure m = sqrt(B.x - 0.12)", scene("w1-four-bar"));
+    for run in ["step 360", "for i in 1..83 { step }; step"] {
+        let mut talking = Talking::after(&scene);
+        let problem = talking.execute(run).unwrap_err();
+        let told = talking.drawn(&problem);
+        assert!(told.contains("at frame 84"), "{told}");
+    }
+}
+
+#[test]
 fn a_motor_that_is_changed_between_runs_goes_on_from_where_it_is() {
     let script = scene("w1-four-bar").replace("motor A B", "crank: motor A B");
     let changed = "step 50; change crank speed 0.5rev; step 50; off crank; step 5; on crank";

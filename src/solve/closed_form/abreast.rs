@@ -1,0 +1,208 @@
+//! Frames found side by side: for each number of a frame as many as there are frames.
+//!
+//! A step is a function of plain numbers. It is called for each frame in a loop without branches, which
+//! the compiler turns into vector instructions; a frame by itself is the same loop over one. Nothing is
+//! fused and no sum is taken in another order, so the width never shows in the bits.
+
+use super::found::{Found, larger};
+use crate::constraint::{Point, PointIdx, Vector};
+
+/// How many frames pass side by side, where they do.
+pub(crate) const WIDE: usize = 8;
+
+/// Where a point is in each frame.
+#[derive(Clone, Copy)]
+pub(super) struct Places<const N: usize> {
+    pub x: [f64; N],
+    pub y: [f64; N],
+}
+
+impl<const N: usize> Places<N> {
+    /// The same in all frames.
+    pub fn all(at: Point) -> Self {
+        Self { x: [at.x; N], y: [at.y; N] }
+    }
+
+    /// Where it is in one of them.
+    #[inline(always)]
+    pub fn at(&self, l: usize) -> Point {
+        Point::new(self.x[l], self.y[l])
+    }
+
+    /// Puts it elsewhere in one of them.
+    #[inline(always)]
+    pub fn set(&mut self, l: usize, at: Point) {
+        (self.x[l], self.y[l]) = (at.x, at.y);
+    }
+}
+
+/// Where all points of an island are in each frame.
+pub(super) trait Poses<const N: usize> {
+    /// Where a point is.
+    fn get(&self, p: PointIdx) -> Places<N>;
+    /// Puts a point elsewhere.
+    fn put(&mut self, p: PointIdx, at: Places<N>);
+}
+
+impl Poses<1> for [Point] {
+    #[inline(always)]
+    fn get(&self, p: PointIdx) -> Places<1> {
+        Places::all(self[p as usize])
+    }
+
+    #[inline(always)]
+    fn put(&mut self, p: PointIdx, at: Places<1>) {
+        self[p as usize] = at.at(0);
+    }
+}
+
+impl<const N: usize> Poses<N> for [Places<N>] {
+    #[inline(always)]
+    fn get(&self, p: PointIdx) -> Places<N> {
+        self[p as usize]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, p: PointIdx, at: Places<N>) {
+        self[p as usize] = at;
+    }
+}
+
+/// Where a crank points in each frame.
+#[derive(Clone, Copy)]
+pub(super) struct Turned<const N: usize> {
+    /// Where its end is, from the centre.
+    pub x: [f64; N],
+    pub y: [f64; N],
+    /// How far the end went in the frame, around the centre.
+    pub way: [f64; N],
+}
+
+impl<const N: usize> Turned<N> {
+    const NOT: Self = Self { x: [0.0; N], y: [0.0; N], way: [0.0; N] };
+
+    /// In one of them it points there, and went so far.
+    #[inline(always)]
+    pub fn set(&mut self, l: usize, target: Vector, way: f64) {
+        (self.x[l], self.y[l], self.way[l]) = (target.x, target.y, way);
+    }
+}
+
+/// What drives frames, and what they came to.
+pub(super) struct Abreast<const N: usize> {
+    /// How far each point went in each frame at most, along its way.
+    pub ways: Vec<[f64; N]>,
+    /// Where each crank points.
+    pub turned: Vec<Turned<N>>,
+    /// The largest distance to satisfaction of each frame; not a number where a step could not say
+    /// where its point is.
+    worst: [f64; N],
+    /// How near each pose is to a singular one, as the square of the sine of an angle.
+    least_side_squared: [f64; N],
+}
+
+impl<const N: usize> Abreast<N> {
+    /// For so many points and cranks, none of which moves.
+    pub fn new(n_points: usize, n_cranks: usize) -> Self {
+        Self {
+            ways: vec![[0.0; N]; n_points],
+            turned: vec![Turned::NOT; n_cranks],
+            worst: [0.0; N],
+            least_side_squared: [1.0; N],
+        }
+    }
+
+    /// No step was made yet.
+    #[inline(always)]
+    pub fn begin(&mut self) {
+        (self.worst, self.least_side_squared) = ([0.0; N], [1.0; N]);
+    }
+
+    /// What a frame came to.
+    #[inline(always)]
+    pub fn found(&self, l: usize) -> Found {
+        Found { worst: self.worst[l], least_side_squared: self.least_side_squared[l] }
+    }
+
+    /// Takes in what a step came to in a frame.
+    #[inline(always)]
+    fn add(&mut self, l: usize, off: f64, side_squared: f64) {
+        self.worst[l] = larger(self.worst[l], off);
+        let least = self.least_side_squared[l];
+        self.least_side_squared[l] = if side_squared < least { side_squared } else { least };
+    }
+}
+
+/// Where a step puts its point.
+pub(super) struct Met {
+    /// There.
+    pub at: Point,
+    /// How far it went in the frame at most, along its way.
+    pub way: f64,
+    /// The distance to satisfaction there; not a number where it is not proved that it stayed on its
+    /// side.
+    pub off: f64,
+    /// How near that is to a singular pose, as the square of the sine of an angle.
+    pub side_squared: f64,
+}
+
+/// A step that finds a point from `K` that are known, and a number of the last pose.
+pub(super) trait Meeting<const K: usize> {
+    /// The point that is found.
+    fn to(&self) -> PointIdx;
+    /// The points it follows from.
+    fn from(&self) -> [PointIdx; K];
+    /// What of a pose tells how near a singular one is.
+    fn gauge(&self, from: [Point; K]) -> f64;
+    /// That of the last pose.
+    fn last(&mut self) -> &mut f64;
+    /// Where the point is, with that number before and now, and how far the others went.
+    fn meet(&self, from: [Point; K], gauges: [f64; 2], ways: [f64; K]) -> Met;
+
+    /// Finds the point in each frame.
+    #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "one loop over all, that vectors are made of")]
+    fn run<const N: usize>(&mut self, x: &mut (impl Poses<N> + ?Sized), abreast: &mut Abreast<N>) {
+        let from = self.from();
+        let places = from.map(|p| x.get(p));
+        let ways = from.map(|p| abreast.ways[p as usize]);
+        let mut gauges = [0.0; N];
+        for l in 0..N {
+            gauges[l] = self.gauge(places.each_ref().map(|p| p.at(l)));
+        }
+        let mut before = [*self.last(); N];
+        before[1..].copy_from_slice(&gauges[..N - 1]);
+        *self.last() = gauges[N - 1];
+        let (mut at, mut way) = (Places::all(Point::ORIGIN), [0.0; N]);
+        for l in 0..N {
+            let now = places.each_ref().map(|p| p.at(l));
+            let met = self.meet(now, [before[l], gauges[l]], ways.each_ref().map(|way| way[l]));
+            at.set(l, met.at);
+            way[l] = met.way;
+            abreast.add(l, met.off, met.side_squared);
+        }
+        x.put(self.to(), at);
+        abreast.ways[self.to() as usize] = way;
+    }
+}
+
+/// Finds a point in each frame that a number of the last pose is not asked for: where it is, how far
+/// it went, and how far that is off.
+#[inline(always)]
+pub(super) fn put_each<const N: usize>(
+    to: PointIdx,
+    x: &mut (impl Poses<N> + ?Sized),
+    abreast: &mut Abreast<N>,
+    each: impl Fn(usize) -> (Point, f64, f64),
+) {
+    let (mut at, mut way) = (Places::all(Point::ORIGIN), [0.0; N]);
+    #[allow(clippy::needless_range_loop, reason = "one loop over all, that vectors are made of")]
+    for l in 0..N {
+        let (there, went, off) = each(l);
+        at.set(l, there);
+        way[l] = went;
+        abreast.add(l, off, 1.0);
+    }
+    x.put(to, at);
+    abreast.ways[to as usize] = way;
+}

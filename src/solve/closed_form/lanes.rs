@@ -1,0 +1,147 @@
+//! Many frames at a time, where nothing but motors drives an island.
+
+use super::ClosedForm;
+use super::abreast::{Abreast, Places, WIDE};
+use super::found::Found;
+use super::run::make;
+use crate::constraint::{Constraint, Heading, Point};
+use crate::solve::island::Island;
+
+/// No more poses than these are remembered before the present one.
+const MOST_PAST: usize = 3;
+
+/// The next frames of an island, side by side.
+pub(crate) struct Lanes {
+    /// Where its points are in each.
+    places: Vec<Places<WIDE>>,
+    /// What drives them, and what they came to.
+    abreast: Abreast<WIDE>,
+    /// How each of its cranks points in each.
+    headings: Vec<[Heading; WIDE]>,
+    /// Where the free points were before the first.
+    origin: Vec<Point>,
+    /// Where cranks pointed before the first.
+    before: Vec<Heading>,
+    /// Whether `places` are those at which the last of them ended.
+    is_up_to_date: bool,
+}
+
+impl Lanes {
+    /// For the frames of an island that this list finds.
+    pub fn new(form: &ClosedForm, island: &Island) -> Self {
+        let n_cranks = form.cranks.len();
+        Self {
+            places: vec![Places::all(Point::ORIGIN); island.x.len()],
+            abreast: Abreast::new(island.x.len(), n_cranks),
+            headings: Vec::with_capacity(n_cranks),
+            origin: Vec::with_capacity(island.n_free),
+            before: Vec::with_capacity(n_cranks),
+            is_up_to_date: false,
+        }
+    }
+
+    /// Finds the next frames, of which each is as long as that; the island stays where it is.
+    pub fn find(&mut self, form: &mut ClosedForm, island: &mut Island, dt: f64) {
+        self.origin.clear();
+        self.origin.extend_from_slice(&island.x[..island.n_free]);
+        if !std::mem::replace(&mut self.is_up_to_date, true) {
+            self.places.clear();
+            self.places.extend(island.x.iter().map(|&at| Places::all(at)));
+        }
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // Vectors of four numbers instead of two. The bits are the same: what is fused is so where
+            // it says so, and then it is on all machines.
+            #[allow(unsafe_code)]
+            // SAFETY: the instructions exist, as was just asked.
+            return unsafe { self.run_avx2(form, &mut island.constraints, dt) };
+        }
+        self.run(form, &mut island.constraints, dt);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn run_avx2(&mut self, form: &mut ClosedForm, constraints: &mut [Constraint], dt: f64) {
+        self.run(form, constraints, dt);
+    }
+
+    #[inline(always)]
+    fn run(&mut self, form: &mut ClosedForm, constraints: &mut [Constraint], dt: f64) {
+        self.turn_on(form, constraints, dt);
+        let Self { places, abreast, .. } = self;
+        make(&mut form.steps, &form.cranks, constraints, &mut places[..], abreast);
+    }
+
+    /// Turns the cranks on by all frames.
+    #[inline(always)]
+    fn turn_on(&mut self, form: &ClosedForm, constraints: &mut [Constraint], dt: f64) {
+        self.headings.clear();
+        self.before.clear();
+        for (crank, turned) in form.cranks.iter().zip(&mut self.abreast.turned) {
+            let Some(motor) = crank.motor(constraints) else { continue };
+            let mut before = motor.heading();
+            self.before.push(before);
+            let headings = motor.advance_each::<WIDE>(dt);
+            for (l, &now) in headings.iter().enumerate() {
+                turned.set(l, now.target(), motor.way_between(before, now));
+                before = now;
+            }
+            self.headings.push(headings);
+        }
+    }
+
+    /// What a frame came to.
+    pub fn found(&self, l: usize) -> Found {
+        self.abreast.found(l)
+    }
+
+    /// Where a point is in a frame.
+    pub fn at(&self, p: usize, l: usize) -> Point {
+        self.places[p].at(l)
+    }
+
+    /// Where the free points were at the beginning of a frame.
+    pub fn origin(&self, l: usize) -> impl ExactSizeIterator<Item = Point> + '_ {
+        let before =
+            move |(p, first): (usize, &Point)| if l == 0 { *first } else { self.at(p, l - 1) };
+        self.origin.iter().enumerate().map(before)
+    }
+
+    /// Puts an island to where it is at the end of a frame.
+    pub fn show(&self, l: usize, form: &ClosedForm, island: &mut Island) {
+        for (to, places) in island.x[..self.origin.len()].iter_mut().zip(&self.places) {
+            *to = places.at(l);
+        }
+        let headings = self.headings.iter().map(|of_crank| of_crank[l]);
+        point(form, &mut island.constraints, headings);
+    }
+
+    /// The first `n` frames count, and those after them do not.
+    pub fn accept(&mut self, n: usize, form: &mut ClosedForm, island: &mut Island) {
+        for l in n.saturating_sub(MOST_PAST)..n {
+            island.history.begin_with(self.origin(l), form.degree);
+            island.history.advance();
+        }
+        match n.checked_sub(1) {
+            Some(last) => self.show(last, form, island),
+            None => point(form, &mut island.constraints, self.before.iter().copied()),
+        }
+        if n < WIDE {
+            self.is_up_to_date = false;
+            form.look(&island.x);
+        }
+    }
+}
+
+/// Points the motors of cranks elsewhere.
+fn point(
+    form: &ClosedForm,
+    constraints: &mut [Constraint],
+    headings: impl Iterator<Item = Heading>,
+) {
+    for (crank, heading) in form.cranks.iter().zip(headings) {
+        if let Some(motor) = crank.motor(constraints) {
+            motor.set_heading(heading);
+        }
+    }
+}
