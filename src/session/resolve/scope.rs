@@ -435,11 +435,6 @@ impl<'a> Resolver<'a> {
                 None => format!("its members are `.{}`", members.join("`, `.")),
             });
         }
-        if let Some((owner, _)) = text.rsplit_once('.')
-            && let Some(Entity::Point(_)) = self.find(owner)
-        {
-            return problem.help(format!("a point has two numbers: `{owner}.x` and `{owner}.y`"));
-        }
         if let Some((owner, word)) = text.rsplit_once('.')
             && Statistic::named(word).is_some()
             && self.find(owner).is_none()

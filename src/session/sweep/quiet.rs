@@ -1,19 +1,15 @@
 //! What a variant talks to: nobody hears it, and what it finds is counted.
 
-use std::collections::HashMap;
-use std::io;
-use std::path::{Path, PathBuf};
-
 use crate::diag::{Diagnostic, Sources};
 use crate::session::finding::Finding;
 use crate::session::host::Host;
+use crate::session::silent::Silent;
 use crate::solve::Status;
 
 /// A host that counts what a run finds. Files are read where `outside` finds them; what is written is
 /// only there for the variant itself.
 pub struct Quiet<'a> {
-    outside: &'a mut dyn Host,
-    written: HashMap<PathBuf, Vec<u8>>,
+    outside: Silent<'a>,
     /// How the worst command that let time pass ended, and its largest residual; none where no time
     /// passed.
     pub worst: Option<(Status, f64)>,
@@ -26,17 +22,18 @@ pub struct Quiet<'a> {
 impl<'a> Quiet<'a> {
     /// Nothing found yet.
     pub fn new(outside: &'a mut dyn Host) -> Self {
-        Self { outside, written: HashMap::new(), worst: None, n_missed: 0, n_dead_points: 0 }
+        let outside = Silent::new(outside);
+        Self { outside, worst: None, n_missed: 0, n_dead_points: 0 }
     }
 }
 
 impl Host for Quiet<'_> {
     fn behind(&self) -> Option<&dyn Host> {
-        Some(&*self.outside)
+        Some(&self.outside)
     }
 
     fn behind_mut(&mut self) -> Option<&mut dyn Host> {
-        Some(&mut *self.outside)
+        Some(&mut self.outside)
     }
 
     fn print(&mut self, _line: &str) {}
@@ -45,14 +42,6 @@ impl Host for Quiet<'_> {
 
     fn is_listening(&self) -> bool {
         false
-    }
-
-    fn is_keeping(&self) -> bool {
-        false
-    }
-
-    fn opening(&mut self, _path: &Path) -> io::Result<Option<Vec<u8>>> {
-        Ok(None)
     }
 
     fn takes_findings(&self) -> bool {
@@ -70,17 +59,5 @@ impl Host for Quiet<'_> {
             Finding::Halted(..) => self.n_dead_points += 1,
             _ => {}
         }
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        match self.written.get(path) {
-            Some(bytes) => Ok(String::from_utf8_lossy(bytes).into_owned()),
-            None => self.outside.read(path),
-        }
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.written.insert(path.to_path_buf(), bytes.to_vec());
-        Ok(())
     }
 }

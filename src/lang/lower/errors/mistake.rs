@@ -64,7 +64,7 @@ impl Reader<'_> {
             let rest = &self.text[found.span.range().start..range.end];
             without_parentheses(statement, word)
                 .or_else(|| with_word(before, &expected, rest))
-                .or_else(|| as_position(statement))
+                .or_else(|| as_position(statement, word))
         };
         let help = match (misspelt, other_points.filter(|_| short)) {
             _ if reworded.is_some() => reworded,
@@ -324,19 +324,23 @@ fn with_word(before: &str, expected: &Expected, rest: &str) -> Option<String> {
     let [word] = &expected.terms[..] else { return None };
     let word = word.strip_prefix('`')?.strip_suffix('`')?;
     let rests = [Some(rest.to_owned()), vector(rest)].into_iter().flatten();
-    let mut statements = rests.map(|rest| format!("{before} {word} {rest}"));
+    let blank = if word == "," { "" } else { " " };
+    let mut statements = rests.map(|rest| format!("{before}{blank}{word} {rest}"));
     let statement = statements.find(|statement| is_short(statement) && reads(statement))?;
     Some(format!("did you mean `{statement}`?"))
 }
 
 /// The statement with a position in parentheses where two numbers stand behind its `=` or `to`.
-fn as_position(statement: &str) -> Option<String> {
-    [" = ", " to "].into_iter().find_map(|sign| {
-        let (before, numbers) = statement.split_once(sign)?;
-        let statement = format!("{before}{sign}{}", vector(numbers)?);
-        let is_one = is_short(&statement) && reads(&statement);
-        is_one.then(|| format!("a position is a vector: `{statement}`"))
-    })
+fn as_position(statement: &str, verb: &str) -> Option<String> {
+    let sign = match verb {
+        "point" => " = ",
+        "move" | "drag" | "pull" => " to ",
+        _ => return None,
+    };
+    let (before, numbers) = statement.split_once(sign)?;
+    let statement = format!("{before}{sign}{}", vector(numbers)?);
+    let is_one = is_short(&statement) && reads(&statement);
+    is_one.then(|| format!("a position is a vector: `{statement}`"))
 }
 
 /// Two numbers as a vector.
