@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::anchor::Anchor;
 use crate::constraint::Point;
 use crate::render::{
     Drawing, Figure, FigureShape, Key, Outline, PAPER, Scene, looks, px, trace_colour,
@@ -9,7 +10,13 @@ use crate::render::{
 use crate::world::{Trace, World};
 
 /// How the classes of a drawing look, and all of the drawing.
-pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize) -> [Value; 2] {
+pub fn drawing(
+    drawing: &Drawing,
+    scene: &Scene,
+    topology: u32,
+    n_points: usize,
+    anchors: &[Option<Anchor>],
+) -> [Value; 2] {
     let ghosts = drawing.ghosts(scene);
     let shapes = drawing.figures().iter().chain(ghosts.iter().flat_map(|(_, figures)| figures));
     let looks = looks(shapes.flat_map(|figure| &figure.shapes));
@@ -44,6 +51,13 @@ pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize)
             json!({ "opacity": opacity, "figures": placed.collect::<Vec<_>>() })
         })
         .collect();
+    let figures = drawing.figures().iter().zip(anchors).map(|(figure, anchor)| {
+        let mut value = figure_value(figure);
+        if let Some(anchor) = anchor {
+            value["on"] = json!(anchor.handles());
+        }
+        value
+    });
     let corners = drawing.bounds().map(|(lo, hi)| [lo.x, lo.y, hi.x, hi.y]);
     let centre = drawing.centre();
     let drawing = json!({ "drawing": {
@@ -53,7 +67,7 @@ pub fn drawing(drawing: &Drawing, scene: &Scene, topology: u32, n_points: usize)
         "mark": drawing.mark(),
         "bounds": corners,
         "points": n_points,
-        "figures": drawing.figures().iter().map(figure_value).collect::<Vec<_>>(),
+        "figures": figures.collect::<Vec<_>>(),
         "ghosts": ghosts,
     } });
     [json!({ "classes": classes, "paper": PAPER }), drawing]

@@ -2,25 +2,17 @@
 
 use serde_json::{Value, json};
 
+use super::grip::Grip;
 use super::listener::{Listener, told};
-use super::{ClientId, Live, PAGE};
+use super::live_session::Live;
+use super::message::{ClientId, PAGE};
 use crate::constraint::Point;
 use crate::session::{Flow, Host, Ongoing, Session};
 use crate::world::PointId;
 
-/// Places of a gesture that are written in one statement; one that goes on is written in several.
-const MOST_PLACES: u64 = 5000;
-
-/// A point that a page holds.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Grip {
-    pub client: ClientId,
-    pub point: PointId,
-    /// Where it was led last.
-    pub place: Option<Point>,
-    /// Whether it is to be led there still.
-    pub is_to_move: bool,
-}
+/// Places of a gesture that are written in one statement, minutes of it: its text is about a megabyte. One
+/// that goes on is written in several.
+const MOST_PLACES: u64 = 50_000;
 
 impl Live {
     pub(super) fn grab(
@@ -35,8 +27,7 @@ impl Live {
         if self.grip.is_some() {
             return refused("a point is held already");
         }
-        self.close(session, host);
-        self.keep(session, host);
+        self.rest(session, host);
         match session.take_hold(point, self.pace.is_some()) {
             Ok(_) => {
                 self.grip = Some(Grip { client, point, place: None, is_to_move: false });
@@ -66,6 +57,8 @@ impl Live {
             self.close(session, host);
         }
         if self.ongoing.is_none() {
+            // It begins with what was tried.
+            self.keep(session, host);
             self.ongoing = match self.grip {
                 None => Some(Ongoing::time()),
                 Some(grip) => session.take_hold(grip.point, self.pace.is_some()).ok(),
@@ -91,6 +84,13 @@ impl Live {
             self.close(session, host);
         }
         goes_on
+    }
+
+    /// Something else is to be done: what goes on is written, what was tried stays.
+    pub(super) fn rest(&mut self, session: &mut Session, host: &mut dyn Host) {
+        self.lead(session, host);
+        self.close(session, host);
+        self.keep(session, host);
     }
 
     /// Writes what goes on as a statement; gives it.
@@ -125,22 +125,4 @@ impl Live {
             self.note_change();
         }
     }
-}
-
-/// Part of a px that nobody can point at.
-const FINEST: f64 = 0.05;
-
-/// A place with as many digits as can be pointed at where so many px are a world unit: its statement
-/// is then one that can be read.
-pub(super) fn rounded(place: Point, scale: f64) -> Point {
-    let mut factor = 1.0;
-    while factor * FINEST < scale && factor < 1e12 {
-        factor *= 10.0;
-    }
-    let round = |x: f64| {
-        let whole = (x * factor).round();
-        // Beyond that every digit is needed.
-        if whole.abs() < 1e15 { whole / factor } else { x }
-    };
-    Point::new(round(place.x), round(place.y))
 }

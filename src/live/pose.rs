@@ -1,7 +1,7 @@
 //! The mechanism as it stands, as frames tell it: a fixed layout in bytes.
 
 use crate::constraint::Point;
-use crate::render::Drawing;
+use crate::render::Placement;
 use crate::session::{Offence, Session, Standing};
 
 /// What a frame tells of the mechanism, whoever looks at it.
@@ -26,10 +26,9 @@ impl Pose {
     }
 
     /// The frame for who has a drawing, little-endian: its number and the drawing's, time and
-    /// residual, positions, then for each figure its place and its turn.
-    pub fn frame(&self, seq: u64, topology: u32, drawing: &Drawing) -> Vec<u8> {
-        let figures = drawing.figures();
-        let mut frame = Vec::with_capacity(24 + 16 * self.at.len() + 12 * figures.len());
+    /// residual, positions, then the number, the place and the turn of each figure that is news.
+    pub fn frame(&self, seq: u64, topology: u32, news: &[(u32, Placement)]) -> Vec<u8> {
+        let mut frame = Vec::with_capacity(24 + 16 * (self.at.len() + news.len()));
         frame.extend(seq.to_le_bytes());
         frame.extend(topology.to_le_bytes());
         frame.extend(self.time.to_le_bytes());
@@ -38,8 +37,8 @@ impl Pose {
             frame.extend(at.x.to_le_bytes());
             frame.extend(at.y.to_le_bytes());
         }
-        for figure in figures {
-            let placement = figure.placement;
+        for (figure, placement) in news {
+            frame.extend(figure.to_le_bytes());
             for number in [placement.at.x, placement.at.y, placement.turn] {
                 frame.extend((number as f32).to_le_bytes());
             }

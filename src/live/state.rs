@@ -59,7 +59,9 @@ pub fn structure(session: &Session) -> Map<String, Json> {
             Some(Value::Vector(value)) => json!([value.x, value.y]),
             None => Json::Null,
         };
-        json!({ "name": it.name, "text": it.text, "value": value, "live": it.is_live })
+        json!({
+            "name": it.name, "text": it.text, "value": value, "live": it.is_live, "used": it.is_used,
+        })
     });
     parts.insert("parameters".to_owned(), parameters.collect());
     let settings = session.setting_views().map(|(name, text, words, what)| {

@@ -1,12 +1,11 @@
-//! Statements that pages send: carried out, tried, completed.
+//! Statements that pages send: carried out, or tried.
 
 use serde_json::{Value, json};
 
 use super::listener::{Listener, told};
-use super::units::{from_utf16, to_utf16};
-use super::{Live, PAGE};
-use crate::lang::is_incomplete;
-use crate::session::{Completion, Flow, Host, Outcome, Session};
+use super::live_session::Live;
+use super::message::PAGE;
+use crate::session::{Flow, Host, Outcome, Session};
 
 impl Live {
     pub(super) fn execute(
@@ -15,8 +14,7 @@ impl Live {
         session: &mut Session,
         host: &mut dyn Host,
     ) -> Value {
-        self.close(session, host);
-        self.keep(session, host);
+        self.rest(session, host);
         let mut listener = Listener::new(host);
         listener.source = Some(session.sources().next_id());
         let Outcome { flow, failure } = self.transcript.enter(text, session, &mut listener);
@@ -38,6 +36,7 @@ impl Live {
         session: &mut Session,
         host: &mut dyn Host,
     ) -> Value {
+        self.lead(session, host);
         self.close(session, host);
         if let Some(attempt) = self.attempt.take() {
             session.take_back(&attempt);
@@ -67,31 +66,4 @@ impl Live {
             self.note_change();
         }
     }
-}
-
-/// What may stand at a place of a text, and what its pieces are.
-pub(super) fn complete(completion: &Completion, text: &str, at: usize) -> Value {
-    let cursor = from_utf16(text, at);
-    let before = &text[..cursor];
-    let offer = completion.offer(before);
-    let candidates = offer
-        .candidates
-        .iter()
-        .map(|candidate| json!({ "text": candidate.text, "shown": candidate.shown }));
-    let pieces = completion.pieces(text, cursor).into_iter().map(|piece| {
-        json!({
-            "from": to_utf16(text, piece.range.start),
-            "to": to_utf16(text, piece.range.end),
-            "class": format!("{:?}", piece.class).to_lowercase(),
-            "unknown": piece.is_unknown,
-        })
-    });
-    json!({
-        "ok": true,
-        "start": to_utf16(text, offer.start),
-        "candidates": candidates.collect::<Vec<_>>(),
-        "hint": if cursor == text.len() { completion.hint(before) } else { None },
-        "pieces": pieces.collect::<Vec<_>>(),
-        "incomplete": is_incomplete(text),
-    })
 }

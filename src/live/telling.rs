@@ -2,9 +2,11 @@
 
 use serde_json::{Value, json};
 
+use super::live_session::Live;
+use super::message::{ClientId, Message, PAGE, PROTOCOL};
 use super::pose::Pose;
-use super::viewer::News;
-use super::{ClientId, Live, Message, PROTOCOL, state};
+use super::state;
+use super::viewer::{News, Viewer};
 use crate::render::Scene;
 use crate::session::Session;
 
@@ -12,6 +14,19 @@ use crate::session::Session;
 const RECENT: usize = 500;
 
 impl Live {
+    /// What is to be told now, to whom.
+    pub fn take(&mut self, session: &mut Session) -> Vec<(ClientId, Message)> {
+        self.note_journal(session, PAGE);
+        self.tell_journal();
+        let (pose_number, state_number) = (self.pose_number, self.state_number);
+        let is_due = |viewer: &Viewer| viewer.is_due(pose_number, state_number);
+        if self.viewers.values().any(is_due) {
+            self.refresh(session);
+            self.tell_news(session);
+        }
+        std::mem::take(&mut self.outbox)
+    }
+
     /// Something was done.
     pub(super) fn note_change(&mut self) {
         self.pose_number += 1;

@@ -5,8 +5,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Message;
+use super::anchor::Places;
 use super::drawn;
+use super::message::Message;
 use super::pose::Pose;
 use crate::render::{Drawing, Followed, Scene};
 use crate::session::Session;
@@ -25,6 +26,8 @@ pub struct Viewer {
     /// px a world unit, where it wants that.
     scale: Option<f64>,
     drawing: Option<Drawing>,
+    /// Where it has the figures.
+    places: Places,
     topology: u32,
     seq: u64,
     seen: u64,
@@ -104,7 +107,8 @@ impl Viewer {
         }
         self.seq += 1;
         let drawing = self.drawing.as_ref().expect("it was drawn");
-        say(Message::Frame(news.pose.frame(self.seq, self.topology, drawing)));
+        let moved = self.places.news(drawing, &news.pose.at);
+        say(Message::Frame(news.pose.frame(self.seq, self.topology, &moved)));
     }
 
     /// Follows the mechanism, or draws it anew.
@@ -120,8 +124,10 @@ impl Viewer {
             Followed::Another => {
                 let drawing = Drawing::new(news.scene, self.scale);
                 self.topology += 1;
-                let n_points = news.pose.at.len();
-                for text in drawn::drawing(&drawing, news.scene, self.topology, n_points) {
+                let at = &news.pose.at;
+                self.places = Places::new(&drawing, at, news.session.world());
+                let anchors = self.places.anchors();
+                for text in drawn::drawing(&drawing, news.scene, self.topology, at.len(), anchors) {
                     say(Message::Text(text.to_string()));
                 }
                 self.drawing = Some(drawing);

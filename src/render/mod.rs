@@ -71,7 +71,7 @@ pub use animation::{Animation, is_shown, shown_for};
 pub use document::{FIRST_WORDS, Options};
 pub use drawable::Drawable;
 pub(crate) use drawing::{Drawing, Followed, looks, px, trace_colour};
-pub(crate) use figure::{Figure, FigureShape, Key, Outline};
+pub(crate) use figure::{Figure, FigureShape, Key, Outline, Placement};
 #[cfg(feature = "terminal")]
 pub use pixels::Pixels;
 #[cfg(any(feature = "terminal", feature = "pictures"))]

@@ -80,6 +80,8 @@ impl<'a> Execution<'a> {
     ) -> Self {
         let deadline = Deadline::after(input.quotas.seconds(), host);
         let n_printed_before = host.n_printed();
+        input.is_change = false;
+        input.n_done = None;
         Self {
             state,
             input,
@@ -147,7 +149,7 @@ impl<'a> Execution<'a> {
         self.history.last_motion.end(self.state.world.revision());
         self.report_run();
         let label = self.input.label(statement.span);
-        self.history.commit(self.state, &label, &self.input.quotas);
+        self.input.is_change = self.history.commit(self.state, &label, &self.input.quotas);
     }
 
     /// Ends recordings that still run and writes them.

@@ -26,6 +26,10 @@ pub struct Input {
     pub stopped_after: Option<u64>,
     /// How far the next statement is to come, which was stopped when it was carried out first.
     pub next_stop: Option<u64>,
+    /// Whether the last command changed something that `undo` takes back.
+    pub is_change: bool,
+    /// How many frames or iterations the last command did, where it was stopped on its way.
+    pub n_done: Option<u64>,
     /// How much is allowed.
     pub quotas: Quotas,
     /// The statement of a text that was reached last.
@@ -46,6 +50,8 @@ impl Default for Input {
             is_unrepeatable: false,
             stopped_after: None,
             next_stop: None,
+            is_change: false,
+            n_done: None,
             quotas: Quotas::default(),
             reached: Span::new(SourceId(0), 0..0),
             n_files: 0,
@@ -77,6 +83,12 @@ impl Input {
             self.folders.insert(id, folder);
         }
         id
+    }
+
+    /// Keeps a text of one statement; gives all of it.
+    pub fn add_whole(&mut self, name: &str, text: &str) -> Span {
+        let source = self.add_piece(name, text, 1, None);
+        Span::new(source, 0..text.len())
     }
 
     /// Keeps a text that others keep too.

@@ -333,8 +333,14 @@ impl Session {
 
     /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
     fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
-        let leaves_a_mark = transcript::leaves_a_mark(&statement.command);
-        self.input.note_typed(statement.span, leaves_a_mark);
+        // Who asks for a turn has it counted from then on.
+        let leaves_a_mark = transcript::leaves_a_mark(&statement.command) || self.input.is_change;
+        let done = self.input.n_done.and_then(|n| transcript::what_was_done(&statement.command, n));
+        let span = match done {
+            Some(text) => self.input.add_whole("stopped", &text),
+            None => statement.span,
+        };
+        self.input.note_typed(span, leaves_a_mark);
         let is_unrepeatable = std::mem::take(&mut self.input.is_unrepeatable);
         if !host.is_keeping() || !leaves_a_mark {
             return;

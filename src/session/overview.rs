@@ -42,6 +42,8 @@ pub struct ParameterView {
     pub value: Option<Value>,
     /// Whether it is an expression of other things.
     pub is_live: bool,
+    /// Whether something follows it: what a loop or a position took was its value then.
+    pub is_used: bool,
 }
 
 /// A constraint that is off.
@@ -111,6 +113,7 @@ impl Session {
                 text: unbind.unbind(&parameter.formula).to_string(),
                 value: parameter.value,
                 is_live: !parameter.depends.is_constant(),
+                is_used: !world.users(&[Entity::Parameter(id)]).is_empty(),
             })
         })
     }

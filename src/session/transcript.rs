@@ -139,6 +139,15 @@ pub(super) fn leaves_a_mark(command: &Command) -> bool {
     }
 }
 
+/// The statement that does what a statement did which was stopped after so many frames or iterations,
+/// where there is one.
+pub(super) fn what_was_done(command: &Command, n: u64) -> Option<String> {
+    match command {
+        Command::Running(it) => it.stopped_after(n),
+        _ => None,
+    }
+}
+
 impl Transcript {
     /// Says once that an edit left the pose unsolved, until it is solved again.
     fn look_at_pose(&mut self, is_edit: bool, session: &Session, host: &mut dyn Host) {

@@ -98,6 +98,19 @@ impl Running {
         }))
     }
 
+    /// The statement that does what it did when it was stopped after so many frames or iterations; none where
+    /// they depend on a clock or on more than its own.
+    pub fn stopped_after(&self, n: u64) -> Option<String> {
+        match self {
+            Self::Step { promise, .. } | Self::Run { promise, .. } => {
+                let is_plain = promise.within.is_none() && promise.in_time.is_none();
+                is_plain.then(|| format!("step {n}"))
+            }
+            Self::Relax(_) => Some(format!("relax {n}")),
+            Self::Solve(_) => None,
+        }
+    }
+
     /// Writes its canonical form.
     pub(in crate::lang) fn write(&self, f: &mut Formatter) -> fmt::Result {
         match self {

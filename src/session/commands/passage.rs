@@ -75,6 +75,7 @@ impl Execution<'_> {
                     Passed::Stopped => flow = Flow::Stopped,
                 }
             }
+            self.input.n_done = Some(passage.n_passed);
             self.note_stop(format!(
                 "stopped after {} of {}",
                 passage.n_passed,

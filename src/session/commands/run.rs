@@ -237,6 +237,7 @@ impl Execution<'_> {
         let mut flow = Flow::On;
         while left > 0 {
             if self.is_to_stop() {
+                self.input.n_done = Some(n - left);
                 self.note_stop(format!(
                     "stopped after {} of {}",
                     n - left,

@@ -216,14 +216,17 @@ impl History {
         }
     }
 
-    /// Ends the command under way. One that left everything as it was is none to be taken back.
-    pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) {
+    /// Ends the command under way; whether it changed something. One that left everything as it was is
+    /// none to be taken back.
+    pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) -> bool {
         self.gather(state);
-        if self.journal.current.iter().all(|change| state.is_at(change)) {
-            self.journal.take_current();
-        } else {
+        let is_change = !self.journal.current.iter().all(|change| state.is_at(change));
+        if is_change {
             self.journal.commit(label, quotas);
+        } else {
+            self.journal.take_current();
         }
+        is_change
     }
 
     /// Takes back what the command under way did.

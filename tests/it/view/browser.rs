@@ -212,6 +212,19 @@ impl Page {
         }
     }
 
+    /// What the clock of the last frame shows.
+    pub fn time(&self) -> f64 {
+        f64::from_le_bytes(self.frame[12..20].try_into().expect("eight bytes"))
+    }
+
+    /// Hears until time has passed.
+    pub fn until_later(&mut self) {
+        let before = self.time();
+        while self.time() <= before {
+            self.until_frame();
+        }
+    }
+
     /// Hears until something was told that fits.
     pub fn until(&mut self, fits: impl Fn(&Value) -> bool) -> Value {
         let mut n = 0;

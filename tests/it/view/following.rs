@@ -19,6 +19,8 @@ struct Follower {
     traces: BTreeMap<usize, Vec<f64>>,
     frame: Vec<u8>,
     seq: u64,
+    /// Where it has the figures: x, y and turn in turn.
+    places: Vec<f32>,
 }
 
 impl Follower {
@@ -32,6 +34,7 @@ impl Follower {
                     self.drawing["topology"],
                     "the frame is of the drawing"
                 );
+                self.place();
                 return;
             }
             Message::Text(text) => text,
@@ -39,7 +42,10 @@ impl Follower {
         let message: Value = serde_json::from_str(text).expect("JSON");
         for (kind, what) in message.as_object().expect("an object") {
             match &**kind {
-                "drawing" => self.drawing = what.clone(),
+                "drawing" => {
+                    self.drawing = what.clone();
+                    self.places.clear();
+                }
                 "off" => self.off = what.clone(),
                 "state" => self.state = what.clone(),
                 "shapes" => {
@@ -72,16 +78,48 @@ impl Follower {
         json!(u32::from_le_bytes(self.frame[8..12].try_into().expect("four bytes")))
     }
 
-    /// The numbers of its last frame that are no places of figures.
-    fn poses(&self) -> &[u8] {
-        let n_points = self.drawing["points"].as_u64().expect("a number") as usize;
-        &self.frame[12..24 + 16 * n_points]
+    fn n_points(&self) -> usize {
+        self.drawing["points"].as_u64().expect("a number") as usize
     }
 
-    fn placements(&self) -> Vec<f32> {
-        let n_points = self.drawing["points"].as_u64().expect("a number") as usize;
-        let rest = &self.frame[24 + 16 * n_points..];
-        rest.chunks(4).map(|it| f32::from_le_bytes(it.try_into().expect("four bytes"))).collect()
+    /// The numbers of its last frame that are no places of figures.
+    fn poses(&self) -> &[u8] {
+        &self.frame[12..24 + 16 * self.n_points()]
+    }
+
+    /// Puts the figures where the last frame has them.
+    fn place(&mut self) {
+        let figures = self.drawing["figures"].as_array().expect("a list");
+        self.places.resize(3 * figures.len(), f32::NAN);
+        let number = |value: &Value| value.as_f64().expect("a number");
+        let scale = number(&self.drawing["scale"]);
+        let centre = [0, 1].map(|k| number(&self.drawing["centre"][k]));
+        let poses = &self.frame[24..24 + 16 * self.n_points()];
+        let px = |handle: &Value| {
+            let from = 16 * handle.as_u64().expect("a handle") as usize;
+            let coordinate = |k: usize| {
+                let bytes = &poses[from + 8 * k..from + 8 * k + 8];
+                f64::from_le_bytes(bytes.try_into().expect("eight bytes"))
+            };
+            [(coordinate(0) - centre[0]) * scale, (centre[1] - coordinate(1)) * scale]
+        };
+        for (figure, place) in figures.iter().zip(self.places.chunks_mut(3)) {
+            let Some(on) = figure["on"].as_array() else { continue };
+            let [x, y] = px(&on[0]);
+            let turn = on.get(1).map_or(0.0, |towards| {
+                let [u, v] = px(towards);
+                libm::atan2(v - y, u - x).to_degrees()
+            });
+            place.copy_from_slice(&[x as f32, y as f32, turn as f32]);
+        }
+        for news in self.frame[24 + 16 * self.n_points()..].chunks(16) {
+            let word = |k: usize| news[4 * k..4 * k + 4].try_into().expect("four bytes");
+            let figure = u32::from_le_bytes(word(0)) as usize;
+            for k in 0..3 {
+                self.places[3 * figure + k] = f32::from_le_bytes(word(k + 1));
+            }
+        }
+        assert!(self.places.iter().all(|number| number.is_finite()), "each has been told");
     }
 }
 
@@ -191,6 +229,8 @@ fn follows(texts: &[String]) {
             for figure in figures.as_array_mut().expect("a list") {
                 let shapes = figure["shapes"].as_array_mut().expect("a list");
                 shapes.retain(|shape| shape.get("text").is_none());
+                // What it seemed to lie on then; frames tell where that is not so.
+                figure.as_object_mut().expect("an object").remove("on");
             }
             figures
         };
@@ -198,7 +238,7 @@ fn follows(texts: &[String]) {
         assert_eq!(s, t, "{when}");
         assert!(is_near(&a, &b), "{when}");
         let widened =
-            |it: &Follower| it.placements().into_iter().map(f64::from).collect::<Vec<_>>();
+            |it: &Follower| it.places.iter().map(|&number| f64::from(number)).collect::<Vec<_>>();
         assert!(is_near(&widened(early), &widened(late)), "{when}");
     }
 }
@@ -236,7 +276,7 @@ fn pages_have_scales_of_their_own() {
     let figures = drawing["figures"].as_array().expect("a list");
     let of_first = |it: &&Value| it["point"] == 0 && it["layer"] == "joint";
     let k = figures.iter().position(|it| of_first(&it)).expect("its joint");
-    let place = theatre.followers[&1].placements()[3 * k];
+    let place = theatre.followers[&1].places[3 * k];
     let centre = drawing["centre"][0].as_f64().expect("a number");
     assert!((f64::from(place) - (x - centre) * 200.0).abs() < 1e-3);
 }

@@ -77,14 +77,14 @@ fn a_gesture_while_time_passes_gives_the_same_bits() {
     let viewed = Viewed::on(&scene());
     let mut page = viewed.open();
     page.ask(json!({ "do": "play", "speed": 1 }));
-    page.until_frame();
+    page.until_later();
     for point in ["C", "A"] {
         hold(&mut page, point);
         lead(&mut page, &WAY);
-        for _ in 0..3 {
-            page.until_frame();
-        }
+        page.until_later();
         release(&mut page);
+        // Without a hand for a while.
+        page.until_later();
     }
     page.ask(json!({ "do": "pause" }));
     assert_eq!(page.script(), replayed(&page));

@@ -177,6 +177,14 @@ fn a_page_may_stop_what_it_asked_for() {
             break;
         }
     }
+    // What it did is what the journal says: nothing of it depends on when it was stopped.
+    let journal = page.journal();
+    let done = journal.last().expect("it did something");
+    assert!(done.starts_with("relax "), "{done}");
+    let mut again = linkwork::Session::new();
+    again.run(SCENE).expect("the script is right");
+    again.run(done).expect("the statement is right");
+    assert_eq!(page.script(), again.to_script());
     page.exec("undo");
     assert_eq!(page.script(), before);
 }

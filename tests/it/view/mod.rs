@@ -4,4 +4,5 @@ mod browser;
 mod following;
 mod gestures;
 mod hostile;
+mod replayed;
 mod sessions;

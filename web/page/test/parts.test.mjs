@@ -118,7 +118,7 @@ test("texts of any length fit into messages and come out whole", async () => {
 
 test("a frame is read, and what is none is not", async () => {
   const { readFrame } = await part("engine/protocol.ts");
-  const buffer = new ArrayBuffer(24 + 16 * 2 + 12);
+  const buffer = new ArrayBuffer(24 + 16 * 2 + 16);
   const view = new DataView(buffer);
   view.setBigUint64(0, 7n, true);
   view.setUint32(8, 5, true);
@@ -127,12 +127,19 @@ test("a frame is read, and what is none is not", async () => {
   [1, 2, 3, 4].forEach((number, k) => {
     view.setFloat64(24 + 8 * k, number, true);
   });
+  view.setUint32(56, 2, true);
   [10, 20, 90].forEach((number, k) => {
-    view.setFloat32(56 + 4 * k, number, true);
+    view.setFloat32(60 + 4 * k, number, true);
   });
-  const { at, place, ...head } = readFrame(buffer, 2);
+  // One at a point, one from it towards the other, one that is told, one as it was.
+  const figures = [{ on: [0] }, { on: [0, 1] }, {}, {}];
+  const drawing = { points: 2, scale: 10, centre: [1, 1], figures };
+  const before = new Float32Array([9, 9, 0, 9, 9, 9, 9, 9, 9, 5, 6, 7]);
+  const { at, place, ...head } = readFrame(buffer, drawing, before);
   assert.deepEqual(head, { seq: 7, topology: 5, time: 0.25, residual: 0.5 });
-  assert.deepEqual([...at, ...place], [1, 2, 3, 4, 10, 20, 90]);
-  assert.equal(readFrame(buffer, 5), undefined);
-  assert.equal(readFrame(new ArrayBuffer(10), 0), undefined);
+  assert.deepEqual([...at], [1, 2, 3, 4]);
+  assert.deepEqual([...place], [0, -10, 0, 0, -10, -45, 10, 20, 90, 5, 6, 7]);
+  assert.equal(readFrame(buffer, { ...drawing, points: 5 }, undefined), undefined);
+  assert.equal(readFrame(buffer, { ...drawing, figures: [] }, undefined), undefined);
+  assert.equal(readFrame(new ArrayBuffer(10), { ...drawing, points: 0 }, undefined), undefined);
 });

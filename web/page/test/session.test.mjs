@@ -146,6 +146,40 @@ test("values, motors and settings are statements", async (t) => {
   assert.match(last.at(-1), /^let r = 4\.\d+$/);
 });
 
+test("a slider that nothing follows says so", async (t) => {
+  const script = "let n = 2, r = 3\nfor i in 1..n { point P[i] = (i, 0) }\nlength P[1] P[2] = r\n";
+  const session = await s.session(t, script);
+  const page = await s.openAt(t, session.address);
+  assert.equal(await page.getByLabel("r, slider").isEnabled(), true);
+  assert.equal(await page.getByLabel("n, slider").isEnabled(), false);
+  assert.match(await page.getByLabel("n, slider").getAttribute("title"), /Nothing follows it/);
+  await s.tell(page, "length P[1] P[2] <= 2 * n");
+  await s.until(() => page.getByLabel("n, slider").isEnabled(), "it is followed now");
+});
+
+test("ten thousand bars are shown, and one of them is dragged", async (t) => {
+  const script = `for i in 0..99 { for k in 0..99 {
+    point a[i][k] = (i, k) frozen, b[i][k] = (i + 0.7, k + 0.3); length a[i][k] b[i][k]
+  } }\n`;
+  const session = await s.session(t, script);
+  const page = await s.openAt(t, session.address);
+  const size = await page.evaluate(() => ({
+    points: window.painted.at.length / 2,
+    scale: window.painted.scale,
+  }));
+  assert.equal(size.points, 20_000);
+  // Near enough that points are apart.
+  const middle = await s.screen(page, { x: 50.7, y: 50.3 });
+  await page.mouse.move(middle.x, middle.y);
+  for (let k = 0; k < 8; k++) await page.mouse.wheel(0, -300);
+  await page.waitForFunction((scale) => window.painted.scale > 5 * scale, size.scale, {
+    timeout: s.PATIENCE,
+  });
+  await page.waitForTimeout(1500);
+  await s.drag(page, { x: 50.7, y: 50.3 }, { x: 50.4, y: 50.6 });
+  await s.written(page, /^pull b\[50\]\[50\] through /);
+});
+
 test("a mistake has the words and the caret of the prompt", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);
@@ -359,6 +393,26 @@ test("fingers drag a point, two of them move the view", async (t) => {
     const ratio = (await page.evaluate(() => window.painted.scale)) / before;
     return Math.abs(ratio - 2) < 0.05;
   }, "fingers twice as far apart make it twice as large");
+});
+
+test("Enter carries out what is there, however slowly the session answers", async (t) => {
+  const session = await s.session(t, ARM);
+  // A session that is asked what may stand here is a while about it.
+  const page = await s.openAt(t, session.address, {
+    before: () => {
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (message) {
+        setTimeout(() => send.call(this, message), 150);
+      };
+    },
+  });
+  await page.focus("#text");
+  await page.keyboard.type("point K = (0, 1)");
+  await page.keyboard.press("Enter");
+  await s.written(page, /^point K/);
+  await page.keyboard.type("for i in 1..2 {");
+  await page.keyboard.press("Enter");
+  await s.until(async () => (await page.inputValue("#text")).endsWith("{\n"), "the line goes on");
 });
 
 test("the box completes", async (t) => {

@@ -242,7 +242,8 @@ export class Client {
   private see(buffer: ArrayBuffer): void {
     const drawing = this.drawing;
     if (drawing === undefined || topologyOf(buffer) !== drawing.topology) return;
-    const frame = readFrame(buffer, drawing.points);
+    const before = this.frame?.topology === drawing.topology ? this.frame.place : undefined;
+    const frame = readFrame(buffer, drawing, before);
     if (frame === undefined) return;
     this.frame = frame;
     this.moved.tell(frame);

@@ -87,6 +87,8 @@ export interface ParameterState {
   readonly value: number | readonly number[] | null;
   /** Whether it depends on others. */
   readonly live: boolean;
+  /** Whether others depend on it. */
+  readonly used: boolean;
 }
 
 export interface SettingState {
@@ -162,6 +164,9 @@ export interface Figure {
   readonly point?: number;
   readonly note?: string;
   readonly off?: boolean;
+  /** The point that it lies on, and the one that it is turned to. */
+  readonly on?: readonly [number, number?];
+  /** Of a pose of the past. */
   readonly place?: readonly [number, number, number];
   readonly shapes: readonly Shape[];
 }
@@ -242,20 +247,54 @@ export interface Frame {
 }
 
 const FRAME_HEAD = 24;
+/** Bytes of a figure that is elsewhere than its points say. */
+const NEWS = 16;
 
-/** Reads a frame of so many points; none if it is not one. */
-export function readFrame(buffer: ArrayBuffer, nPoints: number): Frame | undefined {
-  const rest = buffer.byteLength - FRAME_HEAD - 16 * nPoints;
-  if (rest < 0 || rest % 12 !== 0) return undefined;
+/** Reads a frame of a drawing; none if it is not one. `before` are placements of the frame before. */
+export function readFrame(
+  buffer: ArrayBuffer,
+  drawing: Drawing,
+  before: Float32Array | undefined,
+): Frame | undefined {
+  const begin = FRAME_HEAD + 16 * drawing.points;
+  const rest = buffer.byteLength - begin;
+  if (rest < 0 || rest % NEWS !== 0) return undefined;
   const view = new DataView(buffer);
+  const at = new Float64Array(buffer, FRAME_HEAD, 2 * drawing.points);
+  const place = new Float32Array(3 * drawing.figures.length);
+  if (before !== undefined) place.set(before);
+  layOnPoints(place, drawing, at);
+  for (let from = begin; from < buffer.byteLength; from += NEWS) {
+    const k = view.getUint32(from, true);
+    if (k >= drawing.figures.length) return undefined;
+    for (const n of [0, 1, 2]) place[3 * k + n] = view.getFloat32(from + 4 + 4 * n, true);
+  }
   return {
     seq: Number(view.getBigUint64(0, true)),
     topology: view.getUint32(8, true),
     time: view.getFloat64(12, true),
     residual: view.getFloat32(20, true),
-    at: new Float64Array(buffer, FRAME_HEAD, 2 * nPoints),
-    place: new Float32Array(buffer, FRAME_HEAD + 16 * nPoints, rest / 4),
+    at,
+    place,
   };
+}
+
+/** Puts figures where the points are that they lie on. */
+function layOnPoints(place: Float32Array, drawing: Drawing, at: Float64Array): void {
+  const { scale } = drawing;
+  const [cx, cy] = drawing.centre;
+  for (const [k, { on }] of drawing.figures.entries()) {
+    if (on === undefined) continue;
+    const [a, b] = on;
+    const x = ((at[2 * a] ?? 0) - cx) * scale;
+    const y = (cy - (at[2 * a + 1] ?? 0)) * scale;
+    place[3 * k] = x;
+    place[3 * k + 1] = y;
+    if (b === undefined) continue;
+    const dx = ((at[2 * b] ?? 0) - cx) * scale - x;
+    const dy = (cy - (at[2 * b + 1] ?? 0)) * scale - y;
+    place[3 * k + 2] = (Math.atan2(dy, dx) * 180) / Math.PI;
+  }
 }
 
 /** To which drawing a frame belongs. */

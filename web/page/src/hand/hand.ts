@@ -8,6 +8,9 @@ import type { Tool, Touch } from "./tool.ts";
 /** How near is near, px: a finger covers more than a mouse's tip. */
 const REACH = { mouse: 12, pen: 14, touch: 24 } as const;
 
+/** A mouse may tell more than a thousand places a second; a point is led to one of them in so many ms. */
+const APART = 7;
+
 /** One notch of a wheel. */
 const NOTCH = 1.0016;
 
@@ -16,6 +19,7 @@ export class Hand {
   private readonly pressed = new Map<number, Vec>();
   private isPanning = false;
   private isUsing = false;
+  private lastEarly = 0;
 
   constructor(
     private readonly page: Page,
@@ -26,6 +30,8 @@ export class Hand {
       canvas.addEventListener(name, (event) => act(event as PointerEvent));
     on("pointerdown", (event) => this.down(event));
     on("pointermove", (event) => this.move(event));
+    // Comes at once, where a browser has it: moves wait until the display is about to show something.
+    on("pointerrawupdate", (event) => this.early(event));
     on("pointerup", (event) => this.up(event));
     on("pointercancel", (event) => this.up(event, true));
     on("pointerleave", () => this.leave());
@@ -80,6 +86,13 @@ export class Hand {
     if (this.isPanning) this.pan(event.pointerId, before, touch.at);
     else if (this.isUsing) this.tool.move(this.page, touch, true);
     this.pressed.set(event.pointerId, touch.at);
+  }
+
+  /** What the engine has to answer it hears of early: the frame to come may then show it. */
+  private early(event: PointerEvent): void {
+    if (!this.isUsing || this.isPanning || event.timeStamp - this.lastEarly < APART) return;
+    this.lastEarly = event.timeStamp;
+    this.tool.move(this.page, this.touch(event), true);
   }
 
   private up(event: PointerEvent, isCancelled = false): void {

@@ -57,6 +57,8 @@ export class Select implements Tool {
       this.take(page, pressed.point);
     }
     const to = rounded(touch.place, page.stage.camera.scale);
+    const last = page.stage.overlay.held?.to;
+    if (last?.x === to.x && last.y === to.y) return;
     this.show(page, { held: { point: pressed.point.handle, to } });
     page.client.move(to.x, to.y);
   }

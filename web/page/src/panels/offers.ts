@@ -12,8 +12,6 @@ const MOST = 40;
 const CONTEXT = 600;
 
 export class Offers {
-  /** Whether the statement in the box goes on in the next line. */
-  isIncomplete = false;
   private readonly list = h("ul", { class: "offers", role: "listbox", id: "offers", hidden: true });
   private completion: Completion | undefined;
   /** Where the text that was asked begins. */
@@ -62,6 +60,14 @@ export class Offers {
     return true;
   }
 
+  /** Whether the statement in the box goes on in the next line. */
+  async goesOn(): Promise<boolean> {
+    const { value } = this.box;
+    const text = this.page.client.canRestart ? value : value.slice(-CONTEXT);
+    const { incomplete } = await this.page.client.complete(text, text.length);
+    return incomplete === true;
+  }
+
   /** The box was given another text: its colours are asked for. */
   changed(): void {
     this.colours.follow();
@@ -82,7 +88,6 @@ export class Offers {
     const completion = await this.page.client.complete(text, at - base);
     // Somebody who types is ahead of the answer.
     if (number !== this.nAsked || completion.candidates === undefined) return;
-    this.isIncomplete = completion.incomplete;
     this.base = base;
     if (isWhole)
       this.colours.paint(

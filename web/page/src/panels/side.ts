@@ -21,7 +21,7 @@ function parameterRow(page: Page, { name }: ParameterState): Row<ParameterState>
     statement: (text) => `let ${name} = ${text}`,
   });
   const element = h("div", { class: "row slider" }, h("code", {}, name), row.input, row.slider);
-  return { element, update: ({ text, live }) => row.show(text, live) };
+  return { element, update: ({ text, live, used }) => row.show(text, live, used) };
 }
 
 function motorRow(page: Page, { name }: MotorState): Row<MotorState> {

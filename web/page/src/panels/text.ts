@@ -169,9 +169,12 @@ export class TextPanel {
 
   private key(event: KeyboardEvent): void {
     if (this.offers.key(event)) return;
-    if (event.key === "Enter" && (event.ctrlKey || event.metaKey || this.isWhole(event))) {
+    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) {
       event.preventDefault();
       void this.run();
+    } else if (event.key === "Enter" && !event.shiftKey && this.isOneLine()) {
+      event.preventDefault();
+      void this.enter();
     } else if (event.key === "ArrowUp" && this.isOneLine()) {
       event.preventDefault();
       this.recall(1);
@@ -183,9 +186,19 @@ export class TextPanel {
     }
   }
 
-  /** Whether Enter carries out: a lone line that is complete. */
-  private isWhole(event: KeyboardEvent): boolean {
-    return !event.shiftKey && this.isOneLine() && !this.offers.isIncomplete;
+  /** Carries out a lone line that is complete; one that is not goes on in the next. */
+  private async enter(): Promise<void> {
+    const { value } = this.box;
+    const goesOn = await this.offers.goesOn();
+    if (this.box.value !== value) return;
+    if (goesOn) this.insertBreak();
+    else void this.run();
+  }
+
+  private insertBreak(): void {
+    const { selectionStart, selectionEnd } = this.box;
+    this.box.setRangeText("\n", selectionStart, selectionEnd, "end");
+    this.box.dispatchEvent(new Event("input"));
   }
 
   private isOneLine(): boolean {

@@ -64,8 +64,12 @@ export class ValueRow {
   }
 
   /** Shows a value, unless a hand is on it. */
-  show(text: string, isLive = false): void {
+  show(text: string, isLive = false, isUsed = true): void {
     this.slider.hidden = isLive;
+    this.slider.disabled = !isUsed;
+    this.slider.title = isUsed
+      ? ""
+      : "Nothing follows it: what was made with it took its value then.";
     if (this.isSliding) return;
     if (document.activeElement !== this.input) this.input.value = text;
     const said = quantity(text);
