@@ -68,6 +68,12 @@ const CASES: [Case; 10] = [
         statement: |_| "limits crank".to_owned(),
     },
     Case { what: "a picture", size: 1500, before: rods, statement: |_| "svg \"a.svg\"".to_owned() },
+    Case {
+        what: "a chart",
+        size: 20_000,
+        before: |n| format!("for i in 1..{n} {{ sample \"s\" = sin(i) }}"),
+        statement: |_| "plot \"s.svg\"".to_owned(),
+    },
     Case { what: "a file", size: 1500, before: rods, statement: |_| "save \"a.link\"".to_owned() },
     Case {
         what: "a search for the best numbers",
