@@ -45,7 +45,7 @@ fn net(n: usize) -> String {
     )
 }
 
-const CASES: [Case; 10] = [
+const CASES: [Case; 11] = [
     Case {
         what: "a loop without statements",
         size: 1000,
