@@ -102,6 +102,8 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Orientation,
         &[
+            "solve/closed_form/compile.rs",
+            "solve/closed_form/direction.rs",
             "session/commands/diagnose.rs",
             "session/commands/slips.rs",
             "session/resolve/unbind.rs",
@@ -136,6 +138,8 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Cog,
         &[
+            "solve/closed_form/compile.rs",
+            "solve/closed_form/wheel.rs",
             "constraint/kinds/cog_velocity.rs",
             "session/commands/constrain.rs",
             "session/commands/save.rs",

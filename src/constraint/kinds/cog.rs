@@ -114,6 +114,45 @@ impl Cog {
         (theta1 - alpha) + self.ratio() * (theta2 - alpha)
     }
 
+    /// The angle at which the marker of the first or the second wheel belongs while everything else is
+    /// at these places; none while the marker of the other has none.
+    pub fn marker_angle(&self, is_second: bool, [x1, x2, x3, x4]: [Point; 4]) -> Option<f64> {
+        let other = if is_second { [x1, x2] } else { [x3, x4] };
+        if !has_direction(other[0], other[1]) {
+            return None;
+        }
+        let direction = (other[1] - other[0]).angle();
+        let alpha = if self.alpha_counts(x1, x3) {
+            self.lifted[1].near((x3 - x1).angle())
+        } else {
+            self.lifted[1].angle
+        };
+        let rest = self.k - self.wound;
+        Some(if is_second {
+            alpha + (rest - (self.lifted[0].near(direction) - alpha)) / self.ratio()
+        } else {
+            alpha + (rest - self.ratio() * (self.lifted[2].near(direction) - alpha))
+        })
+    }
+
+    /// How far the first or the second wheel turns at most while the other and the line of centres
+    /// turn by no more than that.
+    pub fn most_turned(&self, is_second: bool, other: f64, line: f64) -> f64 {
+        let r = self.ratio();
+        let by_line = line * (1.0 + r).abs();
+        if is_second { (other + by_line) / r.abs() } else { other * r.abs() + by_line }
+    }
+
+    /// Whether the line of centres turns the wheels too.
+    pub fn follows_centres(&self) -> bool {
+        self.ratio() != -1.0
+    }
+
+    /// What is left of the equation at these places, radians; none while a marker has no angle.
+    pub fn value_at(&self, places: [Point; 4]) -> Option<f64> {
+        self.spokes_at(places).map(|spokes| self.value(&spokes))
+    }
+
     /// None while a marker has no angle.
     fn spokes(&self, x: &[Point]) -> Option<Spokes<Vector>> {
         let [a, b, c, d] = self.points;
@@ -121,7 +160,10 @@ impl Cog {
             // Each marker is the other's centre: one segment, on which nothing can turn.
             return None;
         }
-        let [x1, x2, x3, x4] = self.places(x);
+        self.spokes_at(self.places(x))
+    }
+
+    fn spokes_at(&self, [x1, x2, x3, x4]: [Point; 4]) -> Option<Spokes<Vector>> {
         let centres = if self.alpha_counts(x1, x3) { x3 - x1 } else { Vector::ZERO };
         (has_direction(x1, x2) && has_direction(x3, x4)).then_some(Spokes([
             x2 - x1,

@@ -81,6 +81,12 @@ pub(super) struct Turned<const N: usize> {
 impl<const N: usize> Turned<N> {
     const NOT: Self = Self { x: [0.0; N], y: [0.0; N], way: [0.0; N] };
 
+    /// Where it points in one of them, and how far it went.
+    #[inline(always)]
+    pub fn at(&self, l: usize) -> (Vector, f64) {
+        (Vector::new(self.x[l], self.y[l]), self.way[l])
+    }
+
     /// In one of them it points there, and went so far.
     #[inline(always)]
     pub fn set(&mut self, l: usize, target: Vector, way: f64) {
@@ -124,6 +130,12 @@ impl<const N: usize> Abreast<N> {
         Found { worst: self.worst[l], least_side_squared: self.least_side_squared[l] }
     }
 
+    /// Takes in what a check came to in each frame.
+    #[inline(always)]
+    pub fn check_each(&mut self, off: impl Fn(usize) -> f64) {
+        (0..N).for_each(|l| self.add(l, off(l), 1.0));
+    }
+
     /// Takes in what a step came to in a frame.
     #[inline(always)]
     fn add(&mut self, l: usize, off: f64, side_squared: f64) {
@@ -156,8 +168,14 @@ pub(super) trait Meeting<const K: usize> {
     fn gauge(&self, from: [Point; K]) -> f64;
     /// That of the last pose.
     fn last(&mut self) -> &mut f64;
-    /// Where the point is, with that number before and now, and how far the others went.
-    fn meet(&self, from: [Point; K], gauges: [f64; 2], ways: [f64; K]) -> Met;
+    /// Where the point is, with that number before and now, how far the others went, and what drives it.
+    fn meet(&self, from: [Point; K], gauges: [f64; 2], ways: [f64; K], drive: (Vector, f64))
+    -> Met;
+
+    /// Which of the numbers that drive frames it is given, if any.
+    fn drive(&self) -> Option<u32> {
+        None
+    }
 
     /// Finds the point in each frame.
     #[inline(always)]
@@ -173,10 +191,12 @@ pub(super) trait Meeting<const K: usize> {
         let mut before = [*self.last(); N];
         before[1..].copy_from_slice(&gauges[..N - 1]);
         *self.last() = gauges[N - 1];
+        let turned = self.drive().map_or(Turned::NOT, |k| abreast.turned[k as usize]);
         let (mut at, mut way) = (Places::all(Point::ORIGIN), [0.0; N]);
         for l in 0..N {
             let now = places.each_ref().map(|p| p.at(l));
-            let met = self.meet(now, [before[l], gauges[l]], ways.each_ref().map(|way| way[l]));
+            let ways = ways.each_ref().map(|way| way[l]);
+            let met = self.meet(now, [before[l], gauges[l]], ways, turned.at(l));
             at.set(l, met.at);
             way[l] = met.way;
             abreast.add(l, met.off, met.side_squared);

@@ -2,7 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
-use crate::constraint::{Point, PointIdx};
+use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
 /// A point at given distances from two others.
@@ -90,7 +90,13 @@ impl Meeting<2> for Circles {
     /// Where the circles meet, on the side where the point was, if no pose on the way is nearly
     /// singular.
     #[inline(always)]
-    fn meet(&self, [a, b]: [Point; 2], [before, apart]: [f64; 2], ways: [f64; 2]) -> Met {
+    fn meet(
+        &self,
+        [a, b]: [Point; 2],
+        [before, apart]: [f64; 2],
+        ways: [f64; 2],
+        _: (Vector, f64),
+    ) -> Met {
         let e = b - a;
         let apart_squared = e.norm_squared();
         let squared = area_squared(self.reach_squares, apart_squared);

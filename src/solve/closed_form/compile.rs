@@ -1,7 +1,7 @@
 //! From the constraints of an island to its list of steps.
 
 use super::abreast::Abreast;
-use super::{CircleLine, Circles, ClosedForm, Crank, Radius, Ray, Step, Sum};
+use super::{CircleLine, Circles, ClosedForm, Crank, Direction, Radius, Ray, Step, Sum, Wheel};
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Block, Form, Plan};
 
@@ -24,8 +24,10 @@ impl ClosedForm {
         n_points: usize,
         degree: u8,
     ) -> Option<Self> {
-        let carries =
-            |c: &Constraint| !matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
+        let carries = |c: &Constraint| {
+            let is_told = matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
+            !is_told && !matches!(c, Constraint::Cog(_) | Constraint::Orientation(_))
+        };
         if !plan.is_complete() || constraints.iter().any(carries) {
             return None;
         }
@@ -35,29 +37,69 @@ impl ClosedForm {
             degree,
             one: Abreast::new(n_points, 0),
             n_constraints: plan.constraints.len() as u32,
+            counts_turns: false,
             knows_pose: false,
         };
+        let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
+        let n_motors = constraints.iter().filter(is_driver).count() as u32;
+        let mut n_driven = n_motors;
         for block in &plan.blocks {
             let which = &plan.constraints[block.first as usize..block.end as usize];
-            let step = form.step(block, which, constraints)?;
+            let (step, pair) = form.block(block, which, constraints, n_driven)?;
+            n_driven += u32::from(matches!(step, Step::Direction(_)));
+            form.counts_turns |= matches!(step, Step::Wheel(_));
             form.steps.push(step);
+            for &c in which.iter().filter(|c| !pair.contains(c)) {
+                form.steps.push(bar(&constraints[c as usize])?);
+            }
         }
-        form.one = Abreast::new(n_points, form.cranks.len());
+        form.one = Abreast::new(n_points, n_driven as usize);
         Some(form)
     }
 
     /// Whether steps ask a constraint for its values in each frame, so that these may change.
     pub fn asks(constraint: &Constraint) -> bool {
-        matches!(constraint, Constraint::Motor(_) | Constraint::Coordinate(_))
+        matches!(
+            constraint,
+            Constraint::Motor(_) | Constraint::Coordinate(_) | Constraint::Orientation(_)
+        )
     }
 
-    /// The step that finds the point of a block.
-    fn step(&mut self, block: &Block, which: &[u32], all: &[Constraint]) -> Option<Step> {
+    /// The step that finds the point of a block, and the constraints it does so by: all, or of many
+    /// the first and one that goes with it.
+    fn block(
+        &mut self,
+        block: &Block,
+        which: &[u32],
+        all: &[Constraint],
+        drive: u32,
+    ) -> Option<(Step, [u32; 2])> {
+        match *which {
+            [one] => Some((self.step(block, which, all, drive)?, [one, one])),
+            [first, ref others @ ..] => others.iter().find_map(|&other| {
+                let pair = [first, other];
+                Some((self.step(block, &pair, all, drive)?, pair))
+            }),
+            [] => None,
+        }
+    }
+
+    /// The step that finds the point of a block by some constraints; `drive` are the next numbers to drive one.
+    fn step(
+        &mut self,
+        block: &Block,
+        which: &[u32],
+        all: &[Constraint],
+        drive: u32,
+    ) -> Option<Step> {
         let to = block.point;
         match (block.form, which) {
             (Form::Assignment, &[c]) => self.assignment(&all[c as usize], c, to),
             (_, &[one, two]) if block.is_determined => {
-                meeting(to, locus(&all[one as usize], to)?, locus(&all[two as usize], to)?)
+                let pair = [one, two].map(|c| (c, &all[c as usize]));
+                let turned =
+                    turned(to, pair, drive).or_else(|| turned(to, [pair[1], pair[0]], drive));
+                turned.or_else(|| meeting(to, locus(pair[0].1, to)?, locus(pair[1].1, to)?))
             }
             (_, &[one]) if !block.is_determined => match locus(&all[one as usize], to)? {
                 Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
@@ -84,11 +126,34 @@ impl ClosedForm {
     }
 }
 
+/// The step that finds the end of a bar that the first constraint turns.
+fn turned(to: PointIdx, [by, bar]: [(u32, &Constraint); 2], drive: u32) -> Option<Step> {
+    let Locus::Circle(from, Radius::Fixed(length)) = locus(bar.1, to)? else { return None };
+    match by {
+        (c, Constraint::Cog(cog)) => Some(Step::Wheel(Wheel::new(to, from, length, (c, cog))?)),
+        (c, Constraint::Orientation(orientation)) => {
+            let link = Direction::new(to, from, length, (c, orientation), drive)?;
+            Some(Step::Direction(link))
+        }
+        _ => None,
+    }
+}
+
+/// The check of a bar whose ends others find.
+fn bar(constraint: &Constraint) -> Option<Step> {
+    match constraint {
+        Constraint::Length(bar) if bar.bounds.is_equality() && bar.bounds.lo > 0.0 => {
+            Some(Step::Bar { points: bar.points, length: bar.bounds.lo })
+        }
+        _ => None,
+    }
+}
+
 /// The step that finds a point on two loci.
 fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
     match (one, two) {
         (Locus::Circle(a, Radius::Fixed(l)), Locus::Circle(b, Radius::Fixed(m))) => {
-            Some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
+            (a != b).then_some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
         }
         (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line, is_bounded))
         | (Locus::Line(line, is_bounded), Locus::Circle(from, Radius::Fixed(l))) => {

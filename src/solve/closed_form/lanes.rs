@@ -30,9 +30,14 @@ impl Lanes {
     /// For the frames of an island that this list finds.
     pub fn new(form: &ClosedForm, island: &Island) -> Self {
         let n_cranks = form.cranks.len();
+        let mut abreast = Abreast::new(island.x.len(), form.one.turned.len());
+        // What is no crank points where it points.
+        for (to, turned) in abreast.turned.iter_mut().zip(&form.one.turned) {
+            (0..WIDE).for_each(|l| to.set(l, turned.at(0).0, 0.0));
+        }
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
-            abreast: Abreast::new(island.x.len(), n_cranks),
+            abreast,
             headings: Vec::with_capacity(n_cranks),
             origin: Vec::with_capacity(island.n_free),
             before: Vec::with_capacity(n_cranks),

@@ -2,7 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
-use crate::constraint::{Point, PointIdx};
+use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
 /// A point at a given distance from another, on the line through two more.
@@ -80,7 +80,13 @@ impl Meeting<3> for CircleLine {
     /// Where the circle meets the line, on the side where the point was, if the line stands still and
     /// no pose on the way is nearly singular.
     #[inline(always)]
-    fn meet(&self, [a, b, c]: [Point; 3], [before, height]: [f64; 2], ways: [f64; 3]) -> Met {
+    fn meet(
+        &self,
+        [a, b, c]: [Point; 3],
+        [before, height]: [f64; 2],
+        ways: [f64; 3],
+        _: (Vector, f64),
+    ) -> Met {
         let (e, u) = (b - a, c - a);
         let length_squared = e.norm_squared();
         let length = length_squared.sqrt();

@@ -22,22 +22,26 @@
 mod abreast;
 mod circles;
 mod compile;
+mod direction;
 mod found;
 mod lanes;
 mod line;
 mod ray;
 mod run;
 mod sum;
+mod wheel;
 
 use crate::constraint::{Heading, PointIdx};
 use abreast::Abreast;
 pub(crate) use abreast::WIDE;
 use circles::Circles;
+use direction::Direction;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use line::CircleLine;
 use ray::Ray;
 use sum::Sum;
+use wheel::Wheel;
 
 /// What finds an island's pose.
 pub(crate) struct ClosedForm {
@@ -52,6 +56,8 @@ pub(crate) struct ClosedForm {
     one: Abreast<1>,
     /// How many constraints a frame evaluates.
     n_constraints: u32,
+    /// Whether each frame counts turns on from the one before, so that none is found beside others.
+    counts_turns: bool,
     /// Whether what steps know of the pose is of the present one.
     knows_pose: bool,
 }
@@ -87,8 +93,19 @@ enum Step {
     CircleLine(CircleLine),
     /// At the end of a slotted link.
     Ray(Ray),
+    /// At the end of a link at an angle to another.
+    Direction(Direction),
+    /// On a wheel that another turns.
+    Wheel(Wheel),
     /// Where a constraint adds up other points to.
     Sum(Sum),
+    /// Nowhere new: a bar between points that are found, which is to hold there.
+    Bar {
+        /// Its ends.
+        points: [PointIdx; 2],
+        /// Its length.
+        length: f64,
+    },
     /// On a circle, where it is nearest to.
     Nearest {
         /// The point that is found.

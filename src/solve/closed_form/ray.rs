@@ -2,7 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
-use crate::constraint::{Point, PointIdx};
+use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
 /// A point at a given distance from another, on the line from there through a third.
@@ -81,7 +81,13 @@ impl Meeting<2> for Ray {
     /// In line with the slider, on the side where the point was, if the slider is nowhere on its way
     /// nearly at the known end.
     #[inline(always)]
-    fn meet(&self, [from, slider]: [Point; 2], [before, apart]: [f64; 2], ways: [f64; 2]) -> Met {
+    fn meet(
+        &self,
+        [from, slider]: [Point; 2],
+        [before, apart]: [f64; 2],
+        ways: [f64; 2],
+        _: (Vector, f64),
+    ) -> Met {
         let e = slider - from;
         let way = ways[0] + ways[1];
         let least = 0.5 * (apart + before - way);

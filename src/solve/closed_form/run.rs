@@ -22,7 +22,13 @@ impl ClosedForm {
                 Step::Circles(circles) => circles.look(x),
                 Step::CircleLine(meeting) => meeting.look(x),
                 Step::Ray(ray) => ray.look(x),
-                Step::Crank(_) | Step::Place { .. } | Step::Sum(_) | Step::Nearest { .. } => {}
+                Step::Direction(link) => link.look(x),
+                Step::Crank(_)
+                | Step::Place { .. }
+                | Step::Wheel(_)
+                | Step::Sum(_)
+                | Step::Bar { .. }
+                | Step::Nearest { .. } => {}
             }
         }
         self.knows_pose = true;
@@ -31,6 +37,11 @@ impl ClosedForm {
     /// The pose was, or is to be, reached in another way.
     pub fn forget_pose(&mut self) {
         self.knows_pose = false;
+    }
+
+    /// Whether frames may be found side by side.
+    pub fn is_for_lanes(&self) -> bool {
+        !self.counts_turns
     }
 
     /// How many constraints a frame evaluates.
@@ -63,8 +74,14 @@ impl ClosedForm {
         }
         self.one.ways.fill([0.0]);
         for step in &mut self.steps {
-            if let Step::Place { way, .. } = step {
-                *way = 0.0;
+            match step {
+                Step::Place { way, .. } => *way = 0.0,
+                Step::Direction(link) => {
+                    let of = &constraints[link.constraint as usize];
+                    let (target, way) = link.target(of, std::iter::empty());
+                    self.one.turned[link.drive as usize].set(0, target, way);
+                }
+                _ => {}
             }
         }
         if !self.knows_pose {
@@ -123,11 +140,19 @@ impl ClosedForm {
             to.set(0, now.target(), turned + changed);
         }
         for step in &mut self.steps {
-            if let Step::Place { to, constraint, way } = step {
-                let is_moved = inputs.values_before(*constraint).next().is_some();
-                let place = place(&constraints[*constraint as usize]);
-                // The point still is where it was at the beginning of the frame.
-                *way = if is_moved { place.distance(x[*to as usize]) } else { 0.0 };
+            match step {
+                Step::Place { to, constraint, way } => {
+                    let is_moved = inputs.values_before(*constraint).next().is_some();
+                    let place = place(&constraints[*constraint as usize]);
+                    // The point still is where it was at the beginning of the frame.
+                    *way = if is_moved { place.distance(x[*to as usize]) } else { 0.0 };
+                }
+                Step::Direction(link) => {
+                    let of = &constraints[link.constraint as usize];
+                    let (target, way) = link.target(of, inputs.values_before(link.constraint));
+                    self.one.turned[link.drive as usize].set(0, target, way);
+                }
+                _ => {}
             }
         }
     }
@@ -158,7 +183,14 @@ pub(super) fn make<const N: usize>(
             Step::Circles(circles) => circles.run(x, abreast),
             Step::CircleLine(meeting) => meeting.run(x, abreast),
             Step::Ray(ray) => ray.run(x, abreast),
+            Step::Direction(link) => link.run(x, abreast),
+            Step::Wheel(wheel) => wheel.run(x, constraints, abreast),
             Step::Sum(sum) => sum.run(x, abreast),
+            Step::Bar { points, length } => {
+                let [a, b] = points.map(|p| x.get(p));
+                let (square, half) = (*length * *length, 0.5 / *length);
+                abreast.check_each(|l| ((b.at(l) - a.at(l)).norm_squared() - square) * half);
+            }
             Step::Place { to, constraint, way } => {
                 x.put(*to, Places::all(place(&constraints[*constraint as usize])));
                 abreast.ways[*to as usize] = [*way; N];

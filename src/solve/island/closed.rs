@@ -26,6 +26,7 @@ impl Island {
         let found = self.run_closed(&mut form, tolerance);
         if found.is_some() {
             self.history.advance();
+            self.accept_pose();
         }
         self.closed_form = Compiled::List(form);
         found
@@ -142,6 +143,12 @@ impl Island {
     pub fn size_at(&self, free: impl Iterator<Item = Point>) -> f64 {
         let still = self.x[self.n_free..].iter().copied();
         self.size_between(corners(free.chain(still)))
+    }
+
+    /// What its size is at least, wherever its free points are.
+    pub fn least_size(&self) -> f64 {
+        let (lo, hi) = corners(self.x[self.n_free..].iter().copied());
+        (hi.x - lo.x).max(hi.y - lo.y).max(self.wanted())
     }
 
     fn compile(&self) -> Option<Box<ClosedForm>> {

@@ -45,6 +45,8 @@ struct Rider {
     k: u32,
     island: Box<Island>,
     form: Box<ClosedForm>,
+    /// What its size is at least.
+    least_size: f64,
     /// How many motors turn in it.
     n_turning: usize,
     /// What the last frame came to.
@@ -106,7 +108,7 @@ impl Solver {
                     riders.iter().for_each(|rider| write_back(&rider.island, world));
                     failure = keep(&mut riders, world, kept, on).err();
                 }
-                is_side_by_side = true;
+                is_side_by_side = riders.iter().all(|rider| rider.form.is_for_lanes());
             } else {
                 break;
             }
@@ -267,7 +269,16 @@ impl Rider {
                     .filter_map(|trace| island.local_point(trace.point).map(|p| (p, trace.point)));
                 let traced = traced.filter(|&(p, _)| p < island.n_free).collect();
                 let (lanes, found) = (None, Found::NOTHING);
-                Ok(Self { k, island, form, n_turning, found, lanes, traced })
+                Ok(Self {
+                    k,
+                    least_size: island.least_size(),
+                    island,
+                    form,
+                    n_turning,
+                    found,
+                    lanes,
+                    traced,
+                })
             }
             _ => {
                 island.closed_form = Compiled::List(form);
@@ -305,8 +316,9 @@ impl Rider {
     /// The frame counts.
     #[inline]
     fn accept(&mut self, stretch: &mut Stretch) {
-        let Self { island, found, .. } = self;
+        let Self { island, found, least_size, .. } = self;
         island.history.advance();
+        island.accept_pose();
         island.position_error = 0.0;
         if found.is_sensitive() {
             let size = island.size_before();
@@ -314,7 +326,7 @@ impl Rider {
             stretch.position_error = stretch.position_error.max(island.position_error);
         }
         // The size is at least that, and asked for only where it might matter.
-        if found.worst > stretch.residual * island.wanted() {
+        if found.worst > stretch.residual * *least_size {
             stretch.residual = stretch.residual.max(found.worst / island.size_before());
         }
     }
@@ -334,7 +346,7 @@ impl Rider {
 
     /// Whether one of the first frames side by side has an error that may matter.
     fn is_looked_at(&self, n: usize, stretch: &Stretch) -> bool {
-        let enough = stretch.residual * self.island.wanted();
+        let enough = stretch.residual * self.least_size;
         let lanes = self.lanes.as_deref();
         let found = |l: usize| lanes.map_or(Found::NOTHING, |lanes| lanes.found(l));
         (0..n).map(found).any(|found| found.is_sensitive() || found.worst > enough)
@@ -342,9 +354,9 @@ impl Rider {
 
     /// A frame that was found beside others counts.
     fn accept_side_by_side(&mut self, l: usize, stretch: &mut Stretch) {
-        let Self { island, form, lanes: Some(lanes), .. } = self else { return };
+        let Self { island, form, lanes: Some(lanes), least_size, .. } = self else { return };
         let found = lanes.found(l);
-        let is_large = found.worst > stretch.residual * island.wanted();
+        let is_large = found.worst > stretch.residual * *least_size;
         if !found.is_sensitive() && !is_large {
             return;
         }
@@ -377,6 +389,10 @@ impl Rider {
     fn end_side_by_side(&mut self, n: usize) {
         let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
         lanes.accept(n, form, island);
+        if n > 0 {
+            // What is carried on of a pose here does not depend on those before.
+            island.accept_pose();
+        }
         if let Some(last) = n.checked_sub(1) {
             *found = lanes.found(last);
         }

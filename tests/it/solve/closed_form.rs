@@ -138,6 +138,89 @@ fn a_slider_that_comes_to_its_pivot_is_followed() {
     check_same("through the pivot", &format!("{scene} unbounded"), 100);
 }
 
+/// A planet within a ring, on an arm; a rod follows its marker. The ring is four times as large.
+const PLANET: &str = "point O = (0, 0) frozen, R = (4, 0) frozen, P = (3, 0), M = (4, 0)
+    point G = (0, -9) frozen, E = (6, -2)
+    motor O P radius 3 speed 1rev
+    length P M = 1
+    cog O R, P M ratio 1/4 inside
+    length G E = 9
+    length M E = 5";
+
+/// Wheels one after the other, the last by a belt, none of which moves its centre.
+const TRAIN: &str = "point A = (0, 0) frozen, B = (3, 0) frozen, C = (9, 0) frozen
+    point a = (1, 0), b = (1, 0), c = (9, 1)
+    motor A a radius 1 speed 0.7rev
+    length B b = 2
+    length C c = 1
+    cog A a, B b teeth 20, 40
+    belt B b, C c ratio 1/2";
+
+#[test]
+fn wheels_that_others_turn_are_steps() {
+    for dt in ["1/360", "1/24"] {
+        check_same("planet", &format!("{PLANET}\nset dt {dt}\ntrace M"), 100);
+        check_same("train", &format!("{TRAIN}\nset dt {dt}"), 100);
+    }
+    // The marker of the planet goes along a hypocycloid of four cusps.
+    let mut talking = Talking::after(&format!("{PLANET}\nset dt 1/360"));
+    for k in 1..=8 {
+        talking.run("step 100");
+        let turn = std::f64::consts::TAU * f64::from(100 * k) / 360.0;
+        let (x, y) = (4.0 * libm::cos(turn).powi(3), 4.0 * libm::sin(turn).powi(3));
+        talking.run(&format!("assert M = ({x}, {y}) within 1e-11"));
+    }
+    let mut talking = Talking::after(&format!("{TRAIN}\nset dt 1/360\nstep 3600"));
+    talking.run(
+        "assert b = B + polar(2, 180deg - 3.5rev) within 1e-11
+         assert c = C + polar(1, 90deg - 7rev) within 1e-11",
+    );
+}
+
+/// Links at angles to others, one of which swings in time.
+const ANGLES: &str =
+    "point O = (0, 0) frozen, X = (1, 0) frozen, A = (1, 0), B = (2, 0.5), C = (2, 2)
+    motor O A radius 1 speed 1rev
+    length A B = 1.5
+    orientation O A, A B = 40deg
+    length B C = 0.5
+    orientation B C, O X = VALUE";
+
+#[test]
+fn links_at_an_angle_to_others_are_steps() {
+    for value in ["70deg", "30deg * sin(time * 1rev)"] {
+        let scene = ANGLES.replace("VALUE", value);
+        check_same(value, &scene, 100);
+        let mut talking = Talking::after(&format!("{scene}\nset dt 1/360"));
+        for _ in 0..5 {
+            talking.run(&format!(
+                "step 77
+                 assert B = A + polar(1.5, 40deg + time * 1rev) within 1e-12
+                 assert C = B + polar(0.5, -({value})) within 1e-12"
+            ));
+        }
+    }
+}
+
+/// A four-bar whose coupler carries a point by three bars, one of which follows from the others.
+const BRACED: &str = "point P = (2, 3), Q = (2, 2)
+    length B P = 2.5; length C P = 2
+    length B Q = 1.5; length C Q = 2.2";
+
+#[test]
+fn bars_that_follow_from_others_are_checked() {
+    let braced = format!("{}\n{}", scene("w1-four-bar"), BRACED);
+    let scene = format!("{braced}\nstep; tie: length P Q");
+    check_same("braced", &scene, 100);
+    let mut talking = Talking::after(&format!("{scene}\nstep 359"));
+    talking
+        .run("assert distance(B, P) = 2.5 within 1e-12; assert distance(C, Q) = 2.2 within 1e-12");
+    // One that does not is not met, as by itself.
+    let wrong = Talking::after(&format!("{scene}\nstep 30; change tie = 3; trace P; step 5"));
+    let samples = &wrong.world().traces()[0].samples;
+    assert!(samples.len() == 5 && samples.iter().all(|sample| sample.missed));
+}
+
 /// A crank on a bar of 100 that reaches too far for 0.3 degrees on both sides of one direction, so
 /// that frames of 10 degrees may begin and end where the bars meet, and none of its motion does.
 const GAP: &str = "point A = (0, 0) frozen, D = (199.5, 0) frozen

@@ -1,0 +1,81 @@
+//! Where the marker of a wheel is that another turns.
+
+use super::abreast::{Abreast, Places, Poses};
+use crate::constraint::{Cog, Constraint, Point, PointIdx, Vector};
+
+/// A frame may turn a wheel, the wheel that turns it, and the line of their centres by less than half a
+/// turn; this is somewhat less, radians.
+const MOST: f64 = 3.0;
+
+/// A point at a given distance from the centre of its wheel, at the angle that a wheel in mesh, or a belt,
+/// leaves it.
+pub(super) struct Wheel {
+    /// The point that is found.
+    to: PointIdx,
+    /// The centre and the marker of the one wheel, those of the other.
+    points: [PointIdx; 4],
+    /// Whether it is the marker of the other.
+    is_second: bool,
+    /// The distance from its centre.
+    radius: f64,
+    /// The constraint that holds the wheels together.
+    cog: u32,
+}
+
+impl Wheel {
+    /// A point at the distance `radius` from another, which the constraint of number `c` turns; none
+    /// where it does not.
+    pub fn new(to: PointIdx, from: PointIdx, radius: f64, (c, cog): (u32, &Cog)) -> Option<Self> {
+        let points = cog.points;
+        let is_second = points[3] == to;
+        let own = if is_second { [points[2], points[3]] } else { [points[0], points[1]] };
+        let is_once = points.iter().filter(|&&p| p == to).count() == 1;
+        let is_sound = is_once && own == [from, to] && radius > 0.0;
+        is_sound.then_some(Self { to, points, is_second, radius, cog: c })
+    }
+
+    /// Puts the marker where it belongs, if that is told without counting turns anew. Frames side by
+    /// side, each of which counts on from the one before, it does not find.
+    pub fn run<const N: usize>(
+        &self,
+        x: &mut (impl Poses<N> + ?Sized),
+        constraints: &[Constraint],
+        abreast: &mut Abreast<N>,
+    ) {
+        let places = self.points.map(|p| x.get(p).at(N - 1));
+        let ways = self.points.map(|p| abreast.ways[p as usize][N - 1]);
+        let found = match &constraints[self.cog as usize] {
+            Constraint::Cog(cog) if N == 1 => self.marker(cog, places, ways),
+            _ => None,
+        };
+        let (at, way, off) = found.unwrap_or((places[0], 0.0, f64::NAN));
+        x.put(self.to, Places::all(at));
+        abreast.ways[self.to as usize] = [way; N];
+        abreast.check_each(|_| off);
+    }
+
+    /// Where the marker is, how far it went at most, and how far that is off.
+    fn marker(
+        &self,
+        cog: &Cog,
+        mut places: [Point; 4],
+        ways: [f64; 4],
+    ) -> Option<(Point, f64, f64)> {
+        let own = if self.is_second { 3 } else { 1 };
+        let angle = cog.marker_angle(self.is_second, places)?;
+        // A vector turns by no more than its ends went over what is left of its length.
+        let turned = |from: usize, to: usize| {
+            let way = ways[from] + ways[to];
+            if way == 0.0 { 0.0 } else { way / (places[from].distance(places[to]) - way) }
+        };
+        let line = if cog.follows_centres() { turned(0, 2) } else { 0.0 };
+        let other = if self.is_second { turned(0, 1) } else { turned(2, 3) };
+        let own_turn = cog.most_turned(self.is_second, other, line);
+        // False for what is not a number.
+        let is_told = [line, other, own_turn].iter().all(|turn| (0.0..MOST).contains(turn));
+        let at = places[own - 1] + Vector::polar(self.radius, angle);
+        places[own] = at;
+        let off = cog.value_at(places)? * self.radius;
+        is_told.then_some((at, ways[own - 1] + self.radius * own_turn, off))
+    }
+}
