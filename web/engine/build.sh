@@ -27,10 +27,12 @@ else
     if [ ! -x "$debian/usr/bin/rustc" ]; then
         say "unpacking Debian's rustc-web in $debian"
         mkdir -p "$debian/archives"
-        (cd "$debian/archives" && apt-get download rustc-web rust-web-src \
-            "$(apt-cache depends libstd-rust-web-dev | sed -n 's/.*Depends: \(libstd-rust-web-[0-9].*\)/\1/p' | head -n 1)" \
-            libstd-rust-web-dev \
-            "$(apt-cache depends rustc-web | sed -n 's/.*Depends: \(libllvm[0-9]*\)/\1/p' | head -n 1)") >&2
+        # Of which version they are says Debian; the compiler's library is in one, LLVM in another.
+        needs() { apt-cache depends "$@" | sed -n 's/^ *Depends: \([a-z]\)/\1/p'; }
+        standard=$(needs libstd-rust-web-dev | grep '^libstd-rust-web-[0-9]')
+        llvm=$(needs rustc-web "$standard" | grep -m 1 '^libllvm')
+        (cd "$debian/archives" && \
+            apt-get download rustc-web rust-web-src libstd-rust-web-dev "$standard" "$llvm") >&2
         for archive in "$debian"/archives/*.deb; do dpkg-deb --extract "$archive" "$debian"; done
     fi
     linker=$(find "$(rustc --print sysroot)" "$debian" -name rust-lld -type f 2>/dev/null | head -n 1)

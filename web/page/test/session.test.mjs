@@ -177,7 +177,7 @@ test("ten thousand bars are shown, and one of them is dragged", async (t) => {
   });
   await page.waitForTimeout(1500);
   await s.drag(page, { x: 50.7, y: 50.3 }, { x: 50.4, y: 50.6 });
-  await s.written(page, /^pull b\[50\]\[50\] through /);
+  await s.written(page, /^pull b\[50\]\[50\] (to|through) /);
 });
 
 test("a mistake has the words and the caret of the prompt", async (t) => {
@@ -223,6 +223,21 @@ test("what cannot be met is red, with its error", async (t) => {
     return n;
   });
   assert.ok(reds > 300, `${reds} red pixels`);
+});
+
+test("the largest residual is that of the last picture", async (t) => {
+  const session = await s.session(t, `${ARM}solve\n`);
+  const page = await s.openAt(t, session.address);
+  const fact = page.locator(".fact", { hasText: "largest residual" });
+  const shown = async () => Number(/residual(.*)/.exec(await fact.textContent())?.[1]);
+  for (let k = 0; k < 3; k++) {
+    // One picture soon after the other.
+    await s.tell(page, "move B to (9, 9)");
+    await s.tell(page, "undo");
+    await s.until(async () => (await shown()) < 1e-9, "it holds again");
+  }
+  await s.tell(page, "move B to (9, 9)");
+  await s.until(async () => (await shown()) > 0.1, "it is off");
 });
 
 test("two pages show one session, and the prompt is a third", async (t) => {
@@ -413,6 +428,40 @@ test("Enter carries out what is there, however slowly the session answers", asyn
   await page.keyboard.type("for i in 1..2 {");
   await page.keyboard.press("Enter");
   await s.until(async () => (await page.inputValue("#text")).endsWith("{\n"), "the line goes on");
+});
+
+test("places that a slow engine has not come to are left out, all but the last", async (t) => {
+  const session = await s.session(t, ARM);
+  const page = await s.openAt(t, session.address, {
+    before: () => {
+      window.nMoves = 0;
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (message) {
+        const isMove = message.includes('"do":"move"');
+        if (isMove) window.nMoves += 1;
+        // What is sent takes its time, and keeps its order.
+        setTimeout(() => send.call(this, message), 300);
+      };
+    },
+  });
+  const from = await s.screen(page, { x: 3, y: 1 });
+  const to = await s.screen(page, { x: 2.5, y: 1.4 });
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let k = 1; k <= 40; k++) {
+    const share = k / 40;
+    await page.mouse.move(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
+  }
+  await page.mouse.up();
+  const statement = await s.written(page, /^pull C/);
+  const [x, y] = statement
+    .match(/-?[\d.]+/g)
+    .slice(-3, -1)
+    .map(Number);
+  s.near({ x, y }, { x: 2.5, y: 1.4 }, 0.01);
+  const begun = statement.match(/\(/g).length;
+  assert.equal(await page.evaluate(() => window.nMoves), begun, "each that was sent was led to");
+  assert.ok(begun < 30, `${begun} places`);
 });
 
 test("the box completes", async (t) => {

@@ -69,6 +69,9 @@ export class Client {
   readonly traces = new Traces();
 
   private nAsked = 0;
+  /** Whether a place is on its way to the engine, and the one that follows. */
+  private isMoving = false;
+  private next: readonly [number, number] | undefined;
   private readonly waiting = new Map<number, (message: unknown) => void>();
 
   constructor(private readonly carrier: Carrier) {}
@@ -128,16 +131,35 @@ export class Client {
     return this.ask({ do: "grab", point });
   }
 
+  /** Leads what is held to a place, once it has been led to the one before: of those that come meanwhile the
+   * last counts, so that the point does not lag behind where an engine takes long. */
   move(x: number, y: number): void {
-    this.tell({ do: "move", to: [x, y] });
+    if (this.isMoving) {
+      this.next = [x, y];
+      return;
+    }
+    this.isMoving = true;
+    this.ask({ do: "move", to: [x, y] }).then(() => {
+      this.isMoving = false;
+      this.goOn();
+    });
   }
 
   release(): Promise<Answer> {
+    if (this.next !== undefined) this.tell({ do: "move", to: this.next });
+    this.next = undefined;
     return this.ask({ do: "release" });
   }
 
   cancel(): void {
+    this.next = undefined;
     this.tell({ do: "cancel" });
+  }
+
+  private goOn(): void {
+    const { next } = this;
+    this.next = undefined;
+    if (next !== undefined) this.move(...next);
   }
 
   play(speed: number): void {
@@ -179,6 +201,7 @@ export class Client {
     // What was asked of an engine that is gone is not answered any more.
     const unanswered = [...this.waiting.values()];
     this.waiting.clear();
+    this.next = undefined;
     const lost: Answer = { ok: false, said: [{ kind: "error", text: "the connection was lost" }] };
     for (const resolve of unanswered) resolve(lost);
     this.drawing = undefined;

@@ -146,13 +146,15 @@ function pose(page: Page): HTMLElement {
     const seen = new Set(texts.filter(isNews));
     replace(lines, ...[...seen].map((text) => h("p", { class: "quiet" }, text)));
   };
-  let shown = 0;
+  let isDue = false;
   page.stage.painted.listen(() => {
-    // Numbers that change faster than that cannot be read.
-    const now = performance.now();
-    if (now - shown < 200) return;
-    shown = now;
-    showFacts();
+    // Numbers that change faster than that cannot be read; the last of them is shown.
+    if (isDue) return;
+    isDue = true;
+    setTimeout(() => {
+      isDue = false;
+      showFacts();
+    }, 200);
   });
   page.client.stated.listen(showLines);
   page.client.missed.listen((missed) => replace(off, ...missed.map((one) => offRow(page, one))));
