@@ -45,6 +45,7 @@ class Answer:
     lines: list = field(default_factory=list)
     values: list = field(default_factory=list)
     results: dict = field(default_factory=dict)
+    fits: list = field(default_factory=list)
     notes: list = field(default_factory=list)
     warnings: list = field(default_factory=list)
     files: list = field(default_factory=list)
@@ -59,6 +60,8 @@ class Answer:
             self.values.extend(it.get("values", ()))
         elif kind == "result":
             self.results[it["name"]] = it["value"]
+        elif kind == "fit":
+            self.fits.append(it)
         elif kind in ("note", "warning"):
             (self.notes if kind == "note" else self.warnings).append(it["message"])
         elif kind == "file":
@@ -107,21 +110,24 @@ class Session:
         return next(it for it in self.run(question).objects if it["type"] in kinds)
 
     def traces(self):
-        """The traced paths by their points: columns x and y, as arrays if there is NumPy."""
-        answer = self._ask({"get": "traces"})
-        traces = next(it for it in answer.objects if it["type"] == "traces")["traces"]
-        return {it["point"]: (_array(it["x"]), _array(it["y"])) for it in traces}
+        """The traced paths by name or point: columns x and y, as arrays if there is NumPy."""
+        traces = self._get("traces")
+        return {it.get("label", it["point"]): (_array(it["x"]), _array(it["y"])) for it in traces}
+
+    def measures(self):
+        """What was measured by name: columns time and value, as arrays if there is NumPy."""
+        measures = self._get("measures")
+        return {it["name"]: (_array(it["time"]), _array(it["value"])) for it in measures}
 
     def svg(self):
         """A picture of what is now."""
-        return next(it for it in self._ask({"get": "svg"}).objects if it["type"] == "svg")["svg"]
+        return self._get("svg")
 
     _repr_svg_ = svg
 
     def script(self):
         """The script that brings the session back."""
-        answer = self._ask({"get": "script"})
-        return next(it for it in answer.objects if it["type"] == "script")["script"]
+        return self._get("script")
 
     def close(self):
         """Ends the session: recordings are written."""
@@ -136,6 +142,9 @@ class Session:
 
     def __exit__(self, *_):
         self.close()
+
+    def _get(self, what):
+        return next(it for it in self._ask({"get": what}).objects if it["type"] == what)[what]
 
     def _ask(self, request):
         self._process.stdin.write(json.dumps(request) + "\n")

@@ -70,6 +70,16 @@ def test_traces_are_arrays(session):
     assert numpy.abs(numpy.hypot(x, y) - 1).max() < 1e-12
 
 
+def test_named_paths_measures_and_fits_have_their_names(session):
+    session.run(FOUR_BAR + 'trace B as "before"; measure d = distance(A, C); step 90')
+    x, _ = session.traces()["before"]
+    time, value = session.measures()["d"]
+    assert len(x) == 90 and len(time) == len(value) == 90
+    assert value[-1] == pytest.approx(session.evaluate("d.last"), abs=0)
+    fit = session.run("let r = 1; fit r in 0..4 to minimise (r - 3)^2").fits[0]
+    assert fit["parameters"]["r"] == pytest.approx(3, abs=1e-5) and fit["runs"] > 10
+
+
 def test_traces_are_lists_without_numpy(session, monkeypatch):
     monkeypatch.setitem(sys.modules, "numpy", None)
     session.run(FOUR_BAR + "trace B; step 2")

@@ -7,7 +7,7 @@ use super::args::{AccuracyArguments, ExamineArguments, HostArguments};
 use super::process_host::ProcessHost;
 use super::run::{ExitStatus, begin, script};
 use super::{files, output};
-use crate::session::{Flow, Session, Silent, Telling};
+use crate::session::{Flow, Host as _, Session, Silent, Telling};
 
 /// Says what there is to know about the mechanism at a script's end.
 pub fn check(arguments: &ExamineArguments) -> ExitStatus {
@@ -50,7 +50,7 @@ pub fn accuracy(wish: &AccuracyArguments) -> ExitStatus {
         Ok(Flow::Stopped) => ExitStatus::Interrupted,
         Ok(_) => ExitStatus::Fine,
         Err(problem) => {
-            output::show(&problem, session.sources());
+            process.tell(&problem, session.sources());
             ExitStatus::of(&problem)
         }
     }

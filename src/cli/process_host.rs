@@ -15,7 +15,9 @@ use super::view::View;
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Severity, Sources};
 use crate::render::Drawable;
-use crate::session::{Clock, Example, Host, Kept, Session, Spool, Wish, contained, reason};
+use crate::session::{
+    Clock, Example, Host, Kept, Session, Spool, Wish, contained, problem_alone, reason,
+};
 
 /// The process as a session sees it.
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
@@ -30,6 +32,8 @@ pub struct ProcessHost {
     tidy: BTreeSet<PathBuf>,
     may_replace_any: bool,
     is_quiet: bool,
+    /// Whether what is said is read by a program.
+    speaks_json: bool,
     allows_any_path: bool,
     has_pager: bool,
     journal: Option<Journal>,
@@ -58,6 +62,7 @@ impl ProcessHost {
             tidy: BTreeSet::new(),
             may_replace_any: host.force,
             is_quiet: host.quiet,
+            speaks_json: host.json,
             allows_any_path: host.allow_any_path,
             has_pager: !host.no_pager,
             journal: None,
@@ -154,7 +159,12 @@ impl Host for ProcessHost {
     }
 
     fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
-        if !self.is_quiet || what.severity == Severity::Error {
+        if self.speaks_json {
+            // What stands beside an answer that stands alone.
+            if what.severity != Severity::Note {
+                output::answer(&problem_alone(what, sources));
+            }
+        } else if !self.is_quiet || what.severity == Severity::Error {
             output::show(what, sources);
         }
     }
@@ -267,7 +277,7 @@ impl Host for ProcessHost {
     }
 
     fn progress(&self, share: f64) {
-        if !self.is_quiet {
+        if !self.is_quiet && !self.speaks_json {
             self.bar.show(share);
         }
     }

@@ -269,7 +269,8 @@ impl<'a> Talk<'a> {
         if host.json { Self::Json(Objects::new(process)) } else { Self::Plain(process) }
     }
 
-    fn host(&mut self) -> &mut dyn Host {
+    /// Who is told.
+    pub fn host(&mut self) -> &mut dyn Host {
         match self {
             Self::Plain(process) => *process,
             Self::Json(objects) => objects,

@@ -12,12 +12,14 @@ use std::time::Duration;
 use super::args::SweepArguments;
 use super::process_host::ProcessHost;
 use super::progress::ProgressBar;
-use super::run::ExitStatus;
+use super::run::{ExitStatus, Talk};
 use super::{files, interrupt, output};
 use crate::diag::{Diagnostic, Sources, format_count, nearest, suggest};
 use crate::errors;
 use crate::render::Options;
-use crate::session::{Columns, Grid, Host, Shard, SweepScript, Variant, picture_sheet, reason};
+use crate::session::{
+    Columns, Finding, Grid, Host, Shard, SweepScript, Swept, Variant, picture_sheet, reason,
+};
 
 /// A grid of more variants has to be meant.
 const MOST_VARIANTS: f64 = 1e8;
@@ -32,13 +34,13 @@ const MOST_PICTURES: u64 = 100;
 
 /// Runs a script for every variant.
 pub fn sweep(wish: &SweepArguments) -> ExitStatus {
-    match Sweep::begin(wish).and_then(|sweep| sweep.run()) {
-        Ok(status) => status,
-        Err((problem, sources)) => {
-            output::show(&problem, &sources);
-            ExitStatus::of(&problem)
-        }
-    }
+    let mut process = ProcessHost::new(&wish.host, files::folder_of(&wish.file));
+    let mut talk = Talk::new(&mut process, &wish.host);
+    let done = Sweep::begin(wish).and_then(|sweep| sweep.run(talk.host()));
+    done.unwrap_or_else(|(problem, sources)| {
+        talk.host().tell(&problem, &sources);
+        ExitStatus::of(&problem)
+    })
 }
 
 /// What is wrong, and the texts that its places are in.
@@ -127,31 +129,32 @@ impl<'a> Sweep<'a> {
         Columns::new(&self.grid, first.as_ref())
     }
 
-    fn run(&self) -> Result<ExitStatus, Failure> {
-        let n_rows = self.shard.n_rows(self.grid.n_variants() as u64);
+    fn run(&self, host: &mut dyn Host) -> Result<ExitStatus, Failure> {
+        let n_wanted = self.shard.n_rows(self.grid.n_variants() as u64);
+        // What was said comes before rows that go the same way.
+        output::flush();
         let mut table = Table::open(self)?;
-        let begun_at = table.n_rows.min(n_rows);
-        let (counts, is_whole) = self.fill(&mut table, begun_at, n_rows);
+        let begun_at = table.n_rows.min(n_wanted);
+        let (counts, is_whole) = self.fill(&mut table, begun_at, n_wanted);
         let counts = counts.map_err(|e| failure(unwritable(&table.name, &e)))?;
-        if !is_whole {
-            let done = table.n_rows;
-            self.tell(&format!(
-                "stopped after {done} of {n_rows} rows; `--resume` goes on with them"
-            ));
-            return Ok(ExitStatus::Interrupted);
+        if is_whole && self.wish.pictures {
+            self.write_pictures(host)?;
         }
-        if self.wish.pictures {
-            self.write_pictures()?;
+        let swept = Swept {
+            table: table.name.clone(),
+            columns: self.columns.names().map(str::to_owned).collect(),
+            n_rows: table.n_rows,
+            n_wanted,
+            n_failed: counts.failed,
+            n_missed: counts.missed,
+            n_dead: counts.dead,
+        };
+        if host.takes_findings() {
+            host.find_out(&Finding::Swept(&swept));
+        } else {
+            tell(&in_words(&swept), host);
         }
-        let rows = if n_rows == 1 { "1 row".to_owned() } else { format!("{n_rows} rows") };
-        self.tell(&format!("{rows} in {}{}", table.name, counts.text()));
-        Ok(ExitStatus::Fine)
-    }
-
-    fn tell(&self, text: &str) {
-        if !self.wish.host.quiet {
-            output::show(&Diagnostic::note_only(text), &Sources::new());
-        }
+        Ok(if is_whole { ExitStatus::Fine } else { ExitStatus::Interrupted })
     }
 
     /// Runs the rows from one on, and writes them in their order as they come; whether all came.
@@ -223,8 +226,9 @@ impl<'a> Sweep<'a> {
         n_chunks: u64,
     ) -> io::Result<Counts> {
         let bar = ProgressBar::default();
+        let is_shown = !self.wish.host.quiet && !self.wish.host.json;
         let show = |share: f64| {
-            if !self.wish.host.quiet {
+            if is_shown {
                 bar.show(share);
             }
         };
@@ -254,7 +258,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Writes the poses that variants end in, side by side.
-    fn write_pictures(&self) -> Result<(), Failure> {
+    fn write_pictures(&self, told: &mut dyn Host) -> Result<(), Failure> {
         let n = self.grid.n_variants() as u64;
         let n_shown = n.min(MOST_PICTURES);
         let look = Options { without_names: true, ..Options::default() };
@@ -278,9 +282,34 @@ impl<'a> Sweep<'a> {
             host.write(&place, sheet.as_bytes())
         });
         written.map_err(|e| failure(unwritable(&name.display().to_string(), &e)))?;
-        self.tell(&format!("{n_shown} pictures in {}", name.display()));
+        if told.takes_findings() {
+            told.find_out(&Finding::Wrote(&name));
+        } else {
+            tell(&format!("{n_shown} pictures in {}", name.display()), told);
+        }
         Ok(())
     }
+}
+
+fn tell(text: &str, host: &mut dyn Host) {
+    host.tell(&Diagnostic::note_only(text), &Sources::new());
+}
+
+/// What a sweep came to.
+fn in_words(swept: &Swept) -> String {
+    let Swept { table, n_rows, n_wanted, .. } = swept;
+    if n_rows < n_wanted {
+        return format!("stopped after {n_rows} of {n_wanted} rows; `--resume` goes on with them");
+    }
+    let rows = if *n_rows == 1 { "1 row".to_owned() } else { format!("{n_rows} rows") };
+    let told = [
+        (swept.n_failed, "ended in an error"),
+        (swept.n_missed, "missed the tolerance"),
+        (swept.n_dead, "met dead points"),
+    ];
+    let told = told.into_iter().filter(|(n, _)| *n > 0);
+    let told: Vec<String> = told.map(|(n, what)| format!(", {n} {what}")).collect();
+    format!("{rows} in {table}{}", told.concat())
 }
 
 /// Refuses to replace a picture that this program did not draw.
@@ -325,16 +354,6 @@ impl Counts {
         self.failed += other.failed;
         self.missed += other.missed;
         self.dead += other.dead;
-    }
-
-    fn text(&self) -> String {
-        let told = [
-            (self.failed, "ended in an error"),
-            (self.missed, "missed the tolerance"),
-            (self.dead, "met dead points"),
-        ];
-        let told = told.into_iter().filter(|(n, _)| *n > 0);
-        told.map(|(n, what)| format!(", {n} {what}")).collect::<Vec<_>>().concat()
     }
 }
 

@@ -31,8 +31,52 @@ pub enum Finding<'a> {
     Halted(&'a str, u64, Halt),
     /// What the run is for: a name and a value.
     Result(&'a str, f64),
+    /// The numbers that `fit` found.
+    Fitted(&'a Fit),
     /// A file was written.
     Wrote(&'a Path),
+    /// What a sweep came to.
+    Swept(&'a Swept),
+}
+
+/// What `fit` found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The parameters with their numbers.
+    pub parameters: Vec<(String, f64)>,
+    /// Those that are at an end of their range.
+    pub at_ends: Vec<String>,
+    /// What was looked for: `minimise`, `maximise`, `to`.
+    pub goal: &'static str,
+    /// What is least or greatest.
+    pub what: String,
+    /// Its value with these numbers.
+    pub value: f64,
+    /// Its value before; none where that was not solved.
+    pub before: Option<f64>,
+    /// How often the motion was run.
+    pub n_runs: u64,
+    /// How long that took, where somebody has a clock.
+    pub seconds: Option<f64>,
+}
+
+/// What a sweep came to: its table, and how its variants went.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Swept {
+    /// What the table is called.
+    pub table: String,
+    /// What its columns are called.
+    pub columns: Vec<String>,
+    /// How many rows it has.
+    pub n_rows: u64,
+    /// How many it is to have.
+    pub n_wanted: u64,
+    /// Variants that ended in an error, of those that were run now.
+    pub n_failed: u64,
+    /// Those that missed their tolerance.
+    pub n_missed: u64,
+    /// Those in which a motor could not go on.
+    pub n_dead: u64,
 }
 
 /// How far a driver can go.
@@ -122,6 +166,8 @@ pub struct MeasureRow {
 pub struct TraceRow {
     /// Its point.
     pub point: String,
+    /// What it is called, if not as its point.
+    pub label: Option<String>,
     /// Each so many frames.
     pub every: u64,
     /// How many places it has.

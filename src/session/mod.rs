@@ -61,10 +61,11 @@ pub use effects::{EffectRow, Effects};
 pub use examples::{EXAMPLES, Example};
 pub use execution::Flow;
 pub use finding::{
-    ConstraintRow, Finding, Limits, Listing, MeasureRow, ParameterRow, PointRow, TraceRow,
+    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, Swept,
+    TraceRow,
 };
 pub use host::{Clock, Done, Host, Kept, Nowhere, contained, reason};
-pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request};
+pub use json::{Objects, VERSION as JSON_VERSION, answer_request, is_request, problem_alone};
 pub use overview::{ConstraintView, Offence, ParameterView, Standing};
 pub use preferences::{AtDeadPoint, Preferences, Receipt};
 pub use quotas::{Quota, parse_limit};
@@ -72,7 +73,9 @@ pub use results::Results;
 pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
-pub use sweep::{Axis, Columns, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet};
+pub use sweep::{
+    Axis, Columns, Failure, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet,
+};
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
 
 pub use crate::interrupt::Wish;

@@ -51,7 +51,8 @@ pub(super) fn add_rates(island: &mut Island, fields: &FieldRates, rates: &mut Ra
         let driven = own.find(|(_, f, _)| *f == field);
         driven.map_or(Jet::constant(value), |(_, _, jet)| Jet::new(value, jet.d, jet.dd))
     };
-    let motion = motion(island, &drive, &|_| Vector::ZERO);
+    let motion = motion::well_determined(island, &drive)
+        .unwrap_or_else(|| motion(island, &drive, &|_| Vector::ZERO));
     for (id, [velocity, acceleration]) in island.points[..island.n_free].iter().zip(motion) {
         rates.velocity[id.idx()] = velocity;
         rates.acceleration[id.idx()] = acceleration;

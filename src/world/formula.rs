@@ -281,13 +281,24 @@ impl Formula {
     /// # Errors
     /// Points at the part that has no finite value: a division by zero, a root of a negative
     /// number, an overflow.
+    #[inline]
     pub fn evaluate<T: Real>(&self, env: &impl Environment<T>) -> Result<Value<T>, Diagnostic> {
+        match self.node() {
+            Node::Number(n, _) => Ok(Value::Number(T::constant(*n))),
+            Node::Time => Ok(Value::Number(env.time())),
+            Node::Point(id) => Ok(Value::Vector(env.position(*id))),
+            Node::Parameter(id) => env.parameter(*id),
+            _ => self.work_out(env),
+        }
+    }
+
+    /// The value of what is made of other formulas.
+    fn work_out<T: Real>(&self, env: &impl Environment<T>) -> Result<Value<T>, Diagnostic> {
         use Value::{Number, Vector};
         let value = match self.node() {
-            Node::Number(n, _) => return Ok(Number(T::constant(*n))),
-            Node::Time => return Ok(Number(env.time())),
-            Node::Point(id) => return Ok(Vector(env.position(*id))),
-            Node::Parameter(id) => return env.parameter(*id),
+            Node::Number(..) | Node::Time | Node::Point(_) | Node::Parameter(_) => {
+                return self.evaluate(env);
+            }
             Node::Member(id, member) => Number(env.member(*id, *member)?),
             Node::Statistic(id, which) => Number(env.statistic(*id, *which, self.span())?),
             Node::Vector(x, y) => {

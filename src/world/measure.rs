@@ -1,6 +1,6 @@
 //! Measuring: what a frame adds to the measures, and what they say.
 
-use super::environments::Moving;
+use super::environments::{Here, Moving};
 use super::{Depends, Extremes, MeasureId, Rates, Tally, World};
 use crate::constraint::Jet;
 use crate::diag::{Diagnostic, Span};
@@ -95,20 +95,22 @@ impl World {
         if measure.tally.readings().last().is_some_and(|last| last.time >= time) {
             return Ok(());
         }
-        let (formula, scale) = (measure.formula.clone(), measure.unit.scale());
-        let depends = self.depends(&formula);
-        let value = if depends.on_rates {
-            let rates = known(rates, self, how)?;
-            self.evaluate(&formula, Some(rates))?
-        } else {
-            self.evaluate(&formula, None)?
-        };
-        let value = value.number() / scale;
+        let depends = self.depends(&measure.formula);
+        if depends.on_parameters {
+            self.refresh_parameters();
+        }
+        if depends.on_rates {
+            known(rates, self, how)?;
+        }
+        let measure = self.measure(id).expect("it lives");
+        let scale = measure.unit.scale();
+        let here = Here::new(self, rates.as_ref().filter(|_| depends.on_rates));
+        let value = measure.formula.evaluate(&here)?.number() / scale;
         let is_refined = how.extremes == Extremes::Refined && how.is_met;
-        let tally = &self.measure(id).expect("it lives").tally;
-        let derivatives = if is_refined && is_followed(depends) && tally.may_turn(value) {
+        let derivatives = if is_refined && is_followed(depends) && measure.tally.may_turn(value) {
             let rates = known(rates, self, how)?;
             // What has no derivative is no reason to have no value.
+            let formula = &self.measure(id).expect("it lives").formula;
             let Jet { d, dd, .. } = formula.evaluate(&Moving::new(self, rates))?.number();
             let derivatives = [d / scale, dd / scale];
             derivatives.iter().all(|it| it.is_finite()).then_some(derivatives)

@@ -30,13 +30,14 @@ fn find<'a>(objects: &'a [Value], kind: &str) -> &'a Value {
 
 /// Statements that find all that can be found.
 const ALL: &str = "let r = 2; define pin(P) { point Q = P }
-trace C; set dt 1/36; measure m = C.x; step 36; result span = m.span
+trace C as \"before\"; list traces; set dt 1/36; measure m = C.x; step 36; result span = m.span
 print r, C in deg
 list
 show coupler; show A; show r
 check
 limits crank
 effects
+fit r in 1..3 to minimise (r - 2.5)^2
 length A D = 9
 check
 svg \"now.svg\"
@@ -69,8 +70,15 @@ fn the_page_has_every_type_and_every_field() {
     let (_, table) = page.split_once("| type | when | fields |").expect("the table");
     let (_, mut found) = objects(&["--json"], &format!("{FOUR_BAR}{ALL}"));
     let requests =
-        "{\"get\": \"traces\"}\n{\"get\": \"svg\", \"id\": [1]}\n{\"get\": \"script\"}\n";
-    found.extend(objects(&["--json"], requests).1);
+        ["traces", "measures", "svg", "script"].map(|what| format!("{{\"get\": \"{what}\"}}\n"));
+    let requests = format!("{FOUR_BAR}trace C as \"path\"; measure m = C.x\n{}", requests.concat());
+    found.extend(objects(&["--json"], &requests).1);
+    let columns = ["traces", "measures"].map(|kind| find(&found, kind)[kind][0].clone());
+    found.extend(columns.map(|mut object| {
+        let kind = if object.get("point").is_some() { "traces" } else { "measures" };
+        object["type"] = json!(kind);
+        object
+    }));
     let mut seen: Vec<&str> = kinds(&found);
     seen.sort_unstable();
     seen.dedup();
@@ -80,9 +88,11 @@ fn the_page_has_every_type_and_every_field() {
         "effects",
         "error",
         "file",
+        "fit",
         "limits",
         "linkwork",
         "list",
+        "measures",
         "note",
         "print",
         "receipt",
@@ -144,6 +154,49 @@ fn what_cannot_be_read_is_an_object_too() {
     assert_eq!(status, Some(3));
     assert_eq!(kinds(&found), ["linkwork", "error"]);
     assert_eq!(found[1]["code"], "E0701");
+}
+
+#[test]
+fn the_numbers_of_a_fit_and_the_name_of_a_path_are_data() {
+    let script = "let r = 1.5, s = 2; point A = (0, 0) frozen, B = (1, 0); length A B = r
+        trace B as \"half\"; measure d = B.x in ms; step 2
+        fit r in 1..2, s in 0..4 to minimise d.span + (s - 3)^2 + 1000 * r over 1
+        list traces";
+    let requests = "{\"get\": \"traces\"}\n{\"get\": \"measures\"}\n";
+    let (status, found) = objects(&["--json"], &format!("{script}\n{requests}"));
+    assert_eq!(status, Some(0));
+    let fit = find(&found, "fit");
+    let number = |name: &str| fit["parameters"][name].as_f64().expect("a number");
+    assert!(number("r") == 1.0 && (number("s") - 3.0).abs() < 1e-4, "{fit}");
+    assert_eq!((&fit["at_ends"], &fit["goal"]), (&json!(["r"]), &json!("minimise")));
+    assert!((fit["before"].as_f64().expect("a number") - 1501.0).abs() < 1e-6, "{fit}");
+    assert!(fit["runs"].as_u64().expect("a count") > 10 && fit["seconds"].is_number(), "{fit}");
+    // Who reads objects need not read prose.
+    let prose = found.iter().filter(|object| object["type"] == "note");
+    assert!(prose.clone().all(|note| !note["message"].to_string().contains("runs")), "{found:?}");
+    let listed = &find(&found, "list")["traces"][0];
+    let traced = &find(&found, "traces")["traces"][0];
+    assert_eq!((&listed["label"], &traced["label"]), (&json!("half"), &json!("half")));
+    let measured = &find(&found, "measures")["measures"][0];
+    assert_eq!((&measured["name"], &measured["unit"]), (&json!("d"), &json!("ms")));
+    let column = |name: &str| measured[name].as_array().expect("a column").clone();
+    assert_eq!((column("time").len(), column("value").len()), (2, 2));
+    assert!((column("value")[1].as_f64().expect("a number") - 1500.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_script_that_fails_is_an_object_to_those_who_examine_it() {
+    let folder = folder(&[("wrong.link", "point A = (0, 0)\nlenght A B\n")]);
+    for command in ["check", "effects", "accuracy"] {
+        let out = run(folder.path(), &[command, "--json", "wrong.link"], "");
+        assert_eq!((out.status.code(), &*text(&out.stderr)), (Some(2), ""), "of {command}");
+        let error: Value = serde_json::from_str(&text(&out.stdout)).expect("an object");
+        let place = &error["places"][0];
+        assert_eq!((&error["type"], &error["version"]), (&json!("error"), &json!(1)));
+        assert_eq!((&error["code"], &place["line"]), (&json!("E0101"), &json!(2)));
+    }
+    let (_, found) = objects(&["run", "--json", "four-bar.link", "--set", "nobody=1"], "");
+    assert_eq!(found.last().expect("objects")["type"], "warning");
 }
 
 #[test]

@@ -72,6 +72,40 @@ fn what_is_off_is_red_and_says_by_how_much() {
 }
 
 #[test]
+fn amounts_do_not_lie_on_each_other() {
+    // All in one line, the middles of the bars close together.
+    let drawn = picture(
+        "freeze all; delete C cascade
+         point P = (2, 0) frozen
+         for i in 1..4 { point Q[i] = (2 + i / 10, 0) frozen; length P Q[i] = i }
+         svg \"p.svg\"",
+    );
+    let document = roxmltree::Document::parse(&drawn).expect("it is well formed");
+    let amounts = document.descendants().filter(|node| node.attribute("class") == Some("amount"));
+    let boxes: Vec<[f64; 3]> = amounts
+        .map(|node| {
+            let number = |name: &str| -> f64 {
+                node.attribute(name).map_or(0.0, |text| text.parse().expect("a number"))
+            };
+            let place = node.parent().and_then(|group| group.attribute("transform"));
+            let place = place.and_then(|it| it.strip_prefix("translate(")?.strip_suffix(')'));
+            let place: Vec<f64> =
+                place.expect("it is moved").split(' ').map(|it| it.parse().expect("px")).collect();
+            let n_letters = node.text().expect("an amount").len() as f64;
+            // Letters of 13 px are on average some 6 px wide.
+            [place[0] + number("x"), place[1] + number("y"), 3.0 * n_letters]
+        })
+        .collect();
+    assert_eq!(boxes.len(), 4, "{drawn}");
+    for (k, [x, y, half]) in boxes.iter().enumerate() {
+        for [other_x, other_y, other_half] in &boxes[k + 1..] {
+            let is_apart = (x - other_x).abs() > half + other_half || (y - other_y).abs() >= 13.0;
+            assert!(is_apart, "{boxes:?}");
+        }
+    }
+}
+
+#[test]
 fn a_picture_that_moves_fits_its_window() {
     let rule = "svg:root{max-width:100%;max-height:100vh}";
     assert!(picture("record \"p.svg\"; step 36; record stop").contains(rule));

@@ -152,20 +152,71 @@ fn objects_say_what_rows_say() {
     let folder = folder(&[("slider.link", SLIDER)]);
     let out = sweep(folder.path(), &["--set", "r=0.5,1", "--json", "--to", "-"]);
     fine(&out);
-    let page = include_str!("../../docs/json.md");
-    let row = page.lines().find(|line| line.starts_with("| `variant`")).expect("it is there");
-    for (k, line) in text(&out.stdout).lines().enumerate() {
-        let object: Value = serde_json::from_str(line).expect("an object");
-        assert_eq!(
-            (&object["type"], object["variant"].as_u64()),
-            (&"variant".into(), Some(k as u64))
-        );
+    let found = objects(&out);
+    assert_eq!(
+        found.iter().map(|it| &it["type"]).collect::<Vec<_>>(),
+        ["linkwork", "variant", "variant", "sweep"]
+    );
+    for (k, object) in found[1..3].iter().enumerate() {
+        assert_eq!(object["variant"].as_u64(), Some(k as u64));
         let r = object["parameters"]["r"].as_f64().expect("a number");
         assert!((object["results"]["height"].as_f64().expect("a number") - r).abs() < 1e-9);
-        for field in object.as_object().expect("an object").keys().filter(|it| *it != "type") {
-            assert!(row.contains(&format!("`{field}`")), "no `{field}` in docs/json.md");
-        }
+        are_documented(object);
     }
+    let end = &found[3];
+    are_documented(end);
+    assert_eq!((&end["rows"], &end["of"], &end["failed"]), (&2.into(), &2.into(), &0.into()));
+    let columns = end["columns"].as_array().expect("names");
+    assert_eq!(columns[..4], ["variant", "r", "height", "stroke"]);
+}
+
+/// What was said, an object a line, and nothing beside it.
+#[track_caller]
+fn objects(out: &Output) -> Vec<Value> {
+    assert_eq!(text(&out.stderr), "", "all is said in objects");
+    let read = |line| serde_json::from_str(line).expect("an object");
+    text(&out.stdout).lines().map(read).collect()
+}
+
+/// Holds the fields of an object to its row of the page.
+#[track_caller]
+fn are_documented(object: &Value) {
+    let page = include_str!("../../docs/json.md");
+    let kind = object["type"].as_str().expect("a type");
+    let row = page.lines().find(|line| line.starts_with(&format!("| `{kind}`")));
+    let row = row.unwrap_or_else(|| panic!("no `{kind}` in docs/json.md"));
+    for field in object.as_object().expect("an object").keys().filter(|it| *it != "type") {
+        assert!(row.contains(&format!("`{field}`")), "no `{field}` of `{kind}` in docs/json.md");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_an_object_with_its_place() {
+    let script = SLIDER.replace("step 36", "step 36; assert l > 1.5");
+    let folder = folder(&[("slider.link", &script)]);
+    fine(&sweep(folder.path(), &["--set", "l=1.25,2", "--json"]));
+    let rows = table(folder.path(), "sweep.jsonl");
+    let first: Value =
+        serde_json::from_str(rows.lines().next().expect("a row")).expect("an object");
+    are_documented(&first);
+    assert!(first["error"].as_str().expect("a text").starts_with("line 9: "), "{first}");
+    let place = &first["problem"]["places"][0];
+    let bytes = ["start", "end"].map(|end| place[end].as_u64().expect("bytes") as usize);
+    assert_eq!((&place["line"], &script[bytes[0]..bytes[1]]), (&9.into(), "assert l > 1.5"));
+    let check = |args: &[&str], status: i32, code: &str| {
+        let out = sweep(folder.path(), &[args, &["--json"]].concat());
+        assert_eq!(out.status.code(), Some(status), "of {args:?}");
+        let found = objects(&out);
+        let [opening, error] = &found[..] else { panic!("of {args:?}: {found:?}") };
+        assert_eq!((&opening["type"], &error["type"]), (&"linkwork".into(), &"error".into()));
+        assert_eq!(error["code"], code, "of {args:?}");
+    };
+    check(&["--set", "rr=1,2"], 2, "E0201");
+    check(&["--set", "l=1.25,2"], 2, "E0709");
+    fs::write(folder.path().join("slider.link"), "let r = 1\nlenght A B\n").expect("a script");
+    check(&["--set", "r=1,2"], 2, "E0101");
+    fs::remove_file(folder.path().join("slider.link")).expect("it is there");
+    check(&["--set", "r=1,2"], 3, "E0701");
 }
 
 #[test]

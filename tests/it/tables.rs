@@ -1,6 +1,7 @@
 //! Tables of chosen columns, charts of measures, and paths with names.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use linkwork::Session;
 use linkwork::session::Answer;
@@ -211,4 +212,57 @@ fn the_transmission_angle_is_measured_as_documented() {
     let wanted = folded(at(3.0)).min(folded(at(5.0)));
     let found = talking.session.evaluate("mu.min").expect("it is measured").number();
     assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+}
+
+/// The words of a chart, each with what it covers: the letters as wide as they are on average, and
+/// as high as capitals.
+fn words(chart: &str) -> Vec<(String, [f64; 4])> {
+    let document = roxmltree::Document::parse(chart).expect("it is well formed");
+    let texts = document.descendants().filter(|node| node.has_tag_name("text"));
+    let words = texts.filter_map(|node| {
+        let texts = node.descendants().filter(roxmltree::Node::is_text);
+        let text: String = texts.filter_map(|it| it.text()).collect();
+        let number = |name: &str| node.attribute(name)?.parse::<f64>().ok();
+        // What is turned is the name of an axis, by itself at the edge.
+        let (x, y, size) = (number("x")?, number("y")?, number("font-size")?);
+        let width = 0.5 * size * text.chars().count() as f64;
+        let left = match node.attribute("text-anchor") {
+            Some("middle") => x - 0.5 * width,
+            Some("end") => x - width,
+            _ => x,
+        };
+        Some((text, [left, y - 0.7 * size, left + width, y]))
+    });
+    words.collect()
+}
+
+#[test]
+fn no_words_of_a_chart_lie_on_each_other() {
+    // Curves that end close together, or in one place, with short and long names.
+    for (n, spread) in [(2, 0.0), (5, 0.0), (7, 0.01), (7, 0.3), (9, 0.05)] {
+        let names = (0..n).map(|k| format!("m{}{k}", "long".repeat(k % 3)));
+        let names: Vec<String> = names.collect();
+        let measures = names.iter().enumerate().map(|(k, name)| {
+            let (shift, tilt) = (spread * k as f64, 0.2 * k as f64);
+            format!("measure {name} = B.x + {shift} + {tilt} * (time - 1)\n")
+        });
+        let script = format!(
+            "point A = (0, 0) frozen, B = (1, 0)
+             motor A B radius 1 speed 1rev; set dt 1/24
+             {}step 24; plot \"c.svg\" {} against time",
+            measures.collect::<Vec<_>>().concat(),
+            names.join(", ")
+        );
+        let answer = Session::new().run(&script).unwrap_or_else(|e| panic!("{e}\n{script}"));
+        let chart = answer.files.get(Path::new("c.svg")).expect("a chart");
+        let words = words(std::str::from_utf8(chart).expect("a text"));
+        // Numbers on two axes, the name of one, and each curve in the legend and at its end.
+        assert!(words.len() > 2 * n + 6, "{words:?}");
+        for (k, (word, a)) in words.iter().enumerate() {
+            for (other, b) in &words[k + 1..] {
+                let is_apart = a[0] >= b[2] || b[0] >= a[2] || a[1] >= b[3] || b[1] >= a[3];
+                assert!(is_apart, "`{word}` lies on `{other}` of {n} curves {spread} apart");
+            }
+        }
+    }
 }

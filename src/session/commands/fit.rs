@@ -9,6 +9,7 @@ use crate::lang::ast::{Expr, FitRange, Goal, Text};
 use crate::optimise::{Best, least_squares, minimum};
 use crate::session::curve::{Curve, read_curve};
 use crate::session::execution::Execution;
+use crate::session::finding::{Finding, Fit};
 use crate::session::quotas::Quota;
 use crate::study::Trial;
 use crate::terms::Shape;
@@ -227,32 +228,52 @@ impl Execution<'_> {
         best: &Best,
         seconds: Option<f64>,
     ) {
-        let numbers = numbers(fitted, &best.at);
-        let texts = fitted.iter().zip(&numbers);
-        let texts =
-            texts.map(|(it, (_, number))| format!("{} = {}", it.name, format_number(*number)));
-        self.note(texts.collect::<Vec<_>>().join(", "));
-        let what = match goal {
-            Goal::Minimise(value) | Goal::Maximise(value) => value.to_string(),
-            Goal::Path(_) => "root mean square distance".to_owned(),
+        let (goal, what) = match goal {
+            Goal::Minimise(value) => ("minimise", value.to_string()),
+            Goal::Maximise(value) => ("maximise", value.to_string()),
+            Goal::Path(_) => ("to", "root mean square distance".to_owned()),
         };
-        let before = found.before.map_or_else(
+        let numbers = numbers(fitted, &best.at);
+        let numbers = fitted.iter().zip(&numbers).map(|(it, (_, n))| (it.name.to_string(), *n));
+        let ends = fitted.iter().zip(&best.at).filter(|(_, at)| **at <= 0.0 || **at >= 1.0);
+        let fit = Fit {
+            parameters: numbers.collect(),
+            at_ends: ends.clone().map(|(it, _)| it.name.to_string()).collect(),
+            goal,
+            what,
+            value: best.value,
+            before: found.before,
+            n_runs: found.n_runs,
+            seconds,
+        };
+        if self.host.takes_findings() {
+            self.host.find_out(&Finding::Fitted(&fit));
+        } else {
+            fit.lines().into_iter().for_each(|line| self.note(line));
+        }
+        for (it, at) in ends {
+            let end = format_number(it.number(*at));
+            let text = format!("`{}` is at the end of its range, {end}", it.name);
+            self.warn(&Diagnostic::warning(text).help("a wider range may hold something better"));
+        }
+    }
+}
+
+impl Fit {
+    /// It in words: the numbers, and how good they are.
+    fn lines(&self) -> [String; 2] {
+        let numbers = self.parameters.iter();
+        let numbers: Vec<String> =
+            numbers.map(|(name, number)| format!("{name} = {}", format_number(*number))).collect();
+        let before = self.before.map_or_else(
             || "not solved before".to_owned(),
             |before| format!("{} before", format_rounded(before)),
         );
-        let time = seconds.map_or_else(String::new, |it| format!(" in {}", format_seconds(it)));
-        let n_runs = format_count(found.n_runs as f64);
-        let value = format_rounded(best.value);
-        self.note(format!("{what} = {value}, {before}; {n_runs} runs{time}"));
-        for (it, at) in fitted.iter().zip(&best.at) {
-            if *at <= 0.0 || *at >= 1.0 {
-                let end = format_number(it.number(*at));
-                let text = format!("`{}` is at the end of its range, {end}", it.name);
-                self.warn(
-                    &Diagnostic::warning(text).help("a wider range may hold something better"),
-                );
-            }
-        }
+        let time =
+            self.seconds.map_or_else(String::new, |it| format!(" in {}", format_seconds(it)));
+        let (what, value) = (&self.what, format_rounded(self.value));
+        let n_runs = format_count(self.n_runs as f64);
+        [numbers.join(", "), format!("{what} = {value}, {before}; {n_runs} runs{time}")]
     }
 }
 

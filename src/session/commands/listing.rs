@@ -79,6 +79,7 @@ impl State {
             listing.traces = traces
                 .map(|trace| TraceRow {
                     point: self.world.points().name(trace.point).to_owned(),
+                    label: trace.label.as_deref().map(str::to_owned),
                     every: trace.every,
                     n_places: trace.samples.len(),
                 })

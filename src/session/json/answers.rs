@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::VERSION;
+use super::{VERSION, objects};
+use crate::diag::{Diagnostic, Sources};
 use crate::session::check::Check;
 use crate::session::effects::{EffectRow, Effects};
 
@@ -66,6 +67,11 @@ impl Effects {
             "seconds": self.seconds,
         })
     }
+}
+
+/// A problem as an object that stands alone.
+pub fn problem_alone(problem: &Diagnostic, sources: &Sources) -> String {
+    alone(objects::diagnostic(problem, sources)).to_string()
 }
 
 /// An object that no other comes before: it says itself of which schema it is.

@@ -6,7 +6,7 @@ use super::VERSION;
 use crate::diag::{Diagnostic, Label, Severity, Sources, Span};
 use crate::mobility::{DriverRange, RangeEnd, Reach};
 use crate::session::finding::{
-    ConstraintRow, Finding, Limits, Listing, MeasureRow, ParameterRow, PointRow,
+    ConstraintRow, Finding, Fit, Limits, Listing, MeasureRow, ParameterRow, PointRow, Swept,
 };
 use crate::session::summary::Summary;
 use crate::session::sweep::Variant;
@@ -92,6 +92,8 @@ pub fn finding(finding: &Finding) -> Value {
         Finding::Ran(summary, time, text) => receipt(summary, *time, text),
         Finding::Halted(driver, frame, halt) => halted(driver, *frame, *halt),
         Finding::Result(name, value) => json!({ "type": "result", "name": name, "value": value }),
+        Finding::Fitted(fit) => fitted(fit),
+        Finding::Swept(swept) => swept_object(swept),
         Finding::Wrote(path) => json!({ "type": "file", "path": path.to_string_lossy() }),
     }
 }
@@ -111,6 +113,36 @@ fn receipt(summary: &Summary, time: f64, text: &str) -> Value {
         "iterations": summary.n_iterations,
         "position_error": summary.position_error,
         "seconds": summary.seconds,
+    })
+}
+
+fn fitted(fit: &Fit) -> Value {
+    let parameters = fit.parameters.iter();
+    let parameters: Map<String, Value> =
+        parameters.map(|(name, number)| (name.clone(), json!(number))).collect();
+    json!({
+        "type": "fit",
+        "parameters": parameters,
+        "at_ends": fit.at_ends,
+        "goal": fit.goal,
+        "of": fit.what,
+        "value": fit.value,
+        "before": fit.before,
+        "runs": fit.n_runs,
+        "seconds": fit.seconds,
+    })
+}
+
+fn swept_object(swept: &Swept) -> Value {
+    json!({
+        "type": "sweep",
+        "table": swept.table,
+        "columns": swept.columns,
+        "rows": swept.n_rows,
+        "of": swept.n_wanted,
+        "failed": swept.n_failed,
+        "missed": swept.n_missed,
+        "dead_points": swept.n_dead,
     })
 }
 
@@ -191,7 +223,8 @@ fn listed(word: &str, listing: &Listing) -> Value {
         "points": listing.points.iter().map(point).collect::<Vec<_>>(),
         "constraints": listing.constraints.iter().map(constraint).collect::<Vec<_>>(),
         "traces": listing.traces.iter().map(|row| {
-            json!({ "point": row.point, "every": row.every, "places": row.n_places })
+            let places = row.n_places;
+            labelled(json!({ "point": row.point, "every": row.every, "places": places }), row.label.as_deref())
         }).collect::<Vec<_>>(),
         "measures": listing.measures.iter().map(measure).collect::<Vec<_>>(),
         "definitions": listing.definitions.iter().map(definition).collect::<Vec<_>>(),
@@ -204,15 +237,38 @@ pub fn traces(world: &World) -> Value {
         let column = |part: fn(&world::Sample) -> f64| -> Vec<f64> {
             trace.samples.iter().map(part).collect()
         };
-        json!({
+        let object = json!({
             "point": world.points().name(trace.point),
             "every": trace.every,
             "x": column(|sample| sample.at.x),
             "y": column(|sample| sample.at.y),
             "missed": trace.samples.iter().map(|sample| sample.missed).collect::<Vec<bool>>(),
-        })
+        });
+        labelled(object, trace.label.as_deref())
     };
     json!({ "type": "traces", "traces": world.traces().iter().map(trace).collect::<Vec<_>>() })
+}
+
+/// A trace with what it is called, if not as its point.
+fn labelled(mut trace: Value, label: Option<&str>) -> Value {
+    if let Some(label) = label {
+        trace["label"] = json!(label);
+    }
+    trace
+}
+
+/// What was measured, as columns of numbers.
+pub fn measures(world: &World) -> Value {
+    let measure = |(_, measure): (world::MeasureId, &world::Measure)| {
+        let readings = measure.tally.readings();
+        json!({
+            "name": &*measure.name,
+            "unit": measure.unit.suffix(),
+            "time": readings.iter().map(|it| it.time).collect::<Vec<f64>>(),
+            "value": readings.iter().map(|it| it.value).collect::<Vec<f64>>(),
+        })
+    };
+    json!({ "type": "measures", "measures": world.measures().map(measure).collect::<Vec<_>>() })
 }
 
 /// A variant of a sweep.
@@ -234,7 +290,8 @@ pub fn variant(parameters: &[String], variant: &Variant) -> Value {
         "dead_points": variant.n_dead_points,
     });
     if let Some(failure) = &variant.failure {
-        object["error"] = json!(failure);
+        object["error"] = json!(failure.text);
+        object["problem"] = diagnostic(&failure.problem, &failure.sources);
     }
     object
 }

@@ -16,7 +16,7 @@ use crate::session::host::Host as _;
 use crate::session::transcript::Outcome;
 
 /// What a request may ask for.
-const QUESTIONS: [&str; 3] = ["traces", "svg", "script"];
+const QUESTIONS: [&str; 4] = ["traces", "measures", "svg", "script"];
 
 /// Whether a line is a request: no statement begins with a brace.
 pub fn is_request(line: &str) -> bool {
@@ -36,6 +36,7 @@ pub fn answer_request(line: &str, session: &mut Session, host: &mut Objects) -> 
             session.run_text(source, host)
         }
         (None, Some("traces")) => say(&objects::traces(session.world()), host),
+        (None, Some("measures")) => say(&objects::measures(session.world()), host),
         (None, Some("svg")) => {
             let options = session.picture_options();
             let picture = svg(&Scene::new(session.world()), &options);

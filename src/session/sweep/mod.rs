@@ -7,4 +7,4 @@ mod variant;
 
 pub use grid::{Axis, Grid, Shard, parse_axis};
 pub use table::{Columns, picture_sheet};
-pub use variant::{SweepScript, Variant};
+pub use variant::{Failure, SweepScript, Variant};

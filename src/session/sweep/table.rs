@@ -28,11 +28,16 @@ impl Columns {
         }
     }
 
+    /// What the columns are called.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let given = self.parameters.iter().chain(&self.results).map(String::as_str);
+        std::iter::once("variant").chain(given).chain(LAST)
+    }
+
     /// The heading of the table, with its line end.
     pub fn heading(&self) -> String {
-        let names = self.parameters.iter().chain(&self.results).map(|name| quoted(name));
-        let names: Vec<String> = names.chain(LAST.map(str::to_owned)).collect();
-        format!("variant,{}\n", names.join(","))
+        let names: Vec<String> = self.names().map(quoted).collect();
+        format!("{}\n", names.join(","))
     }
 
     /// The row of a variant, with its line end.
@@ -56,7 +61,7 @@ impl Columns {
             format_number(variant.residual),
             variant.n_missed,
             variant.n_dead_points,
-            variant.failure.as_deref().map_or_else(String::new, quoted)
+            variant.failure.as_ref().map_or_else(String::new, |failure| quoted(&failure.text))
         );
         row
     }

@@ -26,7 +26,7 @@ pub struct SweepScript {
 }
 
 /// What came of a variant.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Variant {
     /// Its number in the grid, from 0.
     pub number: u64,
@@ -43,7 +43,18 @@ pub struct Variant {
     /// How often a motor could not go on.
     pub n_dead_points: u64,
     /// What was wrong, where a statement failed.
-    pub failure: Option<String>,
+    pub failure: Option<Failure>,
+}
+
+/// Why a variant came to no end.
+#[derive(Debug, Clone)]
+pub struct Failure {
+    /// In a line, with the line of the script.
+    pub text: String,
+    /// The whole of it.
+    pub problem: Diagnostic,
+    /// The texts that its places are in.
+    pub sources: Sources,
 }
 
 impl Variant {
@@ -145,10 +156,11 @@ impl SweepScript {
             }
             if let Err(problem) = result {
                 let line = problem.place().and_then(|place| session.sources().place(place));
-                failure = Some(match line {
+                let text = match line {
                     Some(place) => format!("line {}: {problem}", place.line),
                     None => problem.to_string(),
-                });
+                };
+                failure = Some(Failure { text, problem, sources: session.sources().clone() });
                 break;
             }
         }

@@ -23,23 +23,56 @@ pub(crate) fn point_by_point(
     for (p, motion) in motion.iter_mut().enumerate().skip(island.n_free) {
         motion[0] = hand(p);
     }
-    let mut rows = Vec::new();
-    for block in &island.plan.blocks {
-        let which = &island.plan.constraints[block.first as usize..block.end as usize];
-        for order in 0..2 {
-            rows.clear();
-            let points = [block.point];
-            gather(island, which, &points, drive, &motion, order, &mut rows);
-            let own: Vec<_> = rows.iter().map(|row| (row.gradient[0].1, row.rhs)).collect();
-            motion[block.point as usize][order] = solve_one(&own, block.is_determined)?;
-        }
-    }
+    block_by_block(island, drive, &mut motion, solve_one)?;
     for part in &island.plan.rest {
         for order in 0..2 {
             solve_part(island, part, drive, &mut motion, order)?;
         }
     }
     Some(motion)
+}
+
+/// The rates of an island whose points are all found from two equations each, which are far from in
+/// line: however they are worked out, they are the same. None of others.
+pub(crate) fn well_determined(
+    island: &Island,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+) -> Option<Vec<Rates>> {
+    let plan = &island.plan;
+    if !plan.is_complete() || !plan.blocks.iter().all(|block| block.is_determined) {
+        return None;
+    }
+    let mut motion = vec![[Vector::ZERO; 2]; island.x.len()];
+    block_by_block(island, drive, &mut motion, |rows, _| match rows {
+        [(g, _), (h, _)] if g.cross(*h).abs() > FAR_FROM_IN_LINE => solve_one(rows, true),
+        _ => None,
+    })?;
+    Some(motion)
+}
+
+/// The sine of the angle between two rows from which on the rate that they ask for is exact.
+const FAR_FROM_IN_LINE: f64 = 1e-3;
+
+/// The rates of the points that are found one by one; `solve` gives that of a point from its rows.
+fn block_by_block(
+    island: &Island,
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    motion: &mut [Rates],
+    solve: impl Fn(&[(Vector, f64)], bool) -> Option<Vector>,
+) -> Option<()> {
+    let mut rows = Vec::new();
+    for block in &island.plan.blocks {
+        let which = &island.plan.constraints[block.first as usize..block.end as usize];
+        for order in 0..2 {
+            rows.clear();
+            let points = [block.point];
+            gather(island, which, &points, drive, motion, order, &mut rows);
+            let own: SmallVec<[_; 4]> =
+                rows.iter().map(|row| (row.gradient[0].1, row.rhs)).collect();
+            motion[block.point as usize][order] = solve(&own, block.is_determined)?;
+        }
+    }
+    Some(())
 }
 
 /// Where a point is this near to its singular pose its rows do not tell how far off it is across
@@ -69,7 +102,7 @@ fn gather(
         let (x, [v, a]) = (island.x[p as usize], motion[p as usize]);
         Vec2 { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
     };
-    let mut rhs = Vec::new();
+    let mut rhs: SmallVec<[f64; 4]> = SmallVec::new();
     for &c in which {
         let constraint: &Constraint = &island.constraints[c as usize];
         let field = |field: Field, value: f64| drive(c as usize, field, value);
