@@ -101,7 +101,8 @@ class Session:
     def wait(self, seconds=PATIENCE, until=lambda: False):
         """Waits for the prompt, no longer than until something holds; gives whether it came."""
         end = time.monotonic() + seconds
-        while not self.seen.endswith(b"\n> ") and self.seen != b"> ":
+        # Behind an answer, or behind what told how far it is.
+        while not self.seen.endswith((b"\n> ", b"\r> ")) and self.seen != b"> ":
             if time.monotonic() > end or until():
                 return False
             if select.select([self.fd], [], [], 0.002)[0]:

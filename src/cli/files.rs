@@ -160,12 +160,43 @@ pub fn write_in_pieces(
     if let Ok(old) = fs::metadata(&place) {
         draft.as_file().set_permissions(old.permissions())?;
     }
-    draft.as_file().sync_all()?;
-    draft.persist(&place).map_err(|e| e.error)?;
-    #[cfg(unix)]
-    // A file system without this keeps names in its own way.
-    drop(File::open(folder).and_then(|folder| folder.sync_all()));
-    Ok(())
+    publish(Draft { file: draft, place: &place })
+}
+
+/// A file that is written and has no name yet that anybody knows.
+trait Unpublished {
+    /// Waits until it is on the disk.
+    fn flush(&self) -> io::Result<()>;
+
+    /// Gives it its name, in place of what had it.
+    fn rename(self) -> io::Result<()>;
+}
+
+/// Gives a file its name once it is on the disk: whenever the power fails, there is the old one or the
+/// new one, whole.
+fn publish(file: impl Unpublished) -> io::Result<()> {
+    file.flush()?;
+    file.rename()
+}
+
+/// A draft, and where it belongs.
+struct Draft<'a> {
+    file: NamedTempFile,
+    place: &'a Path,
+}
+
+impl Unpublished for Draft<'_> {
+    fn flush(&self) -> io::Result<()> {
+        self.file.as_file().sync_all()
+    }
+
+    fn rename(self) -> io::Result<()> {
+        self.file.persist(self.place).map_err(|e| e.error)?;
+        #[cfg(unix)]
+        // A file system without this keeps names in its own way.
+        drop(File::open(folder_of(self.place)).and_then(|folder| folder.sync_all()));
+        Ok(())
+    }
 }
 
 /// A file without a name, which is gone when nobody has it open, however that comes: in a folder, or
@@ -228,9 +259,37 @@ fn or_here(path: &Path) -> &Path {
 
 #[cfg(all(test, unix))]
 mod tests {
+    use std::cell::RefCell;
     use std::os::unix::fs::symlink;
 
     use super::*;
+
+    /// Notes what is done with it.
+    struct Noted<'a> {
+        done: &'a RefCell<Vec<&'static str>>,
+        is_disk_full: bool,
+    }
+
+    impl Unpublished for Noted<'_> {
+        fn flush(&self) -> io::Result<()> {
+            self.done.borrow_mut().push("flush");
+            if self.is_disk_full { Err(io::ErrorKind::StorageFull.into()) } else { Ok(()) }
+        }
+
+        fn rename(self) -> io::Result<()> {
+            self.done.borrow_mut().push("rename");
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_file_has_its_name_when_it_is_on_the_disk() {
+        let done = RefCell::default();
+        publish(Noted { done: &done, is_disk_full: false }).unwrap();
+        assert_eq!(done.take(), ["flush", "rename"]);
+        publish(Noted { done: &done, is_disk_full: true }).unwrap_err();
+        assert_eq!(done.take(), ["flush"]);
+    }
 
     #[test]
     fn a_link_that_is_put_in_the_way_late_leads_nothing_out() {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::args::{ExampleArguments, HelpArguments, help_on};
 use super::output;
 use super::process_host::{EXAMPLES_FOLDER, ProcessHost};
-use super::run::{ExitStatus, Talk, begin, play};
+use super::run::{ExitStatus, begin, play};
 use crate::diag::Diagnostic;
 use crate::errors;
 use crate::session::{Example, Host, Session};
@@ -63,8 +63,10 @@ pub fn examples(wish: &ExampleArguments) -> ExitStatus {
     }
     let mut session = begin(&wish.host);
     let file = format!("{}.link", example.name);
-    let source = session.add_source(&file, example.text, Some(PathBuf::from(EXAMPLES_FOLDER)));
+    let read = |session: &mut Session, _: &mut dyn Host| {
+        let folder = PathBuf::from(EXAMPLES_FOLDER);
+        Ok(vec![session.add_source(&file, example.text, Some(folder))])
+    };
     let mut process = ProcessHost::new(&wish.host, Path::new("."));
-    let talk = Talk::new(&mut process, &wish.host);
-    play(&[source], &mut session, talk, &wish.host, wish.interactive)
+    play(read, &mut session, &mut process, &wish.host, wish.interactive)
 }

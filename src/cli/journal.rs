@@ -62,6 +62,9 @@ impl Journal {
     pub fn keep(&mut self, kept: Kept<'_>) -> io::Result<()> {
         match kept {
             Kept::Statement(text) => self.append(&format!("{text}\n"))?,
+            Kept::Stopped { text, n_done } => {
+                self.append(&format!("restore stop = {n_done}\n{text}\n"))?;
+            }
             Kept::Whole(script) => {
                 // Beside it first: a journal is whole whenever the session ends.
                 let beside = self.path.with_extension("next");

@@ -102,33 +102,51 @@ fn texts(
     session: &mut Session,
     host: &HostArguments,
 ) -> ExitStatus {
-    let mut sources = Vec::new();
     let folder = file.map_or(Path::new("."), files::folder_of);
-    let mut process = ProcessHost::new(host, folder);
-    let mut talk = Talk::new(&mut process, host);
-    if let Some(file) = file {
-        match add(file, session, talk.host()) {
-            Ok(source) => sources.push(source),
-            Err(status) => return status,
+    let read = |session: &mut Session, host: &mut dyn Host| {
+        let file = file.map(|file| add(file, session, host)).transpose()?;
+        let mut sources = Vec::from_iter(file);
+        for text in &scripts.eval {
+            sources.push(session.add_source("<argument>", text, Some(PathBuf::new())));
         }
-    }
-    for text in &scripts.eval {
-        sources.push(session.add_source("<argument>", text, Some(PathBuf::new())));
-    }
-    play(&sources, session, talk, host, scripts.interactive)
+        Ok(sources)
+    };
+    play(read, session, &mut ProcessHost::new(host, folder), host, scripts.interactive)
 }
 
-/// Carries out texts in one world, up to the first mistake; then goes on at the prompt, or ends.
+/// Carries out the texts that `read` gives in one world, up to the first mistake; then goes on at the
+/// prompt, or ends.
 pub fn play(
-    sources: &[SourceId],
+    read: impl FnOnce(&mut Session, &mut dyn Host) -> Result<Vec<SourceId>, ExitStatus>,
     session: &mut Session,
-    mut talk: Talk,
+    process: &mut ProcessHost,
     host: &HostArguments,
     is_interactive: bool,
 ) -> ExitStatus {
+    let follow = is_interactive.then_some(host);
+    if host.json && is_interactive {
+        return kept(process, host, |process, news| {
+            play_to(read, session, Talk::Json(Objects::new(process)), follow, news)
+        });
+    }
+    play_to(read, session, Talk::new(process, host), follow, None)
+}
+
+/// As [`play`]; goes on where it is said how.
+fn play_to(
+    read: impl FnOnce(&mut Session, &mut dyn Host) -> Result<Vec<SourceId>, ExitStatus>,
+    session: &mut Session,
+    mut talk: Talk,
+    follow: Option<&HostArguments>,
+    news: Option<Diagnostic>,
+) -> ExitStatus {
+    let sources = match read(session, talk.host()) {
+        Ok(sources) => sources,
+        Err(status) => return status,
+    };
     let mut status = ExitStatus::Fine;
     let mut has_left = false;
-    for &source in sources {
+    for source in sources {
         let outcome = session.run_text(source, talk.host());
         status = status_of(&outcome);
         has_left = outcome.flow == Flow::Quit;
@@ -136,10 +154,10 @@ pub fn play(
             break;
         }
     }
-    if is_interactive && !has_left {
+    if let Some(host) = follow.filter(|_| !has_left) {
         return match talk {
             Talk::Plain(process) => converse(session, process, host),
-            Talk::Json(objects) => converse_in_objects(session, objects),
+            Talk::Json(objects) => converse_in_objects(session, objects, news),
         };
     }
     match (status, end(session, talk.host())) {
@@ -280,11 +298,13 @@ impl<'a> Talk<'a> {
 
 /// Runs a session: a prompt on a terminal, statements typed ahead on a pipe, or a program's.
 pub fn session(host: &HostArguments) -> ExitStatus {
+    let mut process = ProcessHost::new(host, Path::new("."));
     if host.json {
-        let mut process = ProcessHost::new(host, Path::new("."));
-        return converse_in_objects(&mut begin(host), Objects::new(&mut process));
+        return kept(&mut process, host, |process, news| {
+            converse_in_objects(&mut begin(host), Objects::new(process), news)
+        });
     }
-    converse(&mut begin(host), &mut ProcessHost::new(host, Path::new(".")), host)
+    converse(&mut begin(host), &mut process, host)
 }
 
 /// A session that a page looks at, after a script if there is one.
@@ -334,7 +354,12 @@ fn converse(session: &mut Session, process: &mut ProcessHost, host: &HostArgumen
 }
 
 /// A session for a program: statements and requests, answered by objects.
-fn converse_in_objects(session: &mut Session, mut objects: Objects) -> ExitStatus {
+fn converse_in_objects(
+    session: &mut Session,
+    mut objects: Objects,
+    news: Option<Diagnostic>,
+) -> ExitStatus {
+    begin_journal_of(session, &mut objects, news);
     output::flush();
     let answer =
         |piece: &str, transcript: &mut Transcript, session: &mut Session, objects: &mut _| {
@@ -357,35 +382,43 @@ fn prompt(session: &mut Session, process: &mut ProcessHost, host: &HostArguments
     if !host.no_init {
         init::run(session, process);
     }
-    kept(session, process, host, crate::repl::converse);
+    kept(process, host, |process, news| {
+        begin_journal_of(session, process, news);
+        crate::repl::converse(session, process);
+    });
 }
 
 /// A conversation of which a journal is kept, unless the user wants none: each statement is written down
-/// before the next is read. What the last one left that did not end in order is offered first.
-pub(super) fn kept<T>(
-    session: &mut Session,
+/// before the next is read. It is told what the last one left that did not end in order.
+fn kept<T>(
     process: &mut ProcessHost,
     host: &HostArguments,
-    converse: impl FnOnce(&mut Session, &mut ProcessHost) -> T,
+    converse: impl FnOnce(&mut ProcessHost, Option<Diagnostic>) -> T,
 ) -> T {
     if host.no_journal {
-        return converse(session, process);
+        return converse(process, None);
     }
-    if let Some(remains) = journal::remains() {
-        let news = Diagnostic::note_only(format!(
+    let news = journal::remains().map(|remains| {
+        Diagnostic::note_only(format!(
             "the last session did not end in order; to bring back its {}: load \"{}\"",
             format_counted(remains.n_lines as u64, "line"),
             remains.path.display()
-        ));
-        process.tell(&news, &Sources::new());
-    }
+        ))
+    });
     process.begin_journal();
-    if session.to_script() != Session::new().to_script() {
-        session.keep_whole(process);
-    }
-    let result = converse(session, process);
+    let result = converse(process, news);
     process.end_journal();
     result
+}
+
+/// Tells what the last conversation left, and writes down what this one begins with.
+fn begin_journal_of(session: &mut Session, host: &mut dyn Host, news: Option<Diagnostic>) {
+    if let Some(news) = news {
+        host.tell(&news, &Sources::new());
+    }
+    if host.is_keeping() && session.to_script() != Session::new().to_script() {
+        session.keep_whole(host);
+    }
 }
 
 /// Statements from a pipe, carried out as they come: goes on after an error as a terminal would,

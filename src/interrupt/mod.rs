@@ -83,6 +83,11 @@ pub fn go_on(stopped: Stopped) -> ! {
     resume_unwind(Box::new(stopped))
 }
 
+/// Whether somebody listens here.
+pub fn is_heard() -> bool {
+    WISH.with_borrow(Option::is_some)
+}
+
 /// Does work that must not be left half done.
 pub fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
     let _before = Before::replaced_by(None);

@@ -22,6 +22,7 @@ pub use format::format;
 pub use growing::Growing;
 pub use layout::{depth, statement_start};
 pub use lower::{
-    Class, NameOf, Next, Statements, Token, is_incomplete, nearest_command, next, parse, tokens,
+    Class, NameOf, Next, Statements, Token, Tokens, is_incomplete, nearest_command, next, parse,
+    tokens,
 };
 pub use usage::rest_of_usage;

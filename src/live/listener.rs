@@ -1,13 +1,13 @@
 //! Takes what a session says while a page has it do something, for the page.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::{Value, json};
 
 use super::units::to_utf16;
 use crate::diag::{Diagnostic, Paint, Severity, SourceId, Sources, render};
-use crate::session::{Clock, Host, Kept, Spool, Wish};
+use crate::session::Host;
 
 /// A host that keeps what is said, and hands on the rest.
 pub struct Listener<'a> {
@@ -58,6 +58,14 @@ pub fn told(what: &Diagnostic, sources: &Sources, source: Option<SourceId>) -> V
 }
 
 impl Host for Listener<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&*self.inner)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut *self.inner)
+    }
+
     fn print(&mut self, line: &str) {
         let before = self.n_bytes;
         self.n_bytes += line.len() as u64 + 1;
@@ -77,42 +85,6 @@ impl Host for Listener<'_> {
         self.said.push(told(what, sources, self.source));
     }
 
-    fn is_keeping(&self) -> bool {
-        self.inner.is_keeping()
-    }
-
-    fn keep(&mut self, kept: Kept<'_>) {
-        self.inner.keep(kept);
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.inner.is_interrupted()
-    }
-
-    fn wish_to_stop(&self) -> Option<Wish> {
-        self.inner.wish_to_stop()
-    }
-
-    fn forget_stop(&mut self) {
-        self.inner.forget_stop();
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.inner.resolve(path)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        self.inner.read(path)
-    }
-
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.inner.find(folder, path)
-    }
-
-    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
-        self.inner.opening(path)
-    }
-
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         self.inner.write(path, bytes)?;
         self.wrote.push(path.display().to_string());
@@ -129,19 +101,7 @@ impl Host for Listener<'_> {
         Ok(())
     }
 
-    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        self.inner.spool()
-    }
-
     fn view(&mut self) -> io::Result<String> {
         self.inner.view()
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.inner.seconds()
-    }
-
-    fn clock(&self) -> Option<Clock> {
-        self.inner.clock()
     }
 }

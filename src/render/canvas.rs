@@ -6,6 +6,10 @@ use std::sync::Arc;
 use super::figure::{Figure, Key, Layer, Placement};
 use super::page::Page;
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::interrupt::tick;
+
+/// What the drawing of a figure takes, in ticks.
+const FIGURE: usize = 200;
 
 /// Where the name of each point stands, from the point, px. A point that is missing here
 /// goes without.
@@ -52,6 +56,7 @@ impl<'a> Canvas<'a> {
 
     /// Begins a figure.
     pub fn figure(&mut self, layer: Layer, placement: Placement) -> &mut Figure {
+        tick(FIGURE);
         let part = self.n_of_key;
         self.n_of_key += 1;
         self.figures.push(Figure {

@@ -3,15 +3,17 @@
 use super::Session;
 use super::resolve::said::pattern_of;
 use super::state::State;
-use crate::diag::{Diagnostic, Sources};
+use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::errors;
 use crate::lang::ast::Role;
 use crate::lang::catalogue::Slot;
+use crate::lang::parse;
 use crate::world::Entity;
 
 impl Session {
     /// What is wrong with a text, said to who has this world in front of them: `coupler = 4` asks
-    /// for a `change` where `coupler` is a constraint.
+    /// for a `change` where `coupler` is a constraint, and `A B` begins with no misspelt command where
+    /// `A` is a point.
     #[must_use]
     pub fn advise(&self, problem: Diagnostic) -> Diagnostic {
         self.state.advise(problem, self.sources())
@@ -21,14 +23,33 @@ impl Session {
 impl State {
     /// As [`Session::advise`].
     pub(super) fn advise(&self, mut problem: Diagnostic, sources: &Sources) -> Diagnostic {
-        if problem.code != Some(errors::ASSIGNMENT) {
-            return problem;
-        }
         let Some(place) = problem.place() else { return problem };
-        let name = sources.slice(place);
-        let Some(entity) = self.world.names().get(name) else { return problem };
-        let text = sources.get(place.source).map_or("", |source| &source.text);
-        let value = assigned(&text[place.range().end..]);
+        let Some(text) = sources.get(place.source).map(|source| &*source.text) else {
+            return problem;
+        };
+        let (before, name) = (&text[..place.range().start], &text[place.range()]);
+        let rest = statement_end(&text[place.range().end..]);
+        let help = match problem.code {
+            Some(errors::ASSIGNMENT) => self.instead_of_assignment(name, assigned(rest)),
+            Some(errors::UNKNOWN_COMMAND) if begins_statement(before) => {
+                self.instead_of_name(name, rest)
+            }
+            _ => None,
+        };
+        if let Some(help) = help {
+            problem.helps = vec![help];
+        }
+        problem
+    }
+
+    /// What to type for `name = value`, where something has that name or its owner's.
+    fn instead_of_assignment(&self, name: &str, value: &str) -> Option<String> {
+        let find = |name: &str| self.world.names().get(name);
+        let Some(entity) = find(name) else {
+            let (owner, part) = name.rsplit_once('.')?;
+            let Entity::Constraint(_) = find(owner)? else { return None };
+            return changed(owner, &format!("{part} {value}"));
+        };
         let (what, statement) = match entity {
             Entity::Point(_) => ("to put the point elsewhere", format!("move {name} to {value}")),
             Entity::Parameter(_) => {
@@ -39,15 +60,34 @@ impl State {
                 let record = self.world.constraint(id).expect("it is named");
                 let pattern = pattern_of(&record.constraint);
                 let Some(word) = value_word(pattern.slots) else {
-                    problem.helps = vec![pattern.takes.to_owned()];
-                    return problem;
+                    return Some(pattern.takes.to_owned());
                 };
                 ("to give it another value", format!("change {name} {word} {value}"))
             }
         };
-        problem.helps = vec![format!("{what}, write `{statement}`")];
-        problem
+        Some(format!("{what}, write `{statement}`"))
     }
+
+    /// What to type for a statement that begins with a name, where something has it.
+    fn instead_of_name(&self, name: &str, rest: &str) -> Option<String> {
+        let noun = self.world.names().get(name)?.noun();
+        let shown = || format!("`{name}` is a {noun}: `show {name}` tells of it");
+        Some(changed(name, rest).unwrap_or_else(shown))
+    }
+}
+
+/// Whether a statement begins behind a text.
+fn begins_statement(before: &str) -> bool {
+    let before = before.trim_end_matches([' ', '\t']);
+    before.is_empty() || before.ends_with(['\n', ';', '{'])
+}
+
+/// What gives parts of a constraint other values, if that is what stands behind its name.
+fn changed(name: &str, parts: &str) -> Option<String> {
+    let statement = format!("change {name} {}", parts.trim());
+    let mut statements = parse(SourceId(0), &statement);
+    let is_one = matches!((statements.next(), statements.next()), (Some(Ok(_)), None));
+    is_one.then(|| format!("to change it, write `{statement}`"))
 }
 
 /// What stands before the value of a constraint; none where it has none, or several.
@@ -63,8 +103,12 @@ fn value_word(slots: &[Slot]) -> Option<&'static str> {
     words.next().filter(|_| words.next().is_none())
 }
 
-/// The value behind the `=` that a text begins with, up to the end of the statement.
-fn assigned(text: &str) -> &str {
-    let value = text.trim_start().trim_start_matches('=');
-    value[..value.find(['\n', ';', '#']).unwrap_or(value.len())].trim()
+/// A text up to the end of its first statement.
+fn statement_end(text: &str) -> &str {
+    text[..text.find(['\n', ';', '#']).unwrap_or(text.len())].trim()
+}
+
+/// The value behind the `=` that the rest of a statement begins with.
+fn assigned(rest: &str) -> &str {
+    rest.trim_start_matches('=').trim()
 }

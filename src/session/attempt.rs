@@ -29,19 +29,6 @@ impl Session {
         host: &mut dyn Host,
     ) -> Result<Attempt, Diagnostic> {
         let source = self.add_piece(name, text, 1, None);
-        let result = self.attempt_in(source, text, host);
-        if result.is_err() {
-            self.input.is_unrepeatable = false;
-        }
-        result
-    }
-
-    fn attempt_in(
-        &mut self,
-        source: SourceId,
-        text: &str,
-        host: &mut dyn Host,
-    ) -> Result<Attempt, Diagnostic> {
         let mut statements = parse(source, text);
         let Some(statement) = statements.next().transpose()? else {
             return Err(refused(source, text));

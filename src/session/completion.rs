@@ -1,6 +1,7 @@
 //! What helps who types a line: what may stand where the cursor is, what is still to be typed, and
 //! what the pieces of the line are.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -9,7 +10,7 @@ use super::commands::setting_table::{SETTINGS, Setting};
 use super::examples::EXAMPLES;
 use crate::lang::ast::{Function, ListWhat, Unit};
 use crate::lang::{
-    Class, NameOf, Next, Token, catalogue, next, rest_of_usage, statement_start, tokens,
+    Class, NameOf, Next, Token, Tokens, catalogue, next, rest_of_usage, statement_start,
 };
 use crate::terms::{Member, Statistic};
 use crate::world::{Entity, World};
@@ -41,6 +42,8 @@ pub struct Completion {
     is_whole: bool,
     /// The world's revision at which it had these names.
     revision: Option<u64>,
+    /// The text that was told last.
+    tokens: RefCell<Tokens>,
 }
 
 /// What may stand where the cursor is.
@@ -133,7 +136,7 @@ impl Completion {
     /// The pieces of a text, those marked that are names of nothing. A word that ends at `cursor`
     /// is still being typed.
     pub fn pieces(&self, text: &str, cursor: usize) -> Vec<Piece> {
-        let tokens = tokens(text);
+        let tokens = self.tokens.borrow_mut().of(text);
         let of_class = |class| tokens.iter().filter(move |token: &&Token| token.class == class);
         let new: Vec<&str> = of_class(Class::NewName).map(|it| &text[it.range.clone()]).collect();
         let is_unknown = |token: &Token| {

@@ -12,8 +12,22 @@ use crate::lang::ast::{
 };
 
 impl Execution<'_> {
-    /// Carries out a statement as part of the command under way.
+    /// Carries out a statement as part of the command under way; again as far only as it came when it
+    /// was stopped, where that is said.
     pub(super) fn dispatch(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
+        let Some(n_done) = self.input.next_stop.take() else {
+            return self.dispatch_whole(statement);
+        };
+        let outer = self.most_done.replace(self.n_done + n_done);
+        let flow = self.dispatch_whole(statement);
+        self.most_done = outer;
+        match flow? {
+            Flow::Stopped if !self.is_to_stop() => Ok(Flow::On),
+            flow => Ok(flow),
+        }
+    }
+
+    fn dispatch_whole(&mut self, statement: &Statement) -> Result<Flow, Diagnostic> {
         self.n_statements += 1;
         self.input.quotas.check(Quota::Statements, self.n_statements, statement.span)?;
         interrupt::rest();
@@ -32,17 +46,24 @@ impl Execution<'_> {
             self.note_stop("stopped");
             return Ok(Flow::Stopped);
         }
+        if flow == Flow::On {
+            self.n_done += 1;
+        }
         Ok(flow)
     }
 
     /// Refuses what has grown beyond what is allowed; asked after each statement and each frame.
     pub(super) fn hold_quotas(&self, span: Span) -> Result<(), Diagnostic> {
         let (world, quotas) = (&self.state.world, &self.input.quotas);
-        let n_points = world.points().column().len() as u64;
+        let n_points = world.points().len() as u64;
         quotas.check(Quota::Points, n_points, span)?;
         quotas.check(Quota::Constraints, world.n_constraints() as u64, span)?;
         quotas.check(Quota::GhostPoints, world.ghosts().len() as u64 * n_points, span)?;
-        quotas.check(Quota::PrintedBytes, self.host.n_printed(), span)?;
+        // Who has printed too much may still do other things.
+        let n_printed = self.host.n_printed();
+        if n_printed > self.n_printed_before {
+            quotas.check(Quota::PrintedBytes, n_printed, span)?;
+        }
         self.hold_time(span)
     }
 

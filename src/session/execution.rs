@@ -45,6 +45,13 @@ pub struct Execution<'a> {
     pub scopes: Scopes,
     /// Statements carried out so far.
     pub n_statements: u64,
+    /// How far it came: statements, rounds without one, frames and the like that are done. It is the
+    /// same when the command is done again, however fast the machine is.
+    pub n_done: u64,
+    /// Bytes that were printed before it.
+    pub n_printed_before: u64,
+    /// How far it is to come, where a stop is repeated.
+    pub most_done: Option<u64>,
     /// Rounds of the loops under way, multiplied.
     pub n_rounds: f64,
     /// How deep `include`, `use` and `for` are nested now.
@@ -72,6 +79,7 @@ impl<'a> Execution<'a> {
         host: &'a mut dyn Host,
     ) -> Self {
         let deadline = Deadline::after(input.quotas.seconds(), host);
+        let n_printed_before = host.n_printed();
         input.is_change = false;
         input.n_done = None;
         Self {
@@ -81,6 +89,9 @@ impl<'a> Execution<'a> {
             host,
             scopes: Scopes::default(),
             n_statements: 0,
+            n_done: 0,
+            n_printed_before,
+            most_done: None,
             n_rounds: 1.0,
             depth: 0,
             included: Vec::new(),
@@ -97,9 +108,7 @@ impl<'a> Execution<'a> {
         let wish = self.deadline.wish(self.host);
         let work = || {
             let flow = self.dispatch(statement)?;
-            if self.state.preferences.is_live && statement.command.is_edit() {
-                self.solve_after_edit()?;
-            }
+            self.solve_where_live(statement)?;
             Ok(flow)
         };
         let Ok(result) = interrupt::listening(wish, work) else {
@@ -116,6 +125,7 @@ impl<'a> Execution<'a> {
         });
         match result {
             Ok(flow) => {
+                self.input.stopped_after = (flow == Flow::Stopped).then_some(self.n_done);
                 self.complete(statement);
                 Ok(flow)
             }
@@ -124,6 +134,14 @@ impl<'a> Execution<'a> {
                 Err(problem)
             }
         }
+    }
+
+    /// Solves after a statement that stands by itself, where the user wants that after each edit.
+    pub fn solve_where_live(&mut self, statement: &Statement) -> Result<(), Diagnostic> {
+        if self.state.preferences.is_live && statement.command.is_edit() {
+            self.solve_after_edit()?;
+        }
+        Ok(())
     }
 
     /// The command has done all that its statement says: it can be taken back from here on.
@@ -184,8 +202,14 @@ impl<'a> Execution<'a> {
         self.history.begin_motion(self.state);
     }
 
-    /// Whether it is to stop where it is: the user wants that, or its time is up.
+    /// Whether it is to stop where it is, what it did so far to stay: it was asked to, or it came as far
+    /// as it had come when it was.
     pub fn is_to_stop(&self) -> bool {
+        self.is_asked_to_stop() || self.most_done.is_some_and(|most| self.n_done >= most)
+    }
+
+    /// Whether the user wants it to stop, or its time is up.
+    pub fn is_asked_to_stop(&self) -> bool {
         self.host.is_interrupted() || self.deadline.has_passed(self.host)
     }
 

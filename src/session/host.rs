@@ -16,6 +16,14 @@ use crate::world::World;
 pub enum Kept<'a> {
     /// The statement that was carried out: repeated, it does the same.
     Statement(&'a str),
+    /// The same of one that the user stopped: it does the same where it comes as far, as
+    /// `restore stop = n_done` before it says.
+    Stopped {
+        /// The statement.
+        text: &'a str,
+        /// How far it came.
+        n_done: u64,
+    },
     /// The script that makes all there is; what was told before is not needed any more.
     Whole(&'a str),
 }
@@ -37,7 +45,21 @@ pub struct Done<'a> {
 pub type Clock = Rc<dyn Fn() -> f64>;
 
 /// The outside of a session. The program gives it a terminal and files; a test gives it lists.
+///
+/// A host may stand before another one, whose files, clock and journal are then its own, and whose user
+/// may stop it: all of that is asked of the one [behind](Self::behind) unless it answers itself. What is
+/// said to it is its own affair.
 pub trait Host {
+    /// The host that this one stands before.
+    fn behind(&self) -> Option<&dyn Host> {
+        None
+    }
+
+    /// The same, to be asked for something; there where [`behind`](Self::behind) is.
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        None
+    }
+
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
 
@@ -85,25 +107,33 @@ pub trait Host {
 
     /// Whether a journal is kept of what is typed.
     fn is_keeping(&self) -> bool {
-        false
+        self.behind().is_some_and(Host::is_keeping)
     }
 
     /// Takes what its journal needs to bring the session back, as it was after a statement.
-    fn keep(&mut self, _kept: Kept<'_>) {}
+    fn keep(&mut self, kept: Kept<'_>) {
+        if let Some(host) = self.behind_mut() {
+            host.keep(kept);
+        }
+    }
 
     /// Whether the user asked to stop the running command; asked between frames.
     fn is_interrupted(&self) -> bool {
-        false
+        self.behind().is_some_and(Host::is_interrupted)
     }
 
     /// What says the same within a long piece of work, which is then left half done and taken back;
     /// by default that is not asked.
     fn wish_to_stop(&self) -> Option<Wish> {
-        None
+        self.behind()?.wish_to_stop()
     }
 
     /// The command that the user asked to stop has stopped: what follows was not asked to.
-    fn forget_stop(&mut self) {}
+    fn forget_stop(&mut self) {
+        if let Some(host) = self.behind_mut() {
+            host.forget_stop();
+        }
+    }
 
     /// Where a file that a script names is written, and found again; by default under its own
     /// name, as [`contained`] gives it.
@@ -111,14 +141,17 @@ pub trait Host {
     /// # Errors
     /// [`PermissionDenied`](io::ErrorKind::PermissionDenied) where scripts may not write.
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        contained(path)
+        self.behind().map_or_else(|| contained(path), |host| host.resolve(path))
     }
 
-    /// Reads a text.
+    /// Reads a text; by default there is none.
     ///
     /// # Errors
     /// Where there is none, or it cannot be read.
-    fn read(&mut self, path: &Path) -> io::Result<String>;
+    fn read(&mut self, path: &Path) -> io::Result<String> {
+        self.behind_mut()
+            .map_or_else(|| Err(io::ErrorKind::NotFound.into()), |host| host.read(path))
+    }
 
     /// Where a file that a script reads lies; `folder` is that of the text which names it. By
     /// default it is looked for there, whatever it is.
@@ -126,7 +159,7 @@ pub trait Host {
     /// # Errors
     /// [`PermissionDenied`](io::ErrorKind::PermissionDenied) where scripts may not read.
     fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        Ok(folder.join(path))
+        self.behind().map_or_else(|| Ok(folder.join(path)), |host| host.find(folder, path))
     }
 
     /// How a file begins that is to be replaced, up to some kilobytes; none where there is none, or
@@ -134,16 +167,19 @@ pub trait Host {
     ///
     /// # Errors
     /// Where what is there is no file, or cannot be read.
-    fn opening(&mut self, _path: &Path) -> io::Result<Option<Vec<u8>>> {
-        Ok(None)
+    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
+        self.behind_mut().map_or(Ok(None), |host| host.opening(path))
     }
 
     /// Writes a file whole or not at all, at a place that [`resolve`](Self::resolve) gave;
-    /// makes the folders it needs.
+    /// makes the folders it needs. By default there is nowhere to write it.
     ///
     /// # Errors
     /// Where it cannot be written.
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let nowhere = || Err(io::ErrorKind::Unsupported.into());
+        self.behind_mut().map_or_else(nowhere, |host| host.write(path, bytes))
+    }
 
     /// Writes a file as [`write`](Self::write) does, piece by piece: it may be larger than memory.
     ///
@@ -164,7 +200,10 @@ pub trait Host {
     /// # Errors
     /// Where there is no room for it.
     fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        Ok(Box::new(Vec::new()))
+        match self.behind_mut() {
+            Some(host) => host.spool(),
+            None => Ok(Box::new(Vec::new())),
+        }
     }
 
     /// Lets a page look at the session from here on; gives its address.
@@ -179,14 +218,16 @@ pub trait Host {
     /// Told how much of a long piece of work is done, from 0 to 1.
     fn progress(&self, _share: f64) {}
 
-    /// Seconds of wall time since some fixed moment, none where there is no clock; for promises and
-    /// receipts only.
-    fn seconds(&self) -> Option<f64>;
+    /// Seconds of wall time since some fixed moment, none where there is no clock, as by default; for
+    /// promises and receipts only.
+    fn seconds(&self) -> Option<f64> {
+        self.behind()?.seconds()
+    }
 
     /// What says the same within a long piece of work, which is left where the time of its command is
     /// up; by default that is asked between statements and frames alone.
     fn clock(&self) -> Option<Clock> {
-        None
+        self.behind()?.clock()
     }
 }
 
@@ -247,15 +288,7 @@ impl Host for Nowhere {
         false
     }
 
-    fn read(&mut self, _path: &Path) -> io::Result<String> {
-        Err(io::Error::from(io::ErrorKind::NotFound))
-    }
-
     fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
         Ok(())
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        None
     }
 }

@@ -22,6 +22,10 @@ pub struct Input {
     /// Whether the statement under way depends on more than what was typed: on files, on the
     /// clock, on what `undo` keeps.
     pub is_unrepeatable: bool,
+    /// How far the last command came, where the user stopped it and what it did stays.
+    pub stopped_after: Option<u64>,
+    /// How far the next statement is to come, which was stopped when it was carried out first.
+    pub next_stop: Option<u64>,
     /// Whether the last command changed something that `undo` takes back.
     pub is_change: bool,
     /// How many frames or iterations the last command did, where it was stopped on its way.
@@ -44,6 +48,8 @@ impl Default for Input {
             overrides: BTreeMap::new(),
             typed: Vec::new(),
             is_unrepeatable: false,
+            stopped_after: None,
+            next_stop: None,
             is_change: false,
             n_done: None,
             quotas: Quotas::default(),

@@ -269,6 +269,8 @@ impl Session {
         statement: &Statement,
         host: &mut dyn Host,
     ) -> Result<Flow, Diagnostic> {
+        self.input.is_unrepeatable = false;
+        self.input.stopped_after = None;
         self.command(host).carry_out(statement)
     }
 
@@ -346,14 +348,17 @@ impl Session {
         if !host.is_keeping() || !leaves_a_mark {
             return;
         }
-        if flow == Flow::Stopped {
-            // Who stops once more must not lose what the stopped command did.
-            host.forget_stop();
-            self.keep_whole(host);
-        } else if is_unrepeatable {
-            self.keep_whole(host);
-        } else {
-            host.keep(Kept::Statement(self.input.sources.slice(statement.span)));
+        let text = self.input.sources.slice(statement.span);
+        match (flow, self.input.stopped_after) {
+            // It was taken back.
+            (Flow::Stopped, None) => {}
+            _ if is_unrepeatable => {
+                // Who stops once more must not lose what a stopped command did.
+                host.forget_stop();
+                self.keep_whole(host);
+            }
+            (Flow::Stopped, Some(n_done)) => host.keep(Kept::Stopped { text, n_done }),
+            _ => host.keep(Kept::Statement(text)),
         }
     }
 

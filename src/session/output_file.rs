@@ -102,7 +102,7 @@ impl Execution<'_> {
     pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
         let parcels = std::mem::take(&mut self.outbox);
         // Who stopped a run still wants what it recorded.
-        let was_stopped = self.is_to_stop();
+        let was_stopped = self.is_asked_to_stop();
         let write = |parcel: &Parcel| {
             let Parcel { file, content, span, kind } = parcel;
             match content {
@@ -199,7 +199,7 @@ impl Execution<'_> {
             Format::Frames => {
                 let view = recorder.view().map_err(failed)?;
                 for frame in 0..recorder.n_frames() {
-                    if self.is_to_stop() && !was_stopped {
+                    if self.is_asked_to_stop() && !was_stopped {
                         return Err(stopped());
                     }
                     let scene = recorder.scene(frame).map_err(failed)?;
@@ -219,7 +219,7 @@ impl Execution<'_> {
                 self.write_file(path, kind, span, &bytes)
             }
             Format::Movie => {
-                let is_stopped = || self.is_to_stop() && !was_stopped;
+                let is_stopped = || self.is_asked_to_stop() && !was_stopped;
                 let movie = recorder.movie(options, is_stopped).map_err(failed)?;
                 let movie = movie.ok_or_else(stopped)?;
                 self.write_file(path, kind, span, movie.as_bytes())

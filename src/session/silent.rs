@@ -4,10 +4,8 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::host::{Clock, Host};
-use super::spool::Spool;
+use super::host::Host;
 use crate::diag::{Diagnostic, Severity, Sources};
-use crate::interrupt::Wish;
 
 /// A host behind which a script prints nothing, and what it writes is only there for itself to
 /// read. Errors reach the host, and so does the wish to stop.
@@ -24,6 +22,14 @@ impl<'a> Silent<'a> {
 }
 
 impl Host for Silent<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&*self.host)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut *self.host)
+    }
+
     fn print(&mut self, _line: &str) {}
 
     fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
@@ -36,16 +42,12 @@ impl Host for Silent<'_> {
         false
     }
 
-    fn wish_to_stop(&self) -> Option<Wish> {
-        self.host.wish_to_stop()
+    fn is_keeping(&self) -> bool {
+        false
     }
 
-    fn is_interrupted(&self) -> bool {
-        self.host.is_interrupted()
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.host.resolve(path)
+    fn opening(&mut self, _path: &Path) -> io::Result<Option<Vec<u8>>> {
+        Ok(None)
     }
 
     fn read(&mut self, path: &Path) -> io::Result<String> {
@@ -55,24 +57,8 @@ impl Host for Silent<'_> {
         }
     }
 
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.host.find(folder, path)
-    }
-
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         self.written.insert(path.to_path_buf(), bytes.to_vec());
         Ok(())
-    }
-
-    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        self.host.spool()
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.host.seconds()
-    }
-
-    fn clock(&self) -> Option<Clock> {
-        self.host.clock()
     }
 }

@@ -85,6 +85,10 @@ pub(super) struct Log {
     pub points: Marks,
     pub constraints: Marks,
     pub headings: Marks,
+    /// Where in the motion the heading of a motor is, where it was noted.
+    pub heading_places: Vec<u32>,
+    /// How many points moved last.
+    pub n_points: usize,
     /// Whether the headings of all motors that are running now are noted.
     pub has_headings: bool,
 }

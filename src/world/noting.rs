@@ -7,8 +7,11 @@ use super::{ConstraintId, Motion, PointId, World};
 impl World {
     /// From here on what running changes is noted as it is now, as soon as it is about to change.
     pub fn begin_motion(&mut self) {
-        let motion = Box::new(self.bare_motion());
+        let mut motion = Box::new(self.bare_motion());
         let log = &mut self.log;
+        // As much as moved last often moves again.
+        motion.points.reserve_exact(log.n_points);
+        motion.at.reserve_exact(log.n_points);
         log.points.begin();
         log.constraints.begin();
         log.headings.begin();
@@ -18,7 +21,10 @@ impl World {
 
     /// What brings back all that running changed since [`begin_motion`](Self::begin_motion).
     pub fn end_motion(&mut self) -> Option<Box<Motion>> {
-        self.log.motion.take()
+        let mut motion = self.log.motion.take()?;
+        self.log.n_points = motion.points.len();
+        motion.shrink();
+        Some(motion)
     }
 
     /// A point is about to be put elsewhere.
@@ -47,11 +53,16 @@ impl World {
         };
         let mut constraint = record.constraint.clone();
         if !self.log.headings.mark(id.idx())
-            && let Some(k) = motion.motors.iter().position(|motor| *motor == id)
+            && let Some(&k) = self.log.heading_places.get(id.idx())
+            && motion.motors.get(k as usize) == Some(&id)
         {
             // It has turned since it was noted: that goes into the whole.
+            let k = k as usize;
             motion.motors.swap_remove(k);
             swap_heading(&mut constraint, &mut motion.headings.swap_remove(k));
+            if let Some(moved) = motion.motors.get(k) {
+                self.log.heading_places[moved.idx()] = k as u32;
+            }
         }
         motion.constraints.push((id, constraint));
     }
@@ -71,6 +82,9 @@ impl World {
             if self.log.headings.mark(id.idx())
                 && let Some(motion) = &mut self.log.motion
             {
+                let places = &mut self.log.heading_places;
+                places.resize(places.len().max(id.idx() + 1), 0);
+                places[id.idx()] = motion.motors.len() as u32;
                 motion.motors.push(id);
                 motion.headings.push(heading);
             }

@@ -45,7 +45,7 @@ fn net(n: usize) -> String {
     )
 }
 
-const CASES: [Case; 10] = [
+const CASES: [Case; 11] = [
     Case {
         what: "a loop without statements",
         size: 1000,
@@ -68,6 +68,12 @@ const CASES: [Case; 10] = [
         statement: |_| "limits crank".to_owned(),
     },
     Case { what: "a picture", size: 1500, before: rods, statement: |_| "svg \"a.svg\"".to_owned() },
+    Case {
+        what: "a chart",
+        size: 20_000,
+        before: |n| format!("for i in 1..{n} {{ sample \"s\" = sin(i) }}"),
+        statement: |_| "plot \"s.svg\"".to_owned(),
+    },
     Case { what: "a file", size: 1500, before: rods, statement: |_| "save \"a.link\"".to_owned() },
     Case {
         what: "a search for the best numbers",
@@ -245,9 +251,15 @@ impl Host for Hasty {
     }
 
     fn keep(&mut self, kept: Kept<'_>) {
-        if let Kept::Whole(script) = kept {
-            self.is_ended |= self.is_asked.replace(true);
-            script.clone_into(&mut self.kept);
+        match kept {
+            Kept::Statement(text) => self.kept.extend([text, "\n"]),
+            Kept::Stopped { text, n_done } => {
+                self.kept.extend([&*format!("restore stop = {n_done}\n"), text, "\n"]);
+            }
+            Kept::Whole(script) => {
+                self.is_ended |= self.is_asked.replace(true);
+                script.clone_into(&mut self.kept);
+            }
         }
     }
 
@@ -272,21 +284,106 @@ impl Host for Hasty {
     }
 
     fn seconds(&self) -> Option<f64> {
-        None
+        Some(0.0)
     }
 }
 
 #[test]
 fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
-    let (mut session, mut hasty) = (Session::new(), Hasty::default());
+    // What depends on the clock is written down whole.
+    for run in ["for i in 1..1e6 { step }", "for i in 1..1e6 { step in 1s }"] {
+        let (mut session, mut hasty) = (Session::new(), Hasty::default());
+        let mut typed = Transcript::new("typed");
+        typed.enter("point A = (0, 0) frozen, B = (1, 0)", &mut session, &mut hasty);
+        typed.enter("motor A B speed 1rev", &mut session, &mut hasty);
+        let outcome = typed.enter(run, &mut session, &mut hasty);
+        assert_eq!(outcome.flow, Flow::Stopped);
+        assert!(session.world().clock().frame > 0);
+        let mut again = Session::new();
+        again.run(&hasty.kept).expect("it can be loaded");
+        assert_eq!(again.to_script(), session.to_script(), "{run}");
+        assert!(!hasty.is_ended, "the run had stopped when it was pressed again");
+    }
+}
+
+/// Types statements, each stopped after so many looks at whether it is to; what the journal brings back
+/// is the session as it is.
+fn assert_kept(statements: &[(&str, u64)]) {
+    let mut talking = Talking::default();
+    talking.talk.journal = Some(String::new());
     let mut typed = Transcript::new("typed");
-    typed.enter("point A = (0, 0) frozen, B = (1, 0)", &mut session, &mut hasty);
-    typed.enter("motor A B speed 1rev", &mut session, &mut hasty);
-    let outcome = typed.enter("for i in 1..1e6 { step }", &mut session, &mut hasty);
-    assert_eq!(outcome.flow, Flow::Stopped);
-    assert!(session.world().clock().frame > 0);
-    assert_eq!(hasty.kept, session.to_script());
-    assert!(!hasty.is_ended, "the run had stopped when it was pressed again");
+    for (statement, most) in statements {
+        talking.talk.n_polls.set(0);
+        talking.talk.most_polls = Some(*most);
+        typed.enter(statement, &mut talking.session, &mut talking.talk);
+    }
+    let journal = talking.talk.journal.clone().expect("it is kept");
+    let mut loaded = Talking::default();
+    loaded.talk.files.insert("journal.link".into(), journal.clone());
+    loaded.run("load \"journal.link\"");
+    check_same(&loaded.script(), &talking.script(), &format!("{statements:?}\n{journal}"));
+    assert!(!journal.contains("restore version"), "it was written whole:\n{journal}");
+}
+
+#[test]
+fn a_stop_is_repeated_where_it_was() {
+    const SCENE: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3); \
+        motor A B speed 1rev; length B C = 3.5; length C D = 3; define foot(P, d) { point Q = P + (d, 0); length P Q }";
+    for stopped in [
+        "step 5000",
+        "run 50; let r = 3",
+        "trace C; step 5000",
+        "for i in 1..1000 { step 3; let q[i] = i }",
+        "for i in 1..1000 { step 40 }",
+        "for i in 1..1000 { point p[i] = (i, 0); length D p[i] <= 2000 }",
+        "for i in 1..10 { for k in 1..100 { use foot(C, k) as f[i][k]; step 2 } }",
+        "for i in 1..100000 { }",
+        "relax 100000",
+        "freeze C; off length1; drag C to (3, 2) over 1000",
+        "off length1; freeze C; drag C through (3, 2), (3, 4), (2, 2), (1, 1) over 0",
+        "set dead-points reverse; step 3000",
+        "solve",
+        "let late = 1",
+    ] {
+        for most in [0, 1, 2, 3, 5, 8, 13, 40, 150, 1000] {
+            assert_kept(&[(SCENE, u64::MAX), (stopped, most), ("step 3; let after = 2", u64::MAX)]);
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_is_left_on_its_way_is_kept_as_it_is() {
+    let mut talking = Talking::default();
+    talking.talk.journal = Some(String::new());
+    let mut typed = Transcript::new("typed");
+    for (text, most) in [
+        ("point A = (0, 0) frozen, B = (1, 0), C = (3, 0); motor A B speed 1rev", u64::MAX),
+        ("length B C = 2; set method relaxation; set iterations 100000", u64::MAX),
+        ("step 30", 3),
+        ("let after = 1", u64::MAX),
+    ] {
+        talking.talk.n_polls.set(0);
+        talking.talk.most_polls = Some(most);
+        typed.enter(text, &mut talking.session, &mut talking.talk);
+    }
+    let journal = talking.talk.journal.take().expect("it is kept");
+    check_same(&Talking::after(&journal).script(), &talking.script(), "its journal");
+}
+
+#[test]
+fn what_is_solved_after_each_edit_is_kept_so() {
+    assert_kept(&[
+        (
+            "point A = (0, 0) frozen, B = (1, 0), C = (2, 2), D = (4, 0) frozen; set live on",
+            u64::MAX,
+        ),
+        ("length A B = 1.5; length B C = 2; length C D = 2.5", u64::MAX),
+        ("move A to (0.2, 0.1)", u64::MAX),
+        ("for i in 1..3 { move A to (0.1 * i, 0); length A B <= 3 + i }", u64::MAX),
+        ("for i in 1..300 { move A to (0.001 * i, 0) }", 40),
+        ("move D to (40, 0)", u64::MAX),
+        ("move D to (5, 0)", u64::MAX),
+    ]);
 }
 
 #[test]

@@ -57,6 +57,24 @@ fn what_exceeds_a_limit_is_an_error_that_names_it() {
 }
 
 #[test]
+fn what_exceeded_a_limit_is_in_the_way_of_nothing_else() {
+    for (limit, script, right) in [
+        ("points=2", "point C = (2, 2), D = (2, 3)", "delete B; point C = (2, 2); print C"),
+        ("constraints=1", "length A B; length A B <= 3", "length A B; print B"),
+        ("ghost-points=5", "expose every 1; step 3", "set dt 1; step; print B"),
+        ("printed-bytes=3", "print \"long\"", "let r = 3; point C = (r, 0)"),
+    ] {
+        let typed =
+            format!("point A = (0, 0), B = (1, 0)\nfor i in 1..1 {{ {script} }}\n{right}\n");
+        let folder = folder(&[]);
+        let out = run(folder.path(), &["--limit", limit], &typed);
+        let said = text(&out.stderr);
+        assert_eq!(said.matches("E0510").count(), 1, "of {limit}: {said}");
+        assert_eq!(said.matches("error").count(), 1, "of {limit}: {said}");
+    }
+}
+
+#[test]
 fn a_command_that_exceeds_a_limit_leaves_nothing() {
     let typed = "point A = (0, 0) frozen; trace A\nstep 5\nstep 100\nprint time\nlist points\n\
         for i in 1..100 { point p[i] = (i, 0) }\nlist points\n";

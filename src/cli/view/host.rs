@@ -1,13 +1,13 @@
 //! The process as a session sees it while it works for pages.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use super::shared::Shared;
 use crate::diag::{Diagnostic, Sources};
-use crate::session::{Clock, Host, Kept, Spool, Wish};
+use crate::session::{Host, Wish};
 
 /// Files, clock and journal are those of the process; a page may stop what it asked for.
 pub struct PageHost<'a> {
@@ -18,17 +18,17 @@ pub struct PageHost<'a> {
 }
 
 impl Host for PageHost<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&*self.process)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut *self.process)
+    }
+
     fn print(&mut self, _line: &str) {}
 
     fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
-
-    fn is_keeping(&self) -> bool {
-        self.process.is_keeping()
-    }
-
-    fn keep(&mut self, kept: Kept<'_>) {
-        self.process.keep(kept);
-    }
 
     fn is_interrupted(&self) -> bool {
         self.shared.is_stopped() || self.process.is_interrupted()
@@ -44,26 +44,6 @@ impl Host for PageHost<'_> {
         self.process.forget_stop();
     }
 
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.process.resolve(path)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        self.process.read(path)
-    }
-
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.process.find(folder, path)
-    }
-
-    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
-        self.process.opening(path)
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.process.write(path, bytes)
-    }
-
     fn write_in_pieces(
         &mut self,
         path: &Path,
@@ -72,19 +52,7 @@ impl Host for PageHost<'_> {
         self.process.write_in_pieces(path, content)
     }
 
-    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        self.process.spool()
-    }
-
     fn view(&mut self) -> io::Result<String> {
         Ok(self.address.to_owned())
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.process.seconds()
-    }
-
-    fn clock(&self) -> Option<Clock> {
-        self.process.clock()
     }
 }

@@ -27,7 +27,19 @@ pub fn trade_words() -> impl Iterator<Item = &'static str> {
 /// The table.
 pub const TRADE: &[Trade] = &[
     Trade {
-        words: &["rod", "bar", "link", "beam", "strut", "arm", "member", "dimension"],
+        words: &[
+            "rod",
+            "bar",
+            "link",
+            "beam",
+            "strut",
+            "arm",
+            "member",
+            "dimension",
+            "line",
+            "segment",
+            "edge",
+        ],
         command: "length",
         says: "keeps two points at a distance",
         example: "length A B = 3",
@@ -269,6 +281,18 @@ pub const TRADE: &[Trade] = &[
         command: "for",
         says: "carries statements out several times",
         example: "for i in 1..3 { step }",
+    },
+    Trade {
+        words: &["if", "else", "elif", "unless", "when", "switch", "require", "ensure"],
+        command: "assert",
+        says: "has no counterpart, as a script does the same in every run; what is to hold is asserted",
+        example: "assert distance(A, B) = 3 within 1e-9",
+    },
+    Trade {
+        words: &["node", "vertex", "dot"],
+        command: "point",
+        says: "is a point",
+        example: "point A = (0, 0)",
     },
     Trade {
         words: &["function", "def", "macro", "component", "module", "subassembly"],

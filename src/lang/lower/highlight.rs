@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -58,47 +58,96 @@ pub struct Token {
 /// assert_eq!(classes, [Class::NewName, Class::Sign, Class::Command, Class::Name, Class::Name]);
 /// ```
 pub fn tokens(text: &str) -> Vec<Token> {
-    let mut tokens = lexed(text);
-    let mut told = HashMap::new();
-    read_block(text, 0..text.len(), &mut told);
-    let mut previous = None;
-    for token in tokens.iter_mut().filter(|token| token.class == Class::Name) {
-        token.class = told.get(&token.range.start).copied().unwrap_or_else(|| {
-            // What stands behind the last mistake is read word by word.
-            guessed(text, &token.range, previous)
-        });
-        previous = Some(token.range.end);
-    }
-    tokens
+    Tokens::default().of(text)
 }
 
-/// Tells what the words of the statements in a range are, by the offsets where they begin.
-fn read_block(text: &str, range: Range<usize>, told: &mut HashMap<usize, Class>) {
-    let mut layout = Layout::new(text, range.clone());
-    while let Some(piece) = layout.next_piece() {
-        match piece {
-            Ok(piece) => {
-                read_head(text, piece.head, told);
-                if let Some(block) = piece.block {
-                    read_block(text, block, told);
+/// What the words of a statement are, by where they begin in it.
+type Words = Arc<[(usize, Class)]>;
+
+/// The pieces of a text that is asked for again and again while it is typed: a statement that was in it
+/// the last time is not read anew.
+#[derive(Debug, Clone, Default)]
+pub struct Tokens {
+    /// The statements of the text.
+    read: HashMap<Box<str>, Words>,
+}
+
+impl Tokens {
+    /// As [`tokens`].
+    pub fn of(&mut self, text: &str) -> Vec<Token> {
+        let known = std::mem::take(&mut self.read);
+        let mut telling = Telling { text, known, read: HashMap::new(), told: HashMap::new() };
+        telling.read_block(0..text.len());
+        let Telling { read, told, .. } = telling;
+        self.read = read;
+        let mut tokens = lexed(text);
+        let mut previous = None;
+        for token in tokens.iter_mut().filter(|token| token.class == Class::Name) {
+            token.class = told.get(&token.range.start).copied().unwrap_or_else(|| {
+                // What stands behind the last mistake is read word by word.
+                guessed(text, &token.range, previous)
+            });
+            previous = Some(token.range.end);
+        }
+        tokens
+    }
+}
+
+/// A text on its way to be told.
+struct Telling<'a> {
+    text: &'a str,
+    /// What was read before.
+    known: HashMap<Box<str>, Words>,
+    /// What is in this text.
+    read: HashMap<Box<str>, Words>,
+    /// What words are, by the offsets where they begin.
+    told: HashMap<usize, Class>,
+}
+
+impl Telling<'_> {
+    /// Tells what the words of the statements in a range are.
+    fn read_block(&mut self, range: Range<usize>) {
+        let text = self.text;
+        let mut layout = Layout::new(text, range.clone());
+        while let Some(piece) = layout.next_piece() {
+            match piece {
+                Ok(piece) => {
+                    self.read_head(piece.head);
+                    if let Some(block) = piece.block {
+                        self.read_block(block);
+                    }
                 }
+                Err(Flaw::Unclosed { outermost, start, .. })
+                    if text.as_bytes()[outermost] == b'{' =>
+                {
+                    self.read_head(start..outermost);
+                    self.read_block(outermost + 1..range.end);
+                }
+                Err(_) => return,
             }
-            Err(Flaw::Unclosed { outermost, start, .. }) if text.as_bytes()[outermost] == b'{' => {
-                read_head(text, start..outermost, told);
-                read_block(text, outermost + 1..range.end, told);
-            }
-            Err(_) => return,
         }
     }
+
+    /// Tells what the words of a statement are.
+    fn read_head(&mut self, head: Range<usize>) {
+        let statement = self.text[head.clone()].trim_end();
+        if !self.read.contains_key(statement) {
+            let known = self.known.remove_entry(statement);
+            let (statement, words) = known.unwrap_or_else(|| (statement.into(), words(statement)));
+            self.read.insert(statement, words);
+        }
+        let words = self.read[statement].iter();
+        self.told.extend(words.map(|&(at, class)| (head.start + at, class)));
+    }
 }
 
-/// Tells what the words of a statement are, if it can be read.
-fn read_head(text: &str, head: Range<usize>, told: &mut HashMap<usize, Class>) {
-    let input = text[head.clone()].trim_end();
-    let mut at = head.start;
-    if let Ok(prefix) = LinkworkParser::parse(Rule::prefix, input) {
+/// What the words of a statement are, if it can be read.
+fn words(statement: &str) -> Words {
+    let mut told = HashMap::new();
+    let mut at = 0;
+    if let Ok(prefix) = LinkworkParser::parse(Rule::prefix, statement) {
         for pair in prefix.flatten() {
-            let start = head.start + pair.as_span().start();
+            let start = pair.as_span().start();
             match pair.as_rule() {
                 Rule::name => drop(told.insert(start, Class::NewName)),
                 Rule::kw_add => drop(told.insert(start, Class::Command)),
@@ -107,7 +156,12 @@ fn read_head(text: &str, head: Range<usize>, told: &mut HashMap<usize, Class>) {
             }
         }
     }
-    let input = &input[at - head.start..];
+    read_command(&statement[at..], at, &mut told);
+    told.into_iter().collect()
+}
+
+/// Tells the words of what stands behind a label, at a place in its statement.
+fn read_command(input: &str, at: usize, told: &mut HashMap<usize, Class>) {
     let word = first_word(input);
     let rule = if super::is_bare(input) { Some(Rule::bare) } else { catalogue::rule(word) };
     let Some(Ok(mut pairs)) = rule.map(|rule| LinkworkParser::parse(rule, input)) else {
@@ -332,6 +386,21 @@ mod tests {
         check("define d(A) {\n  length A B = ", "Cdefine Nd .( NA .) .{ Clength nA nB .=");
         check("print \"open", "Cprint t\"open");
         check("print \"open\\\nstep", "Cprint t\"open\\ Cstep");
+    }
+
+    #[test]
+    fn what_was_read_before_is_told_as_what_is_read_first() {
+        let texts = [
+            "for i in 1..3 {\n  point p[i] = (i, 0)\n  leng",
+            "for i in 1..3 {\n  point p[i] = (i, 0)\n  length p[i] B\n",
+            "for i in 1..3 {\n  point p[i] = (i, 0)\n  length p[i] B\n}",
+            "point p[i] = (i, 0); crank: motor A B",
+            "crank: motor A B speed; motor A B",
+        ];
+        let mut kept = Tokens::default();
+        for text in texts.iter().chain(texts.iter().rev()) {
+            assert_eq!(kept.of(text), tokens(text), "{text:?}");
+        }
     }
 
     #[test]

@@ -29,7 +29,7 @@ use super::layout::{Flaw, Layout, Piece};
 pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
-pub use highlight::{Class, Token, tokens};
+pub use highlight::{Class, Token, Tokens, tokens};
 pub(super) use next::split_prefix;
 pub use next::{NameOf, Next, next};
 pub use prefix::nearest_command;

@@ -121,10 +121,13 @@ impl<'a> Reader<'a> {
         let fits = |word: &str| !expects_constraint || constraint::rule(word).is_some();
         if let Some(trade) = catalogue::trade(word).filter(|trade| fits(trade.command)) {
             let statement = in_our_words(trade, prefix.label.as_ref(), rest);
-            return problem.help(format!("`{shown}` {}: `{statement}`", trade.says));
+            let problem = problem.help(format!("`{shown}` {}: `{statement}`", trade.says));
+            return called(word, rest).into_iter().fold(problem, Diagnostic::help);
         }
-        let words = catalogue::commands().map(|entry| entry.keyword).chain(["add"]);
-        match nearest(word, words.filter(|word| fits(word))) {
+        if let Some(called) = called(word, rest).filter(|_| !expects_constraint) {
+            return problem.help(called);
+        }
+        match meant(word, command_words().filter(|word| fits(word))) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.starts_with('(') => {
                 problem.help(format!("to make what a definition says, write `use {shown}(...)`"))
@@ -181,7 +184,7 @@ pub fn is_bare(text: &str) -> bool {
     }
     let rest = text[name_end(text)..].trim_start();
     let is_word = rest.starts_with(is_word_char) && first_word(rest) != "in";
-    !is_word && !rest.starts_with(['=', ':', '"'])
+    !is_word && (!rest.starts_with(['=', ':', '"']) || rest.starts_with("=="))
 }
 
 fn near_function(word: &str) -> bool {
@@ -194,7 +197,47 @@ pub fn nearest_command(word: &str) -> Option<&'static str> {
     if let Some(trade) = catalogue::trade(word) {
         return Some(trade.example);
     }
-    nearest(word, catalogue::commands().map(|entry| entry.keyword).chain(["add"]))
+    meant(word, command_words())
+}
+
+fn command_words() -> impl Iterator<Item = &'static str> {
+    catalogue::commands().map(|entry| entry.keyword).chain(["add"])
+}
+
+/// Letters that say which word is begun with them.
+const TELLING_LETTERS: usize = 3;
+
+/// The word that was probably meant: the only one that begins so, or the nearest.
+fn meant<'a>(word: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let words: Vec<&str> = words.collect();
+    let is_telling = word.len() >= TELLING_LETTERS;
+    let mut begun = words.iter().filter(|other| is_telling && other.starts_with(word));
+    match (begun.next(), begun.next()) {
+        (Some(only), None) => Some(only),
+        _ => nearest(word, words),
+    }
+}
+
+/// What to type where a function, or the beginning of one, has its values behind it as a command has.
+fn called(word: &str, rest: &str) -> Option<String> {
+    let mut functions = Function::ALL.iter();
+    let is_meant = |name: &str| {
+        name == word
+            || (word.len() >= TELLING_LETTERS && name.starts_with(word) && !rest.is_empty())
+    };
+    let function = functions.find(|function| is_meant(function.name()))?;
+    let name = function.name();
+    let one_by_one = rest.split_whitespace().collect::<Vec<_>>().join(", ");
+    let calls = [rest, &one_by_one].map(|values| format!("{name}({values})"));
+    let call = calls.into_iter().find(|call| is_short(call) && reads(call));
+    match call {
+        Some(call) if name == word => Some(format!("values stand in parentheses: `{call}`")),
+        Some(call) => Some(format!("did you mean `{call}`?")),
+        None if name == word => {
+            Some(format!("values stand in parentheses: `{}`", function.usage()))
+        }
+        None => None,
+    }
 }
 
 /// The statement to type for a word of the trade: with what was typed behind it if that reads,
@@ -209,7 +252,6 @@ fn in_our_words(trade: &Trade, label: Option<&Name>, rest: &str) -> String {
     let as_it_is = (sign != Some("<=") && sign != Some("in")).then(|| rest.to_owned());
     let reworded = [as_it_is, with_sign].into_iter().flatten();
     let mut reworded = reworded.map(|rest| format!("{label}{} {rest}", trade.command));
-    let is_short = |text: &String| text.len() < LONGEST_STATEMENT;
     reworded
         .find(|text| !rest.is_empty() && is_short(text) && reads(text))
         .unwrap_or_else(|| trade.example.to_owned())
@@ -218,6 +260,11 @@ fn in_our_words(trade: &Trade, label: Option<&Name>, rest: &str) -> String {
 /// Longer statements are not repeated in a suggestion.
 const LONGEST_STATEMENT: usize = 72;
 
+/// Whether a statement may stand in a suggestion.
+pub(super) fn is_short(text: &str) -> bool {
+    text.len() < LONGEST_STATEMENT
+}
+
 /// What stands behind a verb, with `sign` before the number that it ends in.
 fn related(rest: &str, sign: &str) -> Option<String> {
     let (before, number) = rest.rsplit_once([' ', '\t'])?;
@@ -225,7 +272,7 @@ fn related(rest: &str, sign: &str) -> Option<String> {
 }
 
 /// Is it one whole statement?
-fn reads(text: &str) -> bool {
+pub(super) fn reads(text: &str) -> bool {
     let mut statements = crate::lang::parse(crate::diag::SourceId(0), text);
     matches!((statements.next(), statements.next()), (Some(Ok(_)), None))
 }

@@ -2,6 +2,7 @@
 
 use super::sheet::{Anchor, Sheet, Stroke, TextStyle, polyline};
 use crate::constraint::{Point, Vector};
+use crate::interrupt::tick;
 use crate::render::labels::{Area, cheapest, direction, directions, even_width};
 
 /// What is written, and how.
@@ -67,6 +68,7 @@ impl LabelPlacer {
         for ends in places.windows(2) {
             let way = ends[1] - ends[0];
             let n = (way.norm() / STEP).ceil().clamp(1.0, 1000.0);
+            tick(20 + n as usize);
             self.lines.extend((0..n as u32).map(|k| ends[0] + way * (f64::from(k) / n)));
         }
     }

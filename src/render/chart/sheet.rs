@@ -8,8 +8,12 @@ use std::fmt::Write;
 
 use crate::constraint::Point;
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
 use crate::render::FIRST_WORDS;
 use crate::render::text::printable;
+
+/// What the writing of an element takes, in ticks.
+const ELEMENT: usize = 200;
 
 const FONT: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
 
@@ -103,6 +107,7 @@ impl Sheet {
     }
 
     fn push(&mut self, element: std::fmt::Arguments) {
+        tick(ELEMENT);
         // Writing to a string cannot fail.
         let _ = writeln!(self.svg, "{element}");
     }

@@ -20,6 +20,15 @@ use crate::world::{Depends, Entity, Formula, Node, Value};
 /// Up to here each whole number has one that follows it: 2^53 less 1.
 const LARGEST_COUNT: f64 = 9_007_199_254_740_991.0;
 
+/// How the statements of a file are carried out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum As {
+    /// As part of a command, which is solved as a whole.
+    Part,
+    /// As if each were typed: what a session did comes out again.
+    Typed,
+}
+
 impl Execution<'_> {
     /// Goes one level deeper for as long as `inside` runs.
     fn nested<T>(
@@ -56,9 +65,12 @@ impl Execution<'_> {
 
     /// A round of a loop; one without statements ends it where the user wants that, too.
     fn round(&mut self, body: &[Statement]) -> Result<Flow, Diagnostic> {
-        if body.is_empty() && self.is_to_stop() {
-            self.note_stop("stopped");
-            return Ok(Flow::Stopped);
+        if body.is_empty() {
+            if self.is_to_stop() {
+                self.note_stop("stopped");
+                return Ok(Flow::Stopped);
+            }
+            self.n_done += 1;
         }
         self.perform_all(body)
     }
@@ -240,7 +252,7 @@ impl Execution<'_> {
         }
         let text = self.read(&file, path)?;
         self.included.push(file.clone());
-        let result = self.perform_text(&file, &text, span);
+        let result = self.perform_text(&file, &text, span, As::Part);
         self.included.pop();
         result
     }
@@ -266,7 +278,13 @@ impl Execution<'_> {
     }
 
     /// Carries out the statements of a file as part of the command under way.
-    fn perform_text(&mut self, file: &Path, text: &str, span: Span) -> Result<Flow, Diagnostic> {
+    fn perform_text(
+        &mut self,
+        file: &Path,
+        text: &str,
+        span: Span,
+        how: As,
+    ) -> Result<Flow, Diagnostic> {
         let folder = file.parent().map(Path::to_path_buf);
         let source = self.input.add_piece(&file.to_string_lossy(), text, 1, folder);
         let mut n_done = 0;
@@ -275,6 +293,9 @@ impl Execution<'_> {
                 let advised = |problem| execution.state.advise(problem, &execution.input.sources);
                 let statement = statement.map_err(advised)?;
                 let flow = execution.dispatch(&statement)?;
+                if how == As::Typed {
+                    execution.solve_where_live(&statement)?;
+                }
                 if flow != Flow::On {
                     return Ok(flow);
                 }
@@ -303,7 +324,7 @@ impl Execution<'_> {
             (file, text)
         };
         self.clear();
-        self.perform_text(&file, &text, span)
+        self.perform_text(&file, &text, span, As::Typed)
     }
 }
 

@@ -119,6 +119,7 @@ impl Execution<'_> {
                 return Ok(Flow::Stopped);
             }
             status = self.lead(&stops(hands, k), Grip::Firm)?.unwrap_or(status);
+            self.n_done += 1;
         }
         self.tell_unless_solved(status, hands);
         Ok(Flow::On)

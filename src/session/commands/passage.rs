@@ -130,6 +130,7 @@ impl Execution<'_> {
         let stretch = self.stretch(n - passage.n_passed, &passage.limits, known_error)?;
         if stretch.n_frames > 0 {
             passage.n_passed += stretch.n_frames;
+            self.n_done += stretch.n_frames;
             passage.summary.add_stretch(&stretch, passage.span);
             passage.last = Status::Converged;
         }
@@ -170,6 +171,7 @@ impl Execution<'_> {
         }
         self.hold_to_promise(&mut report, &limits);
         passage.n_passed = k;
+        self.n_done += 1;
         passage.last = report.status;
         passage.summary.add(&report, self.state.world.clock().frame, passage.span);
         if !passage.leaves_nothing {

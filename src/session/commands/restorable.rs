@@ -39,11 +39,13 @@ pub enum Restorable {
     Version,
     /// Whether what follows was there before: 1 or 0.
     Past,
+    /// How far the next statement came, which was stopped. Journals have it, and no saved file.
+    Stop,
 }
 
 impl Restorable {
     /// All of them.
-    const ALL: [Self; 15] = [
+    const ALL: [Self; 16] = [
         Self::Clock,
         Self::Start,
         Self::State,
@@ -59,6 +61,7 @@ impl Restorable {
         Self::Memory,
         Self::Version,
         Self::Past,
+        Self::Stop,
     ];
 
     /// Its word in the statement.
@@ -79,6 +82,7 @@ impl Restorable {
             Self::Memory => "memory",
             Self::Version => "version",
             Self::Past => "past",
+            Self::Stop => "stop",
         }
     }
 

@@ -97,6 +97,7 @@ impl Execution<'_> {
             (Restorable::Memory, owner) => self.restore_memory(owner, values),
             (Restorable::Version, None) => check_version(values),
             (Restorable::Past, None) => self.restore_past(values),
+            (Restorable::Stop, None) => self.restore_stop(values),
             // These have an owner or none, and this is the other way; or they have no values.
             (
                 Restorable::Ended
@@ -104,7 +105,8 @@ impl Execution<'_> {
                 | Restorable::Ghost
                 | Restorable::Turn
                 | Restorable::Version
-                | Restorable::Past,
+                | Restorable::Past
+                | Restorable::Stop,
                 Some(_),
             )
             | (
@@ -211,6 +213,17 @@ impl Execution<'_> {
         };
         self.change(Change::Restoring(is_restoring));
         Ok(())
+    }
+
+    /// The next statement was stopped when it had come so far.
+    fn restore_stop(&mut self, values: &[Value]) -> Restored {
+        match numbers(values)?[..] {
+            [n] if n >= 0.0 && n.fract() == 0.0 => {
+                self.input.next_stop = Some(n as u64);
+                Ok(())
+            }
+            _ => Err(Unfit::Values),
+        }
     }
 
     fn restore_record(&mut self, name: &Name, change: impl FnOnce(&mut Record)) -> Restored {

@@ -1,5 +1,7 @@
 //! Letting time pass: `step`, `run`, `drag`; and iterating while it stands still: `relax`, `solve`.
 
+use std::cell::Cell;
+
 use super::dead_point::WayBack;
 use crate::diag::{
     Diagnostic, Kind, Span, format_count, format_counted, format_digits, format_number,
@@ -172,9 +174,12 @@ impl Execution<'_> {
         let State { solver, world, preferences, .. } = &mut **state;
         let may_be_long = stop == Stop::Allowed && preferences.solve.iterations > LONG;
         let promised = Deadline::after(limits.seconds, &**host);
+        let is_cut = Cell::new(false);
         let is_over = || {
-            may_be_long && (host.is_interrupted() || deadline.has_passed(&**host))
-                || promised.has_passed(&**host)
+            if may_be_long && (host.is_interrupted() || deadline.has_passed(&**host)) {
+                is_cut.set(true);
+            }
+            is_cut.get() || promised.has_passed(&**host)
         };
         let has_end = may_be_long || promised.exists();
         let stop = has_end.then_some(&is_over as &dyn Fn() -> bool);
@@ -194,6 +199,8 @@ impl Execution<'_> {
             }
             Ok(report)
         });
+        // How far it came within the frame depends on the machine.
+        self.input.is_unrepeatable |= is_cut.get();
         report.map_err(|why| self.in_frame(why))
     }
 
@@ -250,6 +257,7 @@ impl Execution<'_> {
                 lowered = Some(lowered.map_or(rho, |least| least.min(rho)));
             }
             left -= chunk;
+            self.n_done += 1;
         }
         // From here on the method that is set counts again; that is part of this command.
         self.sync();
@@ -280,7 +288,7 @@ impl Execution<'_> {
             solver.settle(world, &preferences.solve, &budget)
         };
         // Whatever it came to, more might have come of it.
-        if self.is_to_stop() {
+        if self.is_asked_to_stop() {
             interrupt::go_on(Stopped);
         }
         if report.status != Status::Converged

@@ -40,6 +40,8 @@ impl Execution<'_> {
         limits: &Limits,
         known_error: f64,
     ) -> Result<Stretch, Diagnostic> {
+        // No further than it came before it was stopped.
+        let n = self.most_done.map_or(n, |most| n.min(most.saturating_sub(self.n_done)));
         let most = self.input.quotas.of(Quota::TraceSamples);
         let most_readings = self.input.quotas.of(Quota::MeasureSamples);
         let Self { state, host, deadline, .. } = &mut *self;

@@ -1,16 +1,14 @@
 //! A host that speaks in objects: what goes through it becomes JSON, one object a line.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
 use super::objects;
 use crate::diag::{Diagnostic, Sources};
-use crate::interrupt::Wish;
 use crate::session::finding::Finding;
-use crate::session::host::{Clock, Done, Host};
-use crate::session::spool::Spool;
+use crate::session::host::{Done, Host};
 
 /// Objects in front of a host: its files, its clock and its wish to stop are that host's, and what it
 /// prints are objects.
@@ -33,6 +31,14 @@ impl<'a> Objects<'a> {
 }
 
 impl Host for Objects<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&*self.host)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut *self.host)
+    }
+
     fn print(&mut self, line: &str) {
         self.put(&objects::line(line));
     }
@@ -60,55 +66,11 @@ impl Host for Objects<'_> {
         self.put(&objects::statement(self.n_statements, text, &place, done.is_ok, done.world));
     }
 
-    fn is_interrupted(&self) -> bool {
-        self.host.is_interrupted()
-    }
-
-    fn wish_to_stop(&self) -> Option<Wish> {
-        self.host.wish_to_stop()
-    }
-
-    fn forget_stop(&mut self) {
-        self.host.forget_stop();
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.host.resolve(path)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        self.host.read(path)
-    }
-
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.host.find(folder, path)
-    }
-
-    fn opening(&mut self, path: &Path) -> io::Result<Option<Vec<u8>>> {
-        self.host.opening(path)
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.host.write(path, bytes)
-    }
-
     fn write_in_pieces(
         &mut self,
         path: &Path,
         content: &mut dyn FnMut(&mut dyn io::Write) -> io::Result<()>,
     ) -> io::Result<()> {
         self.host.write_in_pieces(path, content)
-    }
-
-    fn spool(&mut self) -> io::Result<Box<dyn Spool>> {
-        self.host.spool()
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.host.seconds()
-    }
-
-    fn clock(&self) -> Option<Clock> {
-        self.host.clock()
     }
 }

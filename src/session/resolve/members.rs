@@ -20,7 +20,8 @@ impl Resolver<'_> {
         match of {
             Entity::Constraint(id) => Some(self.members(id).map(Member::word).collect()),
             Entity::Measure(_) => Some(Statistic::ALL.map(Statistic::word).to_vec()),
-            Entity::Point(_) | Entity::Parameter(_) => None,
+            Entity::Point(_) => Some(vec!["x", "y"]),
+            Entity::Parameter(_) => None,
         }
     }
 

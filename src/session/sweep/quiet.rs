@@ -1,20 +1,15 @@
 //! What a variant talks to: nobody hears it, and what it finds is counted.
 
-use std::collections::HashMap;
-use std::io;
-use std::path::{Path, PathBuf};
-
 use crate::diag::{Diagnostic, Sources};
-use crate::interrupt::Wish;
 use crate::session::finding::Finding;
 use crate::session::host::Host;
+use crate::session::silent::Silent;
 use crate::solve::Status;
 
 /// A host that counts what a run finds. Files are read where `outside` finds them; what is written is
 /// only there for the variant itself.
 pub struct Quiet<'a> {
-    outside: &'a mut dyn Host,
-    written: HashMap<PathBuf, Vec<u8>>,
+    outside: Silent<'a>,
     /// How the worst command that let time pass ended, and its largest residual; none where no time
     /// passed.
     pub worst: Option<(Status, f64)>,
@@ -27,11 +22,20 @@ pub struct Quiet<'a> {
 impl<'a> Quiet<'a> {
     /// Nothing found yet.
     pub fn new(outside: &'a mut dyn Host) -> Self {
-        Self { outside, written: HashMap::new(), worst: None, n_missed: 0, n_dead_points: 0 }
+        let outside = Silent::new(outside);
+        Self { outside, worst: None, n_missed: 0, n_dead_points: 0 }
     }
 }
 
 impl Host for Quiet<'_> {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&self.outside)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut self.outside)
+    }
+
     fn print(&mut self, _line: &str) {}
 
     fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
@@ -55,37 +59,5 @@ impl Host for Quiet<'_> {
             Finding::Halted(..) => self.n_dead_points += 1,
             _ => {}
         }
-    }
-
-    fn wish_to_stop(&self) -> Option<Wish> {
-        self.outside.wish_to_stop()
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.outside.is_interrupted()
-    }
-
-    fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.outside.resolve(path)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<String> {
-        match self.written.get(path) {
-            Some(bytes) => Ok(String::from_utf8_lossy(bytes).into_owned()),
-            None => self.outside.read(path),
-        }
-    }
-
-    fn find(&self, folder: &Path, path: &Path) -> io::Result<PathBuf> {
-        self.outside.find(folder, path)
-    }
-
-    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.written.insert(path.to_path_buf(), bytes.to_vec());
-        Ok(())
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.outside.seconds()
     }
 }

@@ -48,18 +48,23 @@ pub(crate) struct Notes {
     /// What was noted; none while nobody asks.
     recall: Option<Recall>,
     firsts: Marks,
+    /// How many islands changed last.
+    n_islands: usize,
 }
 
 impl Notes {
     /// From here on the first changes are noted; gives what was noted for who asked before.
     pub fn begin(&mut self, settings: Option<Settings>) -> Option<Recall> {
         self.firsts.begin();
-        self.recall.replace(Recall { islands: Vec::new(), settings })
+        // As many as changed last often change again.
+        let islands = Vec::with_capacity(self.n_islands);
+        self.recall.replace(Recall { islands, settings })
     }
 
     /// What was noted; `outer` goes on noting.
     pub fn end(&mut self, outer: Option<Recall>) -> Option<Recall> {
         let mut recall = std::mem::replace(&mut self.recall, outer)?;
+        self.n_islands = recall.islands.len();
         // Of what was noted twice the first counts; a stable order keeps it in front.
         recall.islands.sort_by_key(|(first, _)| *first);
         recall.islands.dedup_by_key(|(first, _)| *first);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Solver;
 use crate::constraint::Point;
+use crate::interrupt;
 use crate::solve::dispatch::{Cause, Task, Visit, take_back, turn_back, visit, write_back};
 use crate::solve::frame::pull::{Pulled, pull};
 use crate::solve::island::Island;
@@ -11,6 +12,12 @@ use crate::solve::parallel::{self, ISLANDS};
 use crate::solve::report::{Budget, Counters, Report, Status};
 use crate::solve::settings::Settings;
 use crate::world::{PointId, World};
+
+/// Islands that are visited side by side before it is asked whether to stop.
+const ROUND: usize = 2048;
+
+/// Ticks of an evaluation of a constraint, with the steps that it is for.
+const TICKS: usize = 16;
 
 /// An island on its way through a visit.
 struct Guest {
@@ -143,16 +150,23 @@ impl Solver {
         task: Task,
         report: &mut Report,
     ) {
-        let islands = due.iter().filter_map(|&k| Some((k, self.partition.lend(k)?)));
-        let mut guests: Vec<Guest> =
-            islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
-        let work = visit_all(&mut guests, settings, budget, task);
-        report.counters.add(&work);
-        for Guest { k, island, visit } in guests {
-            self.partition.give_back(k, island);
-            if let Some(visit) = visit {
-                self.close(k, &visit, world, report);
+        // Who may stop the work is asked between rounds.
+        let n_at_once = if interrupt::is_heard() { ROUND } else { due.len() };
+        for due in due.chunks(n_at_once) {
+            let islands = due.iter().filter_map(|&k| Some((k, self.partition.lend(k)?)));
+            let mut guests: Vec<Guest> =
+                islands.map(|(k, island)| Guest { k, island, visit: None }).collect();
+            let work = visit_all(&mut guests, settings, budget, task);
+            report.counters.add(&work);
+            for Guest { k, island, visit } in guests {
+                self.partition.give_back(k, island);
+                if let Some(visit) = visit {
+                    self.close(k, &visit, world, report);
+                }
             }
+            interrupt::tick(
+                TICKS * usize::try_from(work.evaluations).unwrap_or(usize::MAX / TICKS),
+            );
         }
     }
 

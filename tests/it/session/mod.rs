@@ -1,5 +1,6 @@
 //! What commands do to a mechanism that moves, and which thing a name means.
 
+mod hosts;
 mod names;
 mod picture_hash;
 mod saved;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use linkwork::diag::{Diagnostic, Paint, Sources, render};
-use linkwork::session::{Clock, Host};
+use linkwork::session::{Clock, Host, Kept};
 
 /// What was said and written so far.
 pub struct Notebook {
@@ -36,6 +36,8 @@ pub struct Notebook {
     pub polls_a_look: u64,
     /// Whether notes and warnings reach nobody.
     pub is_deaf: bool,
+    /// What brings the session back, where that is kept.
+    pub journal: Option<String>,
 }
 
 impl Default for Notebook {
@@ -53,6 +55,7 @@ impl Default for Notebook {
             most_polls: None,
             polls_a_look: 1,
             is_deaf: false,
+            journal: None,
         }
     }
 }
@@ -83,6 +86,23 @@ impl Host for Notebook {
 
     fn is_listening(&self) -> bool {
         !self.is_deaf
+    }
+
+    fn is_keeping(&self) -> bool {
+        self.journal.is_some()
+    }
+
+    fn keep(&mut self, kept: Kept<'_>) {
+        let Some(journal) = &mut self.journal else { return };
+        match kept {
+            Kept::Statement(text) => writeln!(journal, "{text}"),
+            Kept::Stopped { text, n_done } => writeln!(journal, "restore stop = {n_done}\n{text}"),
+            Kept::Whole(script) => {
+                journal.clear();
+                write!(journal, "{script}")
+            }
+        }
+        .expect("writing to a string");
     }
 
     fn is_interrupted(&self) -> bool {

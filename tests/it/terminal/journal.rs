@@ -1,7 +1,9 @@
 //! A session that is killed is brought back.
 
 use std::fs;
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use linkwork::Session;
 use tempfile::tempdir;
@@ -70,6 +72,93 @@ fn what_cannot_be_repeated_is_kept_as_what_came_of_it() {
     terminal.kill();
     let saved = fs::read_to_string(home.path().join("s.link")).expect("it was saved");
     assert_eq!(brought_back(home.path()), saved);
+}
+
+#[test]
+fn what_a_stopped_command_did_is_there_too() {
+    let home = tempdir().expect("a folder");
+    let terminal = Terminal::session(home.path());
+    LINES.iter().for_each(|line| terminal.enter(line));
+    terminal.begin("for i in 1..1e6 { step 20; let q = i }");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    terminal.press("\x03");
+    terminal.wait_for("stopped");
+    terminal.wait_for_prompt();
+    terminal.enter("let after = 1");
+    terminal.enter("save \"s.link\"");
+    terminal.kill();
+    let saved = fs::read_to_string(home.path().join("s.link")).expect("it was saved");
+    assert!(!saved.contains("let q = 1\n"), "it was stopped too soon:\n{saved}");
+    assert_eq!(brought_back(home.path()), saved);
+}
+
+/// A session for a program, and what it says.
+struct Spoken {
+    program: Child,
+    to: ChildStdin,
+    from: BufReader<ChildStdout>,
+}
+
+impl Spoken {
+    fn begin(home: &Path, args: &[&str]) -> Self {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+            .args(args)
+            .current_dir(home)
+            .env_clear()
+            .env("HOME", home)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let to = program.stdin.take().expect("a pipe");
+        let from = BufReader::new(program.stdout.take().expect("a pipe"));
+        Self { program, to, from }
+    }
+
+    /// Says a line; gives what is said until it is carried out.
+    fn say(&mut self, line: &str) -> String {
+        writeln!(self.to, "{line}").expect("it listens");
+        let mut said = String::new();
+        while !said.contains("\"type\":\"statement\"") {
+            assert!(self.from.read_line(&mut said).expect("it speaks") > 0, "{said}");
+        }
+        said
+    }
+
+    fn kill(mut self) {
+        self.program.kill().expect("it runs");
+        self.program.wait().expect("it ends");
+    }
+}
+
+#[test]
+fn sessions_of_programs_are_brought_back_too() {
+    let home = tempdir().expect("a folder");
+    fs::write(home.path().join("first.link"), "let first = 1").expect("a file");
+    for (args, first) in
+        [(&["--json"][..], None), (&["--json", "-i", "first.link"], Some("let first = 1"))]
+    {
+        let mut program = Spoken::begin(home.path(), args);
+        if first.is_some() {
+            program.say("");
+        }
+        let lines: Vec<&str> =
+            first.into_iter().chain(["point A = (0, 0) frozen, B = (1, 0)", "let r = 3"]).collect();
+        lines.iter().skip(usize::from(first.is_some())).for_each(|line| drop(program.say(line)));
+        program.kill();
+        assert_eq!(brought_back(home.path()), typed(&lines), "{args:?}");
+        // The next one says so, in its way, and leaves nothing.
+        let mut next = Spoken::begin(home.path(), &["--json"]);
+        assert!(next.say("1").contains("did not end in order"));
+        drop(next.to);
+        assert!(next.program.wait().expect("it ends").success());
+        let [told] = &journals(home.path())[..] else { panic!("{:?}", journals(home.path())) };
+        fs::remove_file(told).expect("it is there");
+    }
+    let mut silent = Spoken::begin(home.path(), &["--json", "--no-journal"]);
+    silent.say("let r = 3");
+    silent.kill();
+    assert_eq!(journals(home.path()).len(), 0);
 }
 
 #[test]

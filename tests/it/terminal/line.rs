@@ -133,9 +133,7 @@ fn a_statement_goes_on_with_a_prompt_of_its_own() {
 fn what_is_typed_while_a_command_runs_is_the_next_line() {
     let home = tempdir().expect("a folder");
     let terminal = session(home.path());
-    terminal.press("step 3e5\r");
-    // The terminal is the program's no more: what is typed waits in it.
-    terminal.wait_for_line("");
+    terminal.begin("step 3e5");
     terminal.press("for i in 1..2 {\r");
     terminal.wait_for_line("...   ");
     terminal.press("print 7 * i\r}\r");
@@ -265,10 +263,9 @@ fn ctrl_c_stops_whatever_takes_long_and_takes_back_what_is_half_done() {
         ("drag A to (1, 0) over 1e9", "stopped after"),
         ("accuracy", "stopped"),
     ] {
-        terminal.type_in(long);
-        terminal.press("\r");
+        terminal.begin(long);
         // It is under way for a while.
-        std::thread::sleep(std::time::Duration::from_millis(700));
+        std::thread::sleep(std::time::Duration::from_millis(300));
         terminal.press(CTRL_C);
         terminal.wait(long, |it| it.line() == "> " && it.screen().contains(said));
         terminal.enter("print \"next\"");

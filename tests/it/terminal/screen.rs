@@ -105,6 +105,16 @@ impl Terminal {
         self.wait_for_prompt();
     }
 
+    /// Types a line and waits until it is carried out: the terminal is the program's no more, Ctrl-C is
+    /// no key but stops what runs, and what is typed waits.
+    #[track_caller]
+    pub fn begin(&self, line: &str) {
+        self.type_in(line);
+        self.press("\r");
+        let typed = format!("> {line}");
+        self.wait("the line left", |it| it.line() != typed);
+    }
+
     /// Leaves the line that is being typed, and waits for the next.
     #[track_caller]
     pub fn clear(&self) {
@@ -125,12 +135,16 @@ impl Terminal {
         self.output.lock().unwrap_or_else(PoisonError::into_inner).bytes.clone()
     }
 
-    /// The line of the cursor up to it.
+    /// The line of the cursor up to it, with the rows before it that it did not fit in.
     pub fn line(&self) -> String {
         let output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         let screen = output.screen.screen();
-        let (row, column) = screen.cursor_position();
-        let cells = (0..column).filter_map(|column| screen.cell(row, column));
+        let (last, column) = screen.cursor_position();
+        let first = (0..last).rev().take_while(|&row| screen.row_wrapped(row)).last();
+        let width = screen.size().1.get();
+        let columns = |row| if row < last { 0..width } else { 0..column };
+        let cells = (first.unwrap_or(last)..=last)
+            .flat_map(|row| columns(row).filter_map(move |column| screen.cell(row, column)));
         cells.map(|cell| if cell.has_contents() { cell.contents() } else { " " }).collect()
     }
 

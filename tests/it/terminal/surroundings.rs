@@ -84,10 +84,7 @@ fn what_does_not_fit_is_broken_at_words() {
         "history",
         "check",
     ];
-    for statement in statements {
-        terminal.press(&format!("{statement}\r"));
-        terminal.wait_for_prompt();
-    }
+    statements.iter().for_each(|statement| terminal.enter(statement));
     terminal.enter("\"the end\"");
     let screen = terminal.screen();
     let row = "  drag          draw points along\n                straight lines,";
@@ -140,7 +137,7 @@ fn a_long_run_shows_how_far_it_is_and_a_short_one_does_not() {
     terminal.enter("point A = (0, 0) frozen, B = (1, 0); motor A B");
     terminal.enter("step 10");
     assert!(!terminal.screen().contains('%'));
-    terminal.press("step 1e9\r");
+    terminal.begin("step 1e9");
     terminal.wait_for(" %, ");
     terminal.wait_for("left");
     terminal.press("\x03");
@@ -238,10 +235,7 @@ fn all_that_is_said_of_a_scene_fits_forty_columns() {
         "length B C = 9; solve",
         "sample \"s\" = 1, 2, 3; plot; show",
     ];
-    for statement in statements {
-        terminal.press(&format!("{statement}\r"));
-        terminal.wait_for_prompt();
-    }
+    statements.iter().for_each(|statement| terminal.enter(statement));
     terminal.enter("\"the end\"");
     let text = String::from_utf8_lossy(&terminal.bytes()).into_owned();
     assert!(text.contains("us a frame, "), "{text}");

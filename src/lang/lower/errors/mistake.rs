@@ -14,7 +14,7 @@ use super::expected::{Expected, PATH};
 use super::refusal;
 use crate::lang::grammar::Rule;
 use crate::lang::lower::Reader;
-use crate::lang::lower::prefix::{first_word, is_word_char};
+use crate::lang::lower::prefix::{first_word, is_short, is_word_char, reads};
 
 impl Reader<'_> {
     /// What to say when `rule` does not fit the bytes `range`.
@@ -57,7 +57,17 @@ impl Reader<'_> {
         let behind = &self.text[found.span.range().end..range.end];
         let short = misspelt.is_none() || found.word(self).len() <= 2;
         let other_points = other_points(word, before, found.word(self), behind, &expected);
+        let statement = &self.text[range.clone()];
+        let reworded = if is_bare {
+            compared(before, found.term.trim_matches('`'), behind)
+        } else {
+            let rest = &self.text[found.span.range().start..range.end];
+            without_parentheses(statement, word)
+                .or_else(|| with_word(before, &expected, rest))
+                .or_else(|| as_position(statement, word))
+        };
         let help = match (misspelt, other_points.filter(|_| short)) {
+            _ if reworded.is_some() => reworded,
             (_, Some(name)) => Some(format!(
                 "a constraint keeps its points: `delete {}`, and state it anew with others",
                 brief(name)
@@ -162,6 +172,14 @@ impl Reader<'_> {
             }
             _ if expected.has("`to`") && verb == "distance" => {
                 "for the distance of two points, write `length A B`".to_owned()
+            }
+            _ if expected.has("`frozen`")
+                && catalogue::trade(word).is_some_and(|trade| trade.command == "freeze") =>
+            {
+                "did you mean `frozen`?".to_owned()
+            }
+            _ if expected.has("`,`") && expected.has("`)`") && found.what == Found::Word => {
+                "a comma stands between two values".to_owned()
             }
             _ if word.starts_with('\'') => "a string stands in double quotes: `\"...\"`".to_owned(),
             _ if before.ends_with(|char: char| char.is_ascii_digit())
@@ -273,6 +291,65 @@ impl FoundAt {
 
 const NO_BREAK_SPACE: &str = "no-break space";
 const ODD_BLANK: &str = "odd blank";
+
+/// What asks whether a comparison holds that stands there as a value.
+fn compared(left: &str, sign: &str, right: &str) -> Option<String> {
+    let sign = match sign {
+        "=" | "<" | "<=" | ">" | ">=" => sign,
+        "==" => "=",
+        "=<" => "<=",
+        "=>" => ">=",
+        _ => return None,
+    };
+    let statement = format!("assert {left} {sign} {}", right.trim());
+    let is_one = is_short(&statement) && reads(&statement);
+    is_one.then(|| format!("to ask whether that holds, write `{statement}`"))
+}
+
+/// What to type where a command has its parts in parentheses, as functions have.
+fn without_parentheses(statement: &str, word: &str) -> Option<String> {
+    let inside = statement.strip_prefix(word)?.trim_start().strip_prefix('(')?;
+    let (inside, behind) = inside.split_once(')')?;
+    let blanks = inside.replace(',', " ");
+    let mut reworded = [inside, &blanks].into_iter().map(|inside| {
+        let words = format!("{word} {inside} {behind}");
+        words.split_whitespace().collect::<Vec<_>>().join(" ")
+    });
+    let statement = reworded.find(|statement| is_short(statement) && reads(statement))?;
+    Some(format!("a command has no parentheses: `{statement}`"))
+}
+
+/// The statement with the only word or sign that could stand before its rest.
+fn with_word(before: &str, expected: &Expected, rest: &str) -> Option<String> {
+    let [word] = &expected.terms[..] else { return None };
+    let word = word.strip_prefix('`')?.strip_suffix('`')?;
+    let rests = [Some(rest.to_owned()), vector(rest)].into_iter().flatten();
+    let blank = if word == "," { "" } else { " " };
+    let mut statements = rests.map(|rest| format!("{before}{blank}{word} {rest}"));
+    let statement = statements.find(|statement| is_short(statement) && reads(statement))?;
+    Some(format!("did you mean `{statement}`?"))
+}
+
+/// The statement with a position in parentheses where two numbers stand behind its `=` or `to`.
+fn as_position(statement: &str, verb: &str) -> Option<String> {
+    let sign = match verb {
+        "point" => " = ",
+        "move" | "drag" | "pull" => " to ",
+        _ => return None,
+    };
+    let (before, numbers) = statement.split_once(sign)?;
+    let statement = format!("{before}{sign}{}", vector(numbers)?);
+    let is_one = is_short(&statement) && reads(&statement);
+    is_one.then(|| format!("a position is a vector: `{statement}`"))
+}
+
+/// Two numbers as a vector.
+fn vector(text: &str) -> Option<String> {
+    let mut numbers = text.split([' ', '\t', ',']).filter(|number| !number.is_empty());
+    let (x, y) = (numbers.next()?, numbers.next()?);
+    let are_numbers = [x, y].iter().all(|number| number.parse::<f64>().is_ok());
+    (are_numbers && numbers.next().is_none()).then(|| format!("({x}, {y})"))
+}
 
 /// The name in a `change` that gives other points, as the statement does that makes a constraint:
 /// two names stand behind it.

@@ -196,6 +196,7 @@ pub(crate) fn unknown_list(word: &Ident, known: &[&str]) -> Diagnostic {
     );
     match nearest(&word.text, known.iter().copied()) {
         Some(near) => problem.help(format!("did you mean `{near}`?")),
+        None if &*word.text == "all" => problem.help("`list` alone lists all of it"),
         None => problem.help(format!("to see one thing, write `show {}`", brief(&word.text))),
     }
 }
