@@ -29,6 +29,8 @@ pub struct Viewer {
     /// Where it has the figures.
     places: Places,
     topology: u32,
+    /// Of how many points it is, by handles.
+    n_points: usize,
     seq: u64,
     seen: u64,
     /// The numbers of what it was told last.
@@ -113,9 +115,10 @@ impl Viewer {
 
     /// Follows the mechanism, or draws it anew.
     fn draw(&mut self, news: &News, say: &mut impl FnMut(Message)) {
-        let followed =
-            self.drawing.as_mut().map_or(Followed::Another, |drawing| drawing.follow(news.scene));
-        match followed {
+        // Frames are read by it, so it is of as many points as they tell of, those included that are not
+        // drawn: the handle of a point is gone for good, whether or not the point came to stay.
+        let drawing = self.drawing.as_mut().filter(|_| self.n_points == news.pose.at.len());
+        match drawing.map_or(Followed::Another, |drawing| drawing.follow(news.scene)) {
             Followed::Moved(changed) if changed.is_empty() => {}
             Followed::Moved(changed) => {
                 let drawing = self.drawing.as_ref().expect("it was followed");
@@ -125,6 +128,7 @@ impl Viewer {
                 let drawing = Drawing::new(news.scene, self.scale);
                 self.topology += 1;
                 let at = &news.pose.at;
+                self.n_points = at.len();
                 self.places = Places::new(&drawing, at, news.session.world());
                 let anchors = self.places.anchors();
                 for text in drawn::drawing(&drawing, news.scene, self.topology, at.len(), anchors) {

@@ -1,6 +1,6 @@
 //! Paths that come back to themselves: a lap that is drawn once looks like a hundred.
 
-use crate::constraint::Point;
+use crate::constraint::{Point, Vector};
 use crate::interrupt::tick;
 use crate::world::Sample;
 
@@ -10,6 +10,12 @@ const SAME: f64 = 1e-9;
 
 /// Comparisons for each sample, after which it is left at what was found.
 const PATIENCE: usize = 8;
+
+/// Samples of a path that may be a lap with nothing behind it.
+const LEAST_OF_LAP: usize = 24;
+
+/// How large fifth differences are at most where a path is smooth, in parts of the longest step.
+const SMOOTH: f64 = 0.05;
 
 /// How much of a path shows all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +70,30 @@ pub fn once(samples: &[Sample]) -> Once {
             break;
         }
     }
-    best
+    if best == whole { Once { is_closed: is_lap(samples, same), ..whole } } else { best }
+}
+
+/// Whether samples are one lap to the frame, after which the first would come again: from the last to
+/// the first the path goes on as smoothly as anywhere.
+fn is_lap(samples: &[Sample], same: f64) -> bool {
+    let n = samples.len();
+    if n < LEAST_OF_LAP || samples.iter().any(|sample| sample.missed) {
+        return false;
+    }
+    let at = |k: usize| samples[k % n].at;
+    // What a polynomial of degree 4 through five samples leaves of the sixth.
+    let fifth_difference = |k: usize| {
+        let terms = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0].into_iter().enumerate();
+        terms.map(|(i, times)| (at(k + i) - at(k)) * times).fold(Vector::ZERO, |a, b| a + b).norm()
+    };
+    let (mut inside, mut longest) = (0.0_f64, 0.0_f64);
+    for k in 0..n - 5 {
+        tick(1);
+        inside = inside.max(fifth_difference(k));
+        longest = longest.max(at(k).distance(at(k + 1)));
+    }
+    let across = (n - 5..n).map(fifth_difference).fold(0.0, f64::max);
+    inside <= SMOOTH * longest && across <= 2.0 * inside + same
 }
 
 /// The larger of the width and the height of what samples cover.
@@ -91,10 +120,33 @@ mod tests {
 
     #[test]
     fn a_hundred_laps_are_one() {
-        for n in [361, 362, 500, 36_001] {
+        for n in [360, 361, 362, 500, 36_001] {
             assert_eq!(once(&turns(n, 360)), Once { n: 360, is_closed: true }, "{n}");
         }
-        assert_eq!(once(&turns(360, 360)), Once { n: 360, is_closed: false });
+    }
+
+    #[test]
+    fn a_lap_is_closed_if_the_first_sample_would_come_next() {
+        for per_turn in [24, 36, 90, 720] {
+            for (more, is_closed) in [(-2, false), (-1, false), (0, true)] {
+                let n = per_turn + more;
+                let path = turns(n as u32, per_turn as u32);
+                assert_eq!(once(&path).is_closed, is_closed, "{n} of {per_turn}");
+            }
+        }
+        // A thousandth of a frame too far.
+        let at = |k| Vector::polar(2.0, f64::from(k) * std::f64::consts::TAU / 359.999);
+        let path: Vec<Sample> =
+            (0..360).map(|k| Sample { at: at(k).to_point(), missed: false }).collect();
+        assert!(!once(&path).is_closed);
+        // An arc, there and back.
+        let at = |k| 0.7 * libm::sin(f64::from(k) * std::f64::consts::TAU / 90.0);
+        let there_and_back = |n| -> Vec<Sample> {
+            let place = |k| Vector::polar(2.0, at(k)).to_point();
+            (0..n).map(|k| Sample { at: place(k), missed: false }).collect()
+        };
+        assert!(once(&there_and_back(90)).is_closed);
+        assert!(!once(&there_and_back(89)).is_closed);
     }
 
     #[test]

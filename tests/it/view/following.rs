@@ -257,6 +257,12 @@ proptest! {
     }
 }
 
+/// A statement that failed leaves no point, but its handle is gone.
+#[test]
+fn frames_after_a_failure_are_of_as_many_points_as_the_drawing() {
+    follows(&["clear", "for i in 1..1 { point L[i] = (i, i); length L[i] A }"].map(str::to_owned));
+}
+
 /// A page that looks on while others are told: what it asks for does not change what they see.
 #[test]
 fn pages_have_scales_of_their_own() {

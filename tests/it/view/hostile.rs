@@ -185,6 +185,9 @@ fn a_page_may_stop_what_it_asked_for() {
     again.run(SCENE).expect("the script is right");
     again.run(done).expect("the statement is right");
     assert_eq!(page.script(), again.to_script());
-    page.exec("undo");
+    // Where it was stopped before its first round there is nothing to take back.
+    if page.script() != before {
+        page.exec("undo");
+    }
     assert_eq!(page.script(), before);
 }
