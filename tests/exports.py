@@ -38,8 +38,8 @@ def strokes():
     left, bottom, right, top = crank_pin.bounds()
     near((right - left) / MM, 20, 1e-3, "the path of B across, mm")
     near((top - bottom) / MM, 20, 1e-3, "the path of B upwards, mm")
-    # From the first frame to the last: one of 360 chords less than the whole.
-    near(crank_pin.length() / MM, 20 * math.pi * 359 / 360, 1e-3, "the path of B, mm")
+    # A turn of 360 frames is closed: all of the circle.
+    near(crank_pin.length() / MM, 20 * math.pi, 1e-3, "the path of B, mm")
     width, height = document.page_size
     print(f"page: {width / MM:.2f} x {height / MM:.2f} mm")
 
