@@ -13,12 +13,10 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import venv
 
-from program import ROOT, build, cost, table
+from program import ROOT, build, cost, interpreter, table
 
 HERE = pathlib.Path(__file__).resolve().parent / "peers"
-ROOM = HERE / "target" / "others" / "compiled"
 PACKAGES = ["pylinkage==1.3.0", "numba", "numpy", "scipy", "casadi"]
 # Each with the frames it is given.
 OTHERS = {
@@ -34,15 +32,6 @@ FRAMES = 1_000_000
 
 linkwork = sys.argv[1] if len(sys.argv) > 1 else build()
 room = pathlib.Path(tempfile.mkdtemp())
-
-
-def python():
-    """An interpreter that has the packages."""
-    if not (ROOM / "bin" / "python").exists():
-        venv.create(ROOM, with_pip=True)
-        pip = [ROOM / "bin" / "python", "-m", "pip", "--quiet", "install", *PACKAGES]
-        subprocess.run(pip, check=True)
-    return str(ROOM / "bin" / "python")
 
 
 def answer(*command):
@@ -68,7 +57,7 @@ def c_compiler():
 limit = room / "closed_form"
 source = HERE / "beside" / "closed_form.c"
 subprocess.run([c_compiler(), "-O2", "-o", limit, source, "-lm"], check=True)
-interpreter = python()
+python = interpreter("compiled", PACKAGES)
 rows = {"closed form in C, each frame waits for the last": {}}
 errors = {}
 rows.update({"linkwork, `step n`": {}, **{name: {} for name in OTHERS}})
@@ -81,7 +70,7 @@ for work in SCRIPTS:
         times["closed form in C, frames overlap"].append(overlapped)
         times["linkwork, `step n`"].append(ours(work))
         for name, (run, n) in OTHERS.items():
-            used, error, *_ = answer(interpreter, HERE / "beside" / "compiled.py", run, work, n)
+            used, error, *_ = answer(python, HERE / "beside" / "compiled.py", run, work, n)
             times[name].append(used)
             errors[name] = max(errors.get(name, 0.0), error)
     for name, all_rounds in times.items():

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import time
+import venv
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -58,3 +59,13 @@ def table(head, rows):
     """A table in Markdown."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
+
+
+def interpreter(name, packages):
+    """A Python that has packages of others, in an environment of that name."""
+    room = ROOT / "benches" / "peers" / "target" / "others" / name
+    if not (room / "bin" / "python").exists():
+        venv.create(room, with_pip=True)
+        pip = [room / "bin" / "python", "-m", "pip", "--quiet", "install", *packages]
+        subprocess.run(pip, check=True)
+    return str(room / "bin" / "python")

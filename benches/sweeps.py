@@ -13,12 +13,10 @@ import subprocess
 import sys
 import tempfile
 import time
-import venv
 
-from program import build, table
+from program import build, interpreter, table
 
 HERE = pathlib.Path(__file__).resolve().parent / "peers"
-ROOM = HERE / "target" / "others" / "sweeps"
 PACKAGES = ["pylinkage==1.3.0", "numba", "numpy"]
 SCRIPT = """let b = 3.5, c = 3
 point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
@@ -32,18 +30,9 @@ result least = mu.min, greatest = mu.max
 """
 
 
-def python():
-    """An interpreter that has the packages."""
-    if not (ROOM / "bin" / "python").exists():
-        venv.create(ROOM, with_pip=True)
-        pip = [ROOM / "bin" / "python", "-m", "pip", "--quiet", "install", *PACKAGES]
-        subprocess.run(pip, check=True)
-    return str(ROOM / "bin" / "python")
-
-
 def other(name, side, cores):
     """What one of the others takes, and its worst error."""
-    command = [interpreter, str(HERE / "beside" / "sweeps.py"), name, str(side), str(cores)]
+    command = [python, str(HERE / "beside" / "sweeps.py"), name, str(side), str(cores)]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     return map(float, done.stdout.split())
 
@@ -80,7 +69,7 @@ def error(row):
 
 side = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
 linkwork = sys.argv[2] if len(sys.argv) > 2 else build()
-interpreter = python()
+python = interpreter("sweeps", PACKAGES)
 RUNS = {
     "`linkwork sweep`": lambda cores: ours(side, cores),
     "pylinkage 1.3.0, `simulate_batch` and NumPy": lambda cores: other("pylinkage", side, cores),
