@@ -7,16 +7,13 @@
 //! A belt is beyond the paper, and the same equation: see [`Contact`].
 
 use super::orientation::turning;
-use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::gearing::Gearing;
 use crate::constraint::parts::geometry::has_direction;
-use crate::constraint::parts::turns::simplest_fraction;
-use crate::constraint::parts::winding::Winding;
+use crate::constraint::parts::mesh::Mesh;
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flag, Flaw, Given, Point,
     PointIdx, Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
 };
-use std::f64::consts::TAU;
 
 /// Two wheels in mesh, or with a belt around them: `theta1 - (1 + r) alpha + r theta2 = K`, in
 /// radians.
@@ -34,13 +31,7 @@ pub struct Cog {
     pub points: [PointIdx; 4],
     gearing: Gearing,
     contact: Contact,
-    /// The ratio as numbers of teeth, the second wheel's over the first's, where they exist.
-    teeth: Option<(f64, f64)>,
-    /// theta1, alpha, theta2 as last accepted.
-    lifted: [Winding; 3],
-    /// What the whole turns of these angles contribute to the equation.
-    wound: f64,
-    k: f64,
+    mesh: Mesh,
 }
 
 /// How one wheel turns the other.
@@ -61,7 +52,24 @@ pub enum Contact {
 }
 
 /// The vectors whose angles the constraint compares: x1 to x2, x1 to x3, x3 to x4.
-struct Spokes<V>([V; 3]);
+struct Spokes([Vector; 3]);
+
+impl Spokes {
+    /// Where each points, radians; none for a line of centres that has no part.
+    fn directions(&self) -> [Option<f64>; 3] {
+        self.0.map(|v| (v != Vector::ZERO).then(|| v.angle()))
+    }
+}
+
+impl Contact {
+    /// The ratio r of the equation.
+    fn ratio(self, gearing: &Gearing) -> f64 {
+        match self {
+            Self::Mesh | Self::CrossedBelt => gearing.ratio(),
+            Self::OpenBelt => -gearing.ratio(),
+        }
+    }
+}
 
 impl Cog {
     /// Wheels in mesh as they stand.
@@ -76,20 +84,9 @@ impl Cog {
     }
 
     fn geared(points: [PointIdx; 4], gearing: Gearing, contact: Contact, x: &[Point]) -> Self {
-        let mut cog = Self {
-            points,
-            gearing,
-            contact,
-            teeth: None,
-            lifted: [Winding::default(); 3],
-            wound: 0.0,
-            k: 0.0,
-        };
-        cog.teeth = teeth(cog.ratio());
-        let [x1, x2, x3, x4] = cog.places(x);
-        cog.lifted = [x2 - x1, x3 - x1, x4 - x3].map(|v| Winding::new(v.angle()));
-        cog.k = cog.mesh(cog.lifted.map(|winding| winding.angle));
-        cog
+        let [x1, x2, x3, x4] = points.map(|p| x[p as usize]);
+        let angles = [x2 - x1, x3 - x1, x4 - x3].map(Vector::angle);
+        Self { points, gearing, contact, mesh: Mesh::new(contact.ratio(&gearing), angles) }
     }
 
     /// How the wheels are held together.
@@ -97,55 +94,25 @@ impl Cog {
         self.contact
     }
 
-    /// The ratio r of the equation.
-    fn ratio(&self) -> f64 {
-        match self.contact {
-            Contact::Mesh | Contact::CrossedBelt => self.gearing.ratio(),
-            Contact::OpenBelt => -self.gearing.ratio(),
-        }
-    }
-
     fn places(&self, x: &[Point]) -> [Point; 4] {
         self.points.map(|p| x[p as usize])
     }
 
-    /// The left side of the equation without whole turns.
-    fn mesh(&self, [theta1, alpha, theta2]: [f64; 3]) -> f64 {
-        (theta1 - alpha) + self.ratio() * (theta2 - alpha)
+    /// The equation between the wheels.
+    pub(crate) const fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
     /// The angle at which the marker of the first or the second wheel belongs while everything else is
     /// at these places; none while the marker of the other has none.
     pub fn marker_angle(&self, is_second: bool, [x1, x2, x3, x4]: [Point; 4]) -> Option<f64> {
-        let other = if is_second { [x1, x2] } else { [x3, x4] };
-        if !has_direction(other[0], other[1]) {
+        let (i, from, to) = if is_second { (0, x1, x2) } else { (2, x3, x4) };
+        if !has_direction(from, to) {
             return None;
         }
-        let direction = (other[1] - other[0]).angle();
-        let alpha = if self.alpha_counts(x1, x3) {
-            self.lifted[1].near((x3 - x1).angle())
-        } else {
-            self.lifted[1].angle
-        };
-        let rest = self.k - self.wound;
-        Some(if is_second {
-            alpha + (rest - (self.lifted[0].near(direction) - alpha)) / self.ratio()
-        } else {
-            alpha + (rest - self.ratio() * (self.lifted[2].near(direction) - alpha))
-        })
-    }
-
-    /// How far the first or the second wheel turns at most while the other and the line of centres
-    /// turn by no more than that.
-    pub fn most_turned(&self, is_second: bool, other: f64, line: f64) -> f64 {
-        let r = self.ratio();
-        let by_line = line * (1.0 + r).abs();
-        if is_second { (other + by_line) / r.abs() } else { other * r.abs() + by_line }
-    }
-
-    /// Whether the line of centres turns the wheels too.
-    pub fn follows_centres(&self) -> bool {
-        self.ratio() != -1.0
+        let other = self.mesh.angle(i, Some((to - from).angle()));
+        let centres = self.alpha_counts(x1, x3).then(|| (x3 - x1).angle());
+        Some(self.mesh.angle_from(is_second, other, self.mesh.angle(1, centres)))
     }
 
     /// What is left of the equation at these places, radians; none while a marker has no angle.
@@ -154,7 +121,7 @@ impl Cog {
     }
 
     /// None while a marker has no angle.
-    fn spokes(&self, x: &[Point]) -> Option<Spokes<Vector>> {
+    fn spokes(&self, x: &[Point]) -> Option<Spokes> {
         let [a, b, c, d] = self.points;
         if a == d && b == c {
             // Each marker is the other's centre: one segment, on which nothing can turn.
@@ -163,7 +130,7 @@ impl Cog {
         self.spokes_at(self.places(x))
     }
 
-    fn spokes_at(&self, [x1, x2, x3, x4]: [Point; 4]) -> Option<Spokes<Vector>> {
+    fn spokes_at(&self, [x1, x2, x3, x4]: [Point; 4]) -> Option<Spokes> {
         let centres = if self.alpha_counts(x1, x3) { x3 - x1 } else { Vector::ZERO };
         (has_direction(x1, x2) && has_direction(x3, x4)).then_some(Spokes([
             x2 - x1,
@@ -174,37 +141,26 @@ impl Cog {
 
     /// Whether the line of centres has a part in the equation.
     fn alpha_counts(&self, x1: Point, x3: Point) -> bool {
-        self.ratio() != -1.0 && has_direction(x1, x3)
+        self.mesh.follows_centres() && has_direction(x1, x3)
     }
 
-    /// The angles of the spokes, counted on from the accepted ones.
-    fn angles(&self, spokes: &Spokes<Vector>) -> [f64; 3] {
-        std::array::from_fn(|i| match spokes.0[i] {
-            Vector::ZERO => self.lifted[i].angle,
-            v => self.lifted[i].near(v.angle()),
-        })
+    fn value(&self, spokes: &Spokes) -> f64 {
+        let directions = spokes.directions();
+        self.mesh.value(std::array::from_fn(|i| self.mesh.angle(i, directions[i])))
     }
 
-    fn value(&self, spokes: &Spokes<Vector>) -> f64 {
-        self.mesh(self.angles(spokes)) + (self.wound - self.k)
-    }
-
-    fn row(&self, spokes: &Spokes<Vector>) -> Row<'static> {
+    fn row(&self, spokes: &Spokes) -> Row<'static> {
         let [a, b, c, d] = self.points;
         let [v12, v13, v34] = spokes.0;
-        let (p1, p2) = (turning(v12), turning(v34) * self.ratio());
-        let p_alpha = if v13 == Vector::ZERO { v13 } else { turning(v13) * (1.0 + self.ratio()) };
+        let r = self.mesh.ratio();
+        let (p1, p2) = (turning(v12), turning(v34) * r);
+        let p_alpha = if v13 == Vector::ZERO { v13 } else { turning(v13) * (1.0 + r) };
         Row::new(self.value(spokes))
             .with(a, p_alpha - p1)
             .with(b, p1)
             .with(c, -p_alpha - p2)
             .with(d, p2)
     }
-}
-
-/// Numbers of teeth in the ratio r, the second wheel's and the first's.
-fn teeth(ratio: f64) -> Option<(f64, f64)> {
-    simplest_fraction(ratio, f64::EPSILON * ratio.abs())
 }
 
 impl Declared for Cog {
@@ -271,17 +227,17 @@ impl ConstraintKind for Cog {
         }
         let counted = |i: usize, v: Vec2<T>| {
             let direction = v.angle();
-            let angle = self.lifted[i].near(direction.value());
+            let angle = self.mesh.angle(i, Some(direction.value()));
             direction + T::constant(angle - direction.value())
         };
         let (theta1, theta2) = (counted(0, x2 - x1), counted(2, x4 - x3));
         let alpha = if self.alpha_counts(value(x1), value(x3)) {
             counted(1, x3 - x1)
         } else {
-            T::constant(self.lifted[1].angle)
+            T::constant(self.mesh.angle(1, None))
         };
-        let mesh = (theta1 - alpha) + T::constant(self.ratio()) * (theta2 - alpha);
-        equation(mesh + T::constant(self.wound - self.k));
+        let sum = (theta1 - alpha) + T::constant(self.mesh.ratio()) * (theta2 - alpha);
+        equation(sum + T::constant(self.mesh.rest()));
     }
 
     fn get(&self, field: Field) -> Option<f64> {
@@ -289,16 +245,10 @@ impl ConstraintKind for Cog {
     }
 
     fn set(&mut self, field: Field, value: f64) -> bool {
-        let before = self.ratio();
-        let angles = self.lifted.map(|winding| winding.angle);
-        let f = self.mesh(angles) + (self.wound - self.k);
         let is_known = self.gearing.set(field, value);
-        if self.ratio() != before {
-            // A gear change: the wheels mesh on from where they stand, turns so far forgotten.
-            self.teeth = teeth(self.ratio());
-            self.lifted = angles.map(Winding::new);
-            self.wound = 0.0;
-            self.k = self.mesh(angles) - f;
+        let ratio = self.contact.ratio(&self.gearing);
+        if ratio != self.mesh.ratio() {
+            self.mesh.change_gear(ratio);
         }
         is_known
     }
@@ -332,34 +282,28 @@ impl ConstraintKind for Cog {
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        // All that matters of the gearing, the contact and the teeth is the ratio of the equation.
-        let Self { points: _, gearing: _, contact: _, teeth: _, lifted, wound, k } = self;
-        add_all([self.ratio()], word);
-        lifted.iter().for_each(|winding| winding.content(word));
-        add_all([*wound, *k], word);
+        // All that matters of the gearing and the contact is the ratio of the equation.
+        let Self { points: _, gearing: _, contact: _, mesh } = self;
+        mesh.content(word);
     }
 }
 
 impl Stateful for Cog {
     fn state(&self) -> Option<Vec<f64>> {
-        let windings = self.lifted.iter().flat_map(|w| w.to_numbers());
-        Some(windings.chain([self.wound]).collect())
+        Some(self.mesh.state())
     }
 
     fn set_state(&mut self, state: &[f64]) {
-        if let &[a, b, c, d, e, f, wound] = state {
-            self.lifted = [[a, b], [c, d], [e, f]].map(Winding::from_numbers);
-            self.wound = wound;
-        }
+        self.mesh.set_state(state);
     }
 
     fn captured(&self) -> Vec<f64> {
-        vec![self.k]
+        vec![self.mesh.captured()]
     }
 
     fn set_captured(&mut self, captured: &[f64]) {
         if let &[k] = captured {
-            self.k = k;
+            self.mesh.set_captured(k);
         }
     }
 
@@ -375,28 +319,16 @@ impl Stateful for Cog {
     }
 
     fn accept(&mut self, x: &[Point]) {
-        let Some(Spokes(vectors)) = self.spokes(x) else { return };
-        for (winding, v) in self.lifted.iter_mut().zip(vectors) {
-            if v != Vector::ZERO {
-                winding.follow(v.angle());
-            }
+        if let Some(spokes) = self.spokes(x) {
+            self.mesh.follow(spokes.directions());
         }
-        // Wheels that mesh keep `first + r second` small however far they run; summed in
-        // teeth it is exact, so nothing is lost in a million turns.
-        let [n1, n_alpha, n2] = self.lifted.map(|winding| winding.turns);
-        let (first, second) = ((n1 - n_alpha) as f64, (n2 - n_alpha) as f64);
-        self.wound = TAU
-            * match self.teeth {
-                Some((p, q)) => (first * q + second * p) / q,
-                None => second.mul_add(self.ratio(), first),
-            };
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
 
     /// Wheels on frozen centres after the first has made `i` of `n` parts of a turn.
     fn pair(i: i64, n: i64, (first, second): (i64, i64)) -> [Point; 4] {

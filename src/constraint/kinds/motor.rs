@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::constraint::parts::carried_crank::CarriedCrank;
 use crate::constraint::parts::content::add_all;
-use crate::constraint::parts::geometry::{has_direction, wrap};
+use crate::constraint::parts::drive::Drive;
+use crate::constraint::parts::geometry::has_direction;
 use crate::constraint::parts::heading::Heading;
 use crate::constraint::parts::linear::Linear;
-use crate::constraint::parts::sines::sines_and_cosines;
 use crate::constraint::parts::two_rows;
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
@@ -38,25 +38,12 @@ enum Points {
     Between(Box<[PointIdx; 4]>),
 }
 
-/// The values of a motor.
-#[derive(Debug, Clone, PartialEq)]
-struct Drive {
-    radius: f64,
-    phase: f64,
-    speed: f64,
-    /// The mean of the speed over the present frame, where it changes in time.
-    mean_speed: f64,
-    /// The angle that the last step of time made at this speed, and the same in turns.
-    step: (f64, Turns),
-}
-
 impl Motor {
     /// A motor of a radius, a phase in radians and a speed in radians per time unit, that
     /// has not turned yet.
     pub fn new(points: [PointIdx; 2], radius: f64, phase: f64, speed: f64) -> Self {
         let target = Vector::polar(radius, phase);
-        let step = (0.0, Turns::default());
-        let drive = Arc::new(Drive { radius, phase, speed, mean_speed: speed, step });
+        let drive = Arc::new(Drive::new(radius, phase, speed));
         let points = Points::Fixed(points);
         Self { points, heading: Heading { turned: Turns::default(), target }, drive }
     }
@@ -114,18 +101,17 @@ impl Motor {
     /// Whether its last frame was as long as that, so that the next needs nothing but to turn on;
     /// one that stands still needs nothing at all.
     pub fn is_under_way(&self, dt: f64) -> bool {
-        let step = self.drive.mean_speed * dt;
-        !self.turns() || step != 0.0 && step == self.drive.step.0
+        self.drive.is_under_way(dt)
     }
 
     /// Whether it turns.
     pub fn turns(&self) -> bool {
-        self.drive.mean_speed != 0.0
+        self.drive.turns()
     }
 
     /// The angle without whole turns, radians.
     pub fn angle(&self) -> f64 {
-        self.angle_at(self.heading.turned)
+        self.drive.angle_at(self.heading.turned)
     }
 
     /// The angle with whole turns, `phase + turned`, radians.
@@ -138,10 +124,9 @@ impl Motor {
         self.heading.turned
     }
 
-    /// Sets how far it has turned: the clock goes back to where it was.
+    /// Sets how far it has turned, as where the clock goes back to where it was.
     pub fn set_turned(&mut self, turned: Turns) {
-        self.heading.turned = turned;
-        self.aim();
+        self.heading = self.drive.heading_at(turned);
     }
 
     /// Where the driven point belongs, from the centre, if the angle is measured from the x axis.
@@ -161,43 +146,10 @@ impl Motor {
     #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
     #[inline(always)]
     pub fn advance_each<const N: usize>(&mut self, dt: f64) -> [Heading; N] {
-        let mut headings = [self.heading; N];
-        let Some(step) = self.step(dt) else { return headings };
-        let mut angles = [0.0; N];
-        let mut turned = self.heading.turned;
-        for (heading, angle) in headings.iter_mut().zip(&mut angles) {
-            turned = turned.plus(step);
-            heading.turned = turned;
-            *angle = self.angle_at(turned);
-        }
-        let [sines, cosines] = sines_and_cosines(&angles);
-        let radius = self.drive.radius;
-        for (l, heading) in headings.iter_mut().enumerate() {
-            heading.target = Vector::new(radius * cosines[l], radius * sines[l]);
-        }
+        let Some(step) = self.drive.step(dt) else { return [self.heading; N] };
+        let headings = self.drive.headings(self.heading, step);
         self.heading = headings[N - 1];
         headings
-    }
-
-    /// How far it turns in `dt`; none if it stands still.
-    fn step(&mut self, dt: f64) -> Option<Turns> {
-        let step = self.drive.mean_speed * dt;
-        if step == 0.0 {
-            return None;
-        }
-        if step != self.drive.step.0 {
-            Arc::make_mut(&mut self.drive).step = (step, Turns::from_radians(step));
-        }
-        Some(self.drive.step.1)
-    }
-
-    /// The angle without whole turns once it has turned so far, radians.
-    fn angle_at(&self, turned: Turns) -> f64 {
-        wrap(self.drive.phase + turned.angle())
-    }
-
-    fn aim(&mut self) {
-        self.heading.target = Vector::polar(self.drive.radius, self.angle());
     }
 
     fn linear(&self) -> Linear {
@@ -362,7 +314,7 @@ impl ConstraintKind for Motor {
             }
             _ => return false,
         }
-        self.aim();
+        self.set_turned(self.heading.turned);
         true
     }
 
@@ -387,11 +339,9 @@ impl ConstraintKind for Motor {
     }
 
     fn content(&self, word: &mut impl FnMut(u64)) {
-        // The target follows from the rest, and the mean speed and the step of time are made anew
-        // where they differ.
+        // The target follows from the rest; the drive says what of it matters.
         let Self { points: _, heading: Heading { turned, target: _ }, drive } = self;
-        let Drive { radius, phase, speed, mean_speed: _, step: _ } = &**drive;
-        add_all([*radius, *speed, *phase], word);
+        drive.content(word);
         add_all(turned.to_numbers(), word);
     }
 }
@@ -425,16 +375,14 @@ impl Stateful for Motor {
             }
         };
         if let Some(angle) = angle.filter(|_| x1 != x2) {
-            self.heading.turned = self.heading.turned.pick_up(angle - self.drive.phase);
-            self.aim();
+            self.set_turned(self.heading.turned.pick_up(angle - self.drive.phase));
         }
     }
 
     /// Turns on by `dt` times the mean speed; `-dt` takes the frame back that `dt` was.
     fn advance(&mut self, dt: f64) -> bool {
-        let Some(step) = self.step(dt) else { return false };
-        self.heading.turned = self.heading.turned.plus(step);
-        self.aim();
+        let Some(step) = self.drive.step(dt) else { return false };
+        self.set_turned(self.heading.turned.plus(step));
         true
     }
 

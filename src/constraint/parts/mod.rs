@@ -3,6 +3,7 @@
 pub mod bounds;
 pub mod carried_crank;
 pub mod content;
+pub(crate) mod drive;
 pub mod function;
 pub mod gearing;
 pub mod geometry;
@@ -10,6 +11,7 @@ pub mod heading;
 pub mod jet;
 pub mod line;
 pub mod linear;
+pub(crate) mod mesh;
 pub mod program;
 pub mod row;
 pub(crate) mod sines;

@@ -1,7 +1,6 @@
 //! Sines and cosines of several angles at a time, with the bits that `libm` gives for each by itself.
 //!
-//! Its way (that of FreeBSD's msun) is taken for angles of up to about a turn and a quarter of half of
-//! one, in one loop without branches: what is left of the angle after so many quarter turns, and two
+//! Its way (that of FreeBSD's msun) is taken for angles of up to five eighths of a turn, in one loop without branches: what is left of the angle after so many quarter turns, and two
 //! polynomials. Tiny angles, and those within rounding of a quarter turn or half a turn, for which it takes
 //! other ways, are left to it.
 

@@ -206,7 +206,9 @@ fn other_end([a, b]: [PointIdx; 2], p: PointIdx) -> Option<PointIdx> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constraint::{Bounds, Equivalence, Glider, Hinge, Length, Motor};
+    use crate::constraint::{
+        Bounds, Cog, Equivalence, Glider, Hinge, Length, Motor, Orientation, Period, Point,
+    };
 
     fn bar(points: [PointIdx; 2]) -> Constraint {
         Length { points, bounds: Bounds::exactly(4.0) }.into()
@@ -215,6 +217,20 @@ mod tests {
     fn has_list(constraints: &[Constraint], n_free: usize, n_points: usize) -> bool {
         let plan = Plan::new(constraints, n_free, n_points);
         ClosedForm::new(&plan, constraints, n_points, 3).is_some()
+    }
+
+    #[test]
+    fn wheels_links_at_angles_and_braced_points_have_a_list() {
+        // The crank's end 0, the point 1 that is found; 2 to 5 stand still.
+        let x = [(1.0, 0.0), (4.0, 0.0), (0.0, 0.0), (3.0, 0.0), (0.0, 5.0), (5.0, 5.0)];
+        let x = x.map(|(x, y)| Point::new(x, y));
+        let crank: Constraint = Motor::new([2, 0], 1.0, 0.0, 1.0).into();
+        let cog: Constraint = Cog::new([2, 0, 3, 1], 2.0, &x).into();
+        assert!(has_list(&[crank.clone(), bar([3, 1]), cog], 2, 6));
+        let (bounds, period) = (Bounds::exactly(0.7), Period::Whole);
+        let angle = Orientation { points: [2, 0, 0, 1], bounds, period, side: 0.0 };
+        assert!(has_list(&[crank.clone(), bar([0, 1]), angle.into()], 2, 6));
+        assert!(has_list(&[crank, bar([0, 1]), bar([3, 1]), bar([4, 1])], 2, 6));
     }
 
     #[test]

@@ -68,9 +68,9 @@ impl Wheel {
             let way = ways[from] + ways[to];
             if way == 0.0 { 0.0 } else { way / (places[from].distance(places[to]) - way) }
         };
-        let line = if cog.follows_centres() { turned(0, 2) } else { 0.0 };
+        let line = if cog.mesh().follows_centres() { turned(0, 2) } else { 0.0 };
         let other = if self.is_second { turned(0, 1) } else { turned(2, 3) };
-        let own_turn = cog.most_turned(self.is_second, other, line);
+        let own_turn = cog.mesh().most_turned(self.is_second, other, line);
         // False for what is not a number.
         let is_told = [line, other, own_turn].iter().all(|turn| (0.0..MOST).contains(turn));
         let at = places[own - 1] + Vector::polar(self.radius, angle);
