@@ -15,13 +15,7 @@ if ! command -v openscad > /dev/null && [ "$(id -u)" = 0 ] && command -v apt-get
     { apt-get update && apt-get install --yes --no-install-recommends openscad; } > /dev/null 2>&1 || true
 fi
 
-cat > "$room/parts.link" << 'END'
-point A = (0, 0) frozen, B = (1, 0), C = (4, 3), D = (4, 0) frozen
-point P = (6, 0), Q = (9, 0), R = (6, 4)
-crank: motor A B radius 1 speed 1rev
-coupler: length B C = 3 * sqrt(2)
-rocker: length C D = 3
-plate: rigid P Q R
+cat tests/parts.link - > "$room/parts.link" << 'END'
 set dt 1/360; trace B, C; step 360
 export "parts.dxf" in mm scale 10 width 12 hole 4 kerf 0.2
 export "parts.svg" in mm scale 10 width 12 hole 4 kerf 0.2

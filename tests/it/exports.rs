@@ -8,14 +8,7 @@ use linkwork::{Answer, Session};
 use crate::support::compare::{check_golden, golden};
 
 /// A four-bar with a plate: rods of 10, 40 and 30, a right triangle of 30 and 40.
-const PARTS: &str = "
-    point A = (0, 0) frozen, B = (1, 0), C = (4, 3), D = (4, 0) frozen
-    point P = (6, 0), Q = (9, 0), R = (6, 4)
-    crank: motor A B radius 1 speed 1rev
-    coupler: length B C = 3 * sqrt(2)
-    rocker: length C D = 3
-    plate: rigid P Q R
-";
+const PARTS: &str = include_str!("../parts.link");
 
 /// What a text writes under a name.
 fn written(text: &str, name: &str) -> String {
