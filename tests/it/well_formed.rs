@@ -5,6 +5,7 @@ use linkwork::session::Session;
 use linkwork::world::World;
 use proptest::prelude::*;
 
+use crate::support::draws::draws;
 use crate::support::talk::Talking;
 
 /// What XML cannot hold, what it takes for its own, and what a terminal would obey.
@@ -57,6 +58,8 @@ fn odd_texts_stand_in_pictures() {
 }
 
 proptest! {
+    #![proptest_config(draws(256))]
+
     #[test]
     fn any_text_stands_in_pictures(text in "\\PC{0,20}|(?s:.{0,20})") {
         draw(&text);

@@ -3,6 +3,7 @@
 
 use super::random_scene::{after, edit, scene};
 use super::random_session::{SCENE, statements};
+use crate::support::draws::draws;
 use crate::support::fresh::flaws;
 use crate::support::talk::Talking;
 use linkwork::diag::Diagnostic;
@@ -64,7 +65,7 @@ fn roughly_then_exactly(statements: Vec<String>) -> Vec<String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
+    #![proptest_config(draws(60))]
 
     #[test]
     fn what_is_said_to_be_solved_is_so_in_random_scenes(

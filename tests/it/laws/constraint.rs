@@ -1,22 +1,13 @@
 //! What every kind of constraint promises, held against random scenes of one generator.
 
 use super::random_constraint::{N_POINTS, Scene, Similarity, largest, rows, scenes};
+use crate::support::draws::draws;
 use linkwork::constraint::{
     Activity, Carried, Constraint, ConstraintKind, Field, Jet, Kind, Point, PointIdx, Quantity,
     Real, Row, Vec2, Vector,
 };
 use proptest::prelude::*;
-use proptest::test_runner::{RngSeed, TestCaseError};
-
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 4000,
-        rng_seed: RngSeed::Fixed(0x006c_696e_6b77_6f72),
-        failure_persistence: None,
-        max_global_rejects: 200_000,
-        ..ProptestConfig::default()
-    }
-}
+use proptest::test_runner::TestCaseError;
 
 /// The displacements a correction asks for, summed at each point.
 fn correction(c: &Constraint, x: &[Point], w: &[f64]) -> Vec<Vector> {
@@ -60,7 +51,7 @@ fn can_move(c: &Constraint, x: &[Point], w: &[f64]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(ProptestConfig { max_global_rejects: 200_000, ..draws(4000) })]
 
     /// The postcondition of section 2: `f(x + d) = 0`, and frozen points stay.
     #[test]

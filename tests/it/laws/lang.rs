@@ -5,10 +5,11 @@ use linkwork::lang::ast::Statement;
 use linkwork::lang::{catalogue, format, is_incomplete, parse};
 use proptest::prelude::*;
 
+use crate::support::draws::draws;
 use crate::support::trees::statement;
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(600) })]
+    #![proptest_config(draws(600))]
 
     #[test]
     fn what_is_printed_reads_back(statement in statement()) {

@@ -3,6 +3,7 @@
 
 use super::random_session::{SCENE, statement};
 use crate::support::compare::check_same;
+use crate::support::draws::draws;
 use crate::support::talk::Talking;
 use linkwork::constraint::Point;
 use linkwork::session::{Flow, Ongoing};
@@ -103,13 +104,8 @@ fn is_as_its_statement(deeds: &[Deed]) {
     }
 }
 
-fn config() -> ProptestConfig {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24);
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(draws(24))]
 
     #[test]
     fn what_a_hand_did_is_what_its_statement_does(deeds in prop::collection::vec(deed(), 1..12)) {

@@ -3,6 +3,7 @@
 
 use super::random_session::{SCENE, statements};
 use crate::support::compare::check_same;
+use crate::support::draws::draws;
 use crate::support::talk::Talking;
 use proptest::prelude::*;
 
@@ -132,18 +133,6 @@ fn leaves_no_trace(statements: &[String], failing: &[String]) {
     }
 }
 
-/// As many cases as a test run has time for; `PROPTEST_CASES` asks for more.
-fn config() -> ProptestConfig {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24);
-    let failure_persistence = None;
-    ProptestConfig {
-        cases,
-        failure_persistence,
-        max_shrink_iters: 2_000,
-        ..ProptestConfig::default()
-    }
-}
-
 #[test]
 fn what_was_at_rest_when_it_was_saved_is_not_solved_again() {
     let mut talking = Talking::after(
@@ -164,7 +153,7 @@ fn what_was_at_rest_when_it_was_saved_is_not_solved_again() {
 }
 
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(ProptestConfig { max_shrink_iters: 2_000, ..draws(24) })]
 
     #[test]
     fn undo_takes_back_and_redo_brings_back_to_the_bit(statements in statements(16)) {

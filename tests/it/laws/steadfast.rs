@@ -3,6 +3,7 @@
 
 use super::random_command::session;
 use crate::support::compare::check_same;
+use crate::support::draws::draws;
 use crate::support::fresh::flaws;
 use crate::support::talk::Talking;
 use linkwork::session::Flow;
@@ -158,7 +159,7 @@ pub fn hold_out(beginning: &[String], statements: &[String], held: Held) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+    #![proptest_config(draws(24))]
 
     #[test]
     fn nothing_that_is_typed_harms((beginning, statements) in session(12)) {

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::support::draws::draws;
 use crate::support::fresh::violation;
 use crate::support::talk::Talking;
 use proptest::prelude::*;
@@ -46,7 +47,7 @@ fn pair(ratio: &str, speed: &str, dt: &str) -> Talking {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
+    #![proptest_config(draws(40))]
 
     #[test]
     fn wheels_turn_by_the_ratio_of_each_frame(

@@ -9,6 +9,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 
 use crate::laws::random_session::{SCENE, statement};
+use crate::support::draws::draws;
 
 /// A page that follows, message by message.
 #[derive(Default)]
@@ -243,13 +244,8 @@ fn follows(texts: &[String]) {
     }
 }
 
-fn config() -> ProptestConfig {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(16);
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(draws(16))]
 
     #[test]
     fn who_follows_knows_what_who_comes_is_told(texts in prop::collection::vec(statement(), 1..14)) {

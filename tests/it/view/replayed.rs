@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use crate::laws::random_session::{SCENE, statement};
 use crate::support::compare::check_same;
+use crate::support::draws::draws;
 
 const PAGES: u32 = 2;
 
@@ -155,13 +156,8 @@ fn is_as_its_journal(deeds: &[Deed]) {
     check_same(&theatre.session.to_script(), &again.to_script(), &format!("{journal:#?}"));
 }
 
-fn config() -> ProptestConfig {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24);
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(draws(24))]
 
     #[test]
     fn what_pages_did_is_what_the_journal_says(deeds in prop::collection::vec(deed(), 1..60)) {
