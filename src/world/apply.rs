@@ -4,7 +4,7 @@ use super::batch::{Batch, BatchRecords};
 use super::motion::whole_state;
 use super::{
     ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, Parameter, ParameterId, PointId,
-    PointRecord, Record, World,
+    PointRecord, Record, Refreeze, World,
 };
 use crate::constraint::Constraint;
 
@@ -26,10 +26,18 @@ impl World {
             Edit::Freeze(id, frozen) => {
                 self.touched.points.push(id);
                 let was = std::mem::replace(&mut self.points.is_frozen[id.idx()], frozen);
-                if was != frozen {
-                    self.rebind_measures(id);
+                let bound = if was == frozen { Vec::new() } else { self.rebind_measures(id) };
+                if bound.is_empty() {
+                    return Edit::Freeze(id, was);
                 }
-                Edit::Freeze(id, was)
+                Edit::Refreeze(Box::new(Refreeze { point: id, is_frozen: was, bound }))
+            }
+            Edit::Refreeze(mut it) => {
+                let Refreeze { point, is_frozen, bound } = &mut *it;
+                self.touched.points.push(*point);
+                std::mem::swap(&mut self.points.is_frozen[point.idx()], is_frozen);
+                bound.iter_mut().for_each(|(id, record)| self.swap_bound(*id, record));
+                Edit::Refreeze(it)
             }
             Edit::Weight(id, weight) => {
                 self.touched.points.push(id);

@@ -64,10 +64,12 @@ impl World {
         }
     }
 
-    /// Binds anew what measures a point, directly or through others, after it was frozen or thawed.
-    pub(super) fn rebind_measures(&mut self, point: PointId) {
+    /// Binds anew what measures a point, directly or through others, after it was frozen or thawed;
+    /// gives that as it was bound before.
+    pub(super) fn rebind_measures(&mut self, point: PointId) -> Vec<(ConstraintId, Record)> {
+        let mut changed = Vec::new();
         if !self.dependencies.has_measures() {
-            return;
+            return changed;
         }
         let users = self.point_users.of(point, &self.constraints, &self.parameters, &self.measures);
         let (_, constraints) = self.affected(users);
@@ -83,11 +85,20 @@ impl World {
             if measured(&record.constraint) != before {
                 // What has no value now says so where it is evaluated next.
                 let _ = record.drive(&Here::new(self, None));
-                self.touched.constraints.push(id);
-                self.dependencies.note_switch();
-                self.note_constraint(id);
-                self.constraints.swap(id.idx(), Some(record));
+                self.swap_bound(id, &mut record);
+                changed.push((id, record));
             }
+        }
+        changed
+    }
+
+    /// Puts a constraint in the place of the same one that was bound otherwise.
+    pub(super) fn swap_bound(&mut self, id: ConstraintId, record: &mut Record) {
+        self.touched.constraints.push(id);
+        self.dependencies.note_switch();
+        self.note_constraint(id);
+        if let Some(now) = self.constraints.get_mut(id.idx()) {
+            std::mem::swap(now, record);
         }
     }
 

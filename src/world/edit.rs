@@ -19,6 +19,8 @@ pub enum Edit {
     Move(PointId, Point),
     /// Freezes a point, or thaws it.
     Freeze(PointId, bool),
+    /// The same, with the constraints that measure the point as they were bound then.
+    Refreeze(Box<Refreeze>),
     /// Sets how strongly a point resists being moved.
     Weight(PointId, f64),
     /// Makes a constraint, changes it, or deletes it.
@@ -51,12 +53,25 @@ pub enum Edit {
     Motion(Box<Motion>),
 }
 
+/// Whether a point is frozen, and how constraints that measure it are bound then: what they are given
+/// from outside is as old as the frame that gave it.
+#[derive(Debug, Clone)]
+pub struct Refreeze {
+    /// The point.
+    pub point: PointId,
+    /// Whether it is frozen.
+    pub is_frozen: bool,
+    /// The constraints as they are bound.
+    pub bound: Vec<(ConstraintId, Record)>,
+}
+
 impl Edit {
     /// Whether it changes what there is, and not only where it is, when, or how it is shown.
     pub(super) const fn is_structural(&self) -> bool {
         match self {
             Self::Point(..)
             | Self::Freeze(..)
+            | Self::Refreeze(_)
             | Self::Weight(..)
             | Self::Constraint(..)
             | Self::Switch(..)
@@ -82,6 +97,10 @@ impl Edit {
     pub fn n_bytes(&self) -> usize {
         match self {
             Self::Point(_, Some(record)) => size_of_val(&**record),
+            Self::Refreeze(it) => {
+                let records = it.bound.iter().map(|(_, record)| record.n_bytes());
+                size_of_val(&**it) + records.sum::<usize>()
+            }
             Self::Constraint(_, Some(record)) => record.n_bytes(),
             Self::RestoreBatch(records) => records.n_bytes(),
             Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),

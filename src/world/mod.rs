@@ -57,7 +57,7 @@ pub(crate) use arithmetic::{call, operate};
 pub use batch::{Batch, BatchRecords};
 pub use clock::Clock;
 pub(crate) use driving::Driving;
-pub use edit::Edit;
+pub use edit::{Edit, Refreeze};
 #[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};

@@ -10,6 +10,12 @@ impl World {
             Edit::Move(id, at) => same_place(&self.points.at(*id), at),
             Edit::Start(id, at) => same_place(&self.points.start(*id), at),
             Edit::Freeze(id, is_frozen) => self.points.is_frozen(*id) == *is_frozen,
+            Edit::Refreeze(it) => {
+                let is_bound = |(id, then): &(_, _)| {
+                    self.constraint(*id).is_some_and(|now| is_same_record(now, then))
+                };
+                self.points.is_frozen(it.point) == it.is_frozen && it.bound.iter().all(is_bound)
+            }
             Edit::Weight(id, weight) => self.points.weight(*id) == *weight,
             Edit::Switch(id, is_on) => self.constraint(*id).is_some_and(|r| r.is_on == *is_on),
             Edit::Constraint(id, Some(then)) => {

@@ -66,6 +66,8 @@ pub enum Part {
     Position(PointId),
     /// Whether a point is frozen.
     Freedom(PointId),
+    /// How a constraint is bound to what it measures.
+    Binding(ConstraintId),
     /// The weight of a point.
     Weight(PointId),
     /// A constraint that stays in being.

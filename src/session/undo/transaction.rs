@@ -126,6 +126,15 @@ impl History {
             }
             Edit::Move(id, _) => Some(Part::Position(*id)),
             Edit::Freeze(id, _) => Some(Part::Freedom(*id)),
+            Edit::Refreeze(it) => {
+                let parts = it.bound.iter().map(|(id, _)| Part::Binding(*id));
+                let parts = parts.chain([Part::Freedom(it.point)]);
+                // Each is to be covered: another constraint may be bound otherwise this time.
+                if parts.filter(|part| self.journal.covered.insert(*part)).count() > 0 {
+                    self.journal.current.push(Change::World(inverse));
+                }
+                return;
+            }
             Edit::Weight(id, _) => Some(Part::Weight(*id)),
             Edit::Clock(_) => Some(Part::Clock),
             Edit::Switch(id, _) => Some(Part::Switch(*id)),
