@@ -364,6 +364,7 @@ fn converse_in_objects(
     let answer =
         |piece: &str, transcript: &mut Transcript, session: &mut Session, objects: &mut _| {
             if is_request(piece) {
+                transcript.skip(piece);
                 answer_request(piece, session, objects)
             } else {
                 transcript.enter(piece, session, objects)

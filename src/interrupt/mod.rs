@@ -6,7 +6,8 @@
 //! left half made without each function between having to say so. Where nobody listens, and on other
 //! threads than the one that does, nothing is asked and nothing unwinds.
 //!
-//! What changes a world must not tick on its way: it is whole or not begun.
+//! Who ticks while a world changes leaves it half changed: who catches that puts the world back, and lets
+//! its solver begin anew.
 
 use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

@@ -294,12 +294,17 @@ impl Session {
             self.input.reached = place.unwrap_or(self.input.reached);
             let statement = statement.map_err(|problem| self.advise(problem))?;
             let flow = self.execute(&statement, host)?;
-            self.tell_done(statement.span, true, host);
+            self.tell_done(statement.span, self.has_stayed(flow), host);
             if flow != Flow::On {
                 return Ok(flow);
             }
         }
         Ok(Flow::On)
+    }
+
+    /// Whether what the last statement did stays: what is stopped may be taken back.
+    const fn has_stayed(&self, flow: Flow) -> bool {
+        !matches!(flow, Flow::Stopped) || self.input.stopped_after.is_some()
     }
 
     /// Tells the host that a statement has ended.
@@ -336,6 +341,9 @@ impl Session {
 
     /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
     fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
+        if !self.has_stayed(flow) {
+            return;
+        }
         // Who asks for a turn has it counted from then on.
         let leaves_a_mark = transcript::leaves_a_mark(&statement.command) || self.input.is_change;
         let done = self.input.n_done.and_then(|n| transcript::what_was_done(&statement.command, n));
@@ -350,8 +358,6 @@ impl Session {
         }
         let text = self.input.sources.slice(statement.span);
         match (flow, self.input.stopped_after) {
-            // It was taken back.
-            (Flow::Stopped, None) => {}
             _ if is_unrepeatable => {
                 // Who stops once more must not lose what a stopped command did.
                 host.forget_stop();

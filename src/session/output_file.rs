@@ -210,7 +210,7 @@ impl Execution<'_> {
                 Ok(())
             }
             Format::Gif => {
-                let is_stopped = || self.host.is_interrupted() && !was_stopped;
+                let is_stopped = || self.is_asked_to_stop() && !was_stopped;
                 // Drawn before it is written: the file needs the host, and so does the question.
                 let mut bytes = Vec::new();
                 if !recorder.write_gif(&mut bytes, options, is_stopped).map_err(failed)? {

@@ -65,6 +65,11 @@ pub struct Transcript {
 }
 
 impl Transcript {
+    /// Lines went by that are told by others.
+    pub fn skip(&mut self, piece: &str) {
+        self.n_lines += piece.lines().count().max(1);
+    }
+
     /// A text that errors call `name`.
     pub const fn new(name: &'static str) -> Self {
         Self { name, n_lines: 0, is_conversation: false, was_solved: true }
@@ -80,7 +85,7 @@ impl Transcript {
     pub fn enter(&mut self, piece: &str, session: &mut Session, host: &mut dyn Host) -> Outcome {
         let folder = Some(PathBuf::new());
         let source = session.add_piece(self.name, piece, self.n_lines + 1, folder);
-        self.n_lines += piece.lines().count().max(1);
+        self.skip(piece);
         let mut outcome = Outcome { flow: Flow::On, failure: None };
         let mut left_out = 0;
         let mut statements = parse(source, piece);
@@ -111,7 +116,7 @@ impl Transcript {
                     session.tell_done(span, true, host);
                 }
                 Ok(flow) => {
-                    session.tell_done(span, true, host);
+                    session.tell_done(span, session.has_stayed(flow), host);
                     outcome.flow = flow;
                     break;
                 }

@@ -20,16 +20,17 @@ impl Execution<'_> {
             let problem = Diagnostic::error(errors::NO_RANGE, why.message).at(name.span, why.label);
             why.help.into_iter().fold(problem, Diagnostic::help)
         })?;
-        let text = match &source {
-            Source::Values(id, ..)
-                if !self.state.world.constraint(*id).is_some_and(|r| r.is_on) =>
-            {
-                format!("{} is switched off", self.state.world.name_of(entity))
-            }
-            source => self.state.limits_of(entity, source),
+        let is_off = matches!(&source, Source::Values(id, ..)
+            if !self.state.world.constraint(*id).is_some_and(|r| r.is_on));
+        let is_sought = !is_off && self.state.measured().is_none();
+        let found = if is_sought { self.state.range_of(&source) } else { None };
+        let text = if is_off {
+            format!("{} is switched off", self.state.world.name_of(entity))
+        } else {
+            self.state.limits_of(entity, found.clone())
         };
         if self.host.takes_findings() {
-            let found = self.state.limits_found(entity, &source, text);
+            let found = self.state.limits_found(entity, found, text);
             self.host.find_out(&Finding::Limits(&found));
         } else {
             self.host.print(&text);
@@ -81,8 +82,12 @@ impl State {
     }
 
     /// The range of a driver as data, and what is said of it.
-    fn limits_found(&self, entity: Entity, source: &Source, text: String) -> Limits {
-        let found = if self.measured().is_some() { None } else { self.range_of(source) };
+    fn limits_found(
+        &self,
+        entity: Entity,
+        found: Option<(DriverRange, bool)>,
+        text: String,
+    ) -> Limits {
         let (range, is_angle) = found.unzip();
         let ids = Parts::of(&self.world).ids;
         let stop = |end: RangeEnd| match end {
@@ -99,7 +104,7 @@ impl State {
         Limits { driver, is_angle: is_angle.unwrap_or(false), range, stops, text }
     }
 
-    fn limits_of(&self, entity: Entity, source: &Source) -> String {
+    fn limits_of(&self, entity: Entity, found: Option<(DriverRange, bool)>) -> String {
         let name = self.world.name_of(entity);
         let is_motor = match entity {
             Entity::Constraint(id) => {
@@ -112,8 +117,7 @@ impl State {
         if let Some(measured) = self.measured() {
             return cannot(format!("{measured} is measured on the pose"));
         }
-        let Some((DriverRange { now, reach, change_points }, is_angle)) = self.range_of(source)
-        else {
+        let Some((DriverRange { now, reach, change_points }, is_angle)) = found else {
             return cannot("it drives nothing now".to_owned());
         };
         let manner = Manner { verb, is_angle, n_decimals: n_decimals(now, &reach) };

@@ -85,7 +85,7 @@ impl Execution<'_> {
                     format!("there is a path `{text}` already"),
                 )
                 .at(label.span, "this name is taken")
-                .help(format!("`untrace \"{text}\"` removes it")));
+                .help(format!("`untrace {label}` removes it")));
             }
             self.trace_point(point, every);
             return Ok(());

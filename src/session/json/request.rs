@@ -33,7 +33,9 @@ pub fn answer_request(line: &str, session: &mut Session, host: &mut Objects) -> 
     let outcome = match (request["run"].as_str(), request["get"].as_str()) {
         (Some(text), None) => {
             let source = session.add_source("<request>", text, Some(PathBuf::new()));
-            session.run_text(source, host)
+            let outcome = session.run_text(source, host);
+            session.keep_whole(host);
+            outcome
         }
         (None, Some("traces")) => say(&objects::traces(session.world()), host),
         (None, Some("measures")) => say(&objects::measures(session.world()), host),

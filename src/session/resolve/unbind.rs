@@ -20,6 +20,10 @@ use crate::world::{
 /// The place of what no text says.
 pub(crate) const NOWHERE: Span = Span { source: SourceId(u32::MAX), start: 0, end: 0 };
 
+/// Expressions that are asked for the unit of one: parameters may follow each other for long, and two
+/// may follow the same.
+const MOST_ASKED: u32 = 500;
+
 pub(crate) fn ident(text: &str) -> Ident {
     Ident { text: Arc::from(text), span: NOWHERE }
 }
@@ -264,14 +268,24 @@ impl<'a> Unbind<'a> {
 
     /// The unit that the value of a formula is best said in.
     pub(crate) fn unit(&self, formula: &Formula) -> Unit {
+        self.unit_within(formula, &mut { MOST_ASKED })
+    }
+
+    /// The same, if it is found by asking no more than so many others.
+    fn unit_within(&self, formula: &Formula, left: &mut u32) -> Unit {
+        let Some(less) = left.checked_sub(1) else { return Unit::None };
+        *left = less;
         match formula.node() {
             Node::Number(_, unit) => *unit,
-            Node::Negate(a) => self.unit(a),
-            Node::Binary(op, a, b) => op.unit(self.unit(a), self.unit(b)),
-            Node::Parameter(id) => self
-                .world
-                .parameter(*id)
-                .map_or(Unit::None, |parameter| self.unit(&parameter.formula)),
+            Node::Negate(a) => self.unit_within(a, left),
+            Node::Binary(op, a, b) => {
+                let a = self.unit_within(a, left);
+                op.unit(a, self.unit_within(b, left))
+            }
+            Node::Parameter(id) => {
+                let parameter = self.world.parameter(*id);
+                parameter.map_or(Unit::None, |it| self.unit_within(&it.formula, left))
+            }
             _ => Unit::None,
         }
     }

@@ -35,7 +35,7 @@ pub struct Along<'a> {
     pub n: u64,
     /// How the extremes of measures are found.
     pub extremes: Extremes,
-    /// Whether it goes on after a frame.
+    /// Whether it goes on, asked after each frame, or after those that were found side by side.
     pub goes_on: &'a dyn Fn() -> bool,
 }
 
@@ -66,8 +66,8 @@ struct Kept {
 
 impl Solver {
     /// Lets frames pass as long as each goes as most do: motors turn, and the closed
-    /// forms of what they drive give the pose. Ends before the first that does not, and after the
-    /// first after which `goes_on` says no. What comes out is what frame by frame would.
+    /// forms of what they drive give the pose. Ends before the first that does not, and where
+    /// `goes_on` says no. What comes out is what frame by frame would.
     ///
     /// # Errors
     /// Where a measure has no value in a frame.
@@ -390,7 +390,7 @@ impl Rider {
         let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
         lanes.accept(n, form, island);
         if n > 0 {
-            // What is carried on of a pose here does not depend on those before.
+            // Nothing counts turns here, and the side of an angle is that of the last pose.
             island.accept_pose();
         }
         if let Some(last) = n.checked_sub(1) {

@@ -310,6 +310,10 @@ fn compared(left: &str, sign: &str, right: &str) -> Option<String> {
 fn without_parentheses(statement: &str, word: &str) -> Option<String> {
     let inside = statement.strip_prefix(word)?.trim_start().strip_prefix('(')?;
     let (inside, behind) = inside.split_once(')')?;
+    if inside.contains('(') {
+        // Each pair would be tried within the trial of the one around it.
+        return None;
+    }
     let blanks = inside.replace(',', " ");
     let mut reworded = [inside, &blanks].into_iter().map(|inside| {
         let words = format!("{word} {inside} {behind}");
