@@ -85,7 +85,7 @@ use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources, Span};
 use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
-use crate::solve::present;
+use crate::solve::{FrameCounts, present};
 use crate::world::{Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
@@ -162,6 +162,12 @@ impl Session {
         // Nobody holds a place in what had a value.
         self.input.sources.forget_last();
         Ok(value)
+    }
+
+    /// How the frames that passed were found.
+    #[doc(hidden)]
+    pub fn frame_counts(&self) -> FrameCounts {
+        self.state.solver.frame_counts()
     }
 
     /// Where a point is.

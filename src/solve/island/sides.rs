@@ -33,8 +33,9 @@ impl Island {
             })
         });
         let blocks = &self.plan.blocks;
-        if self.are_sides_old && self.inputs.is_empty() {
-            // It is where the last frame left it: what was put off is worked out here.
+        if self.are_sides_old && self.inputs.is_empty() && self.plan.is_complete() {
+            // It is where the last frame left it: what was put off is worked out here. Of parts that are
+            // solved as a whole that takes more than to do so when it is asked for.
             let blocks = (0..blocks.len()).map(|k| self.side_of_block(k)).collect();
             return KnownSides { blocks, are_old: false, watched };
         }
