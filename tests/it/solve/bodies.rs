@@ -9,7 +9,7 @@ use proptest::prelude::*;
 /// A crank and a rocker, between which a coupler is missing.
 const ENDS: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
     motor A B radius 1 speed 1rev
-    length C D = 3
+    length C D
     set dt 1/72";
 
 /// A truss from B to C with both diagonals in each field, and no bar that joins its ends.
@@ -76,15 +76,16 @@ fn bodies_hang_on_each_other_and_on_lines() {
         length D R; length D S; length R S; length R C; length S C
         point E = (6, 2), F = (7, 0) frozen
         length R E = 2.5; length F E = 2.5";
-    let sliding = "point L = (-9, 3) frozen, K = (9, 3) frozen, P = (2, 1), Q = (2.5, 2)
+    let sliding = "point L = (-9, 1.5) frozen, K = (9, 1.5) frozen, P = (2, 1), Q = (2, 2)
         length B P; length P Q; length B Q; length P C; length Q C
         glider C on L K unbounded";
     let turned = "point P = (2, 0), Q = (2.5, 1), R = (3.5, 1)
         length B P; length P Q; length B Q; length P R; length Q R
         orientation B P, A D = 20deg * sin(time * 1rev)";
-    let ends = ENDS.replace("length C D = 3", "");
+    let ends = ENDS.replace("length C D", "");
     let hinged = format!("{}\n{hinged}", ends.replace("C = (3, 3)", "C = (3, 2.6)"));
-    for scene in [hinged, format!("{ends}\n{sliding}"), format!("{ends}\n{turned}")] {
+    let sliding = format!("{}\n{sliding}", ends.replace("C = (3, 3)", "C = (4, 1.5)"));
+    for scene in [hinged, sliding, format!("{ends}\n{turned}")] {
         check_closed(&scene, 71);
         check_same("hanging", &scene, 60);
     }
@@ -157,49 +158,50 @@ fn a_body_that_is_mirrored_by_hand_goes_on_mirrored() {
     check_same("mirrored", &mirrored, 30);
 }
 
+/// A joint of a field of a truss: how far it is off the strip, and whether a diagonal ends there.
+type Joint = (f64, f64, bool);
+
+/// The statements of a truss with these fields from B to C.
+fn truss_of(fields: &[(Joint, Joint)], is_rigid: bool, hung: usize) -> String {
+    let n = fields.len();
+    let mut lines = Vec::new();
+    for (k, ((x, y, _), (v, w, _))) in fields.iter().enumerate() {
+        let share = (k as f64 + 1.0) / (n as f64 + 1.0);
+        let (at_x, at_y) = (1.0 + 2.0 * share, 3.0 * share);
+        let (t, u) = ((at_x - 0.6 + x, at_y + 0.4 + y), (at_x + 0.6 + v, at_y - 0.4 + w));
+        lines.push(format!("point T{k} = {t:?}, U{k} = {u:?}"));
+    }
+    lines.push("length B T0; length B U0; length T0 U0".to_owned());
+    for (j, ((.., one), (.., other))) in fields[1..].iter().enumerate() {
+        let k = j + 1;
+        lines.push(format!("length T{j} T{k}; length U{j} U{k}; length T{k} U{k}"));
+        // One diagonal at least.
+        let rising = (*one || !other).then(|| format!("length T{j} U{k}"));
+        let falling = other.then(|| format!("length U{j} T{k}"));
+        lines.extend(rising.into_iter().chain(falling));
+    }
+    let end = n - 1;
+    lines.push(if is_rigid {
+        format!("rigid T{end} U{end} C")
+    } else {
+        format!("length T{end} C; length U{end} C")
+    });
+    let on_it = [
+        format!("point H = (2, 9); hinge H on T{end} C at 0.4"),
+        "point H = (9, 9), G = (9, 2) frozen; length U0 H; length G H".to_owned(),
+        "point H = (2, 5), I = (3, 5); length T0 H; length C H; length H I; length C I".to_owned(),
+    ];
+    lines.extend(on_it.get(hung).cloned());
+    lines.join("\n")
+}
+
 /// A truss of some fields from B to C, its joints somewhere near a strip between them; which of the bars
 /// more than it takes are there, and whether some of it is `rigid`.
 fn truss() -> impl Strategy<Value = String> {
     let joint = || (-0.3..0.3, -0.3..0.3, any::<bool>());
-    (prop::collection::vec((joint(), joint()), 1..5), any::<bool>(), 0..4_u32).prop_map(
-        |(fields, is_rigid, hung)| {
-            let n = fields.len();
-            let mut text = String::new();
-            for (k, ((x, y, _), (v, w, _))) in fields.iter().enumerate() {
-                let share = (k as f64 + 1.0) / (n as f64 + 1.0);
-                let (at_x, at_y) = (1.0 + 2.0 * share, 3.0 * share);
-                let (t, u) = ((at_x - 0.6 + x, at_y + 0.4 + y), (at_x + 0.6 + v, at_y - 0.4 + w));
-                text += &format!("point T{k} = {t:?}, U{k} = {u:?}\n");
-            }
-            text += "length B T0; length B U0; length T0 U0\n";
-            for k in 1..n {
-                let j = k - 1;
-                text += &format!("length T{j} T{k}; length U{j} U{k}; length T{k} U{k}\n");
-                let ((.., one), (.., other)) = fields[k];
-                // One diagonal at least.
-                if one || !other {
-                    text += &format!("length T{j} U{k}\n");
-                }
-                if other {
-                    text += &format!("length U{j} T{k}\n");
-                }
-            }
-            let end = n - 1;
-            text += &match is_rigid {
-                true => format!("rigid T{end} U{end} C\n"),
-                false => format!("length T{end} C; length U{end} C\n"),
-            };
-            // What hangs on it.
-            text += &match hung {
-                0 => format!("point H = (2, 9)\nhinge H on T{end} C at 0.4\n"),
-                1 => "point H = (9, 9), G = (9, 2) frozen\nlength U0 H; length G H\n".to_owned(),
-                2 => "point H = (2, 5), I = (3, 5)\nlength T0 H; length C H; length H I; length C I\n"
-                    .to_owned(),
-                _ => String::new(),
-            };
-            text
-        },
-    )
+    let fields = prop::collection::vec((joint(), joint()), 1..5);
+    (fields, any::<bool>(), 0..4_usize)
+        .prop_map(|(fields, is_rigid, hung)| truss_of(&fields, is_rigid, hung))
 }
 
 proptest! {
