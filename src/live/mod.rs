@@ -22,6 +22,7 @@ mod listener;
 mod live_session;
 mod message;
 mod pace;
+mod pieces;
 mod pose;
 mod receiving;
 mod request;

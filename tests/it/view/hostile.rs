@@ -238,6 +238,29 @@ fn what_was_written_through_a_link_of_the_user_is_given() {
 }
 
 #[test]
+fn a_text_in_pieces_has_an_end() {
+    let viewed = Viewed::with(SCENE, &["--limit", "source-bytes=1000"]);
+    let mut page = viewed.open();
+    let piece = |text: &str| json!({ "do": "exec", "text": text, "more": true });
+    page.say(&piece("point P = (0, 0)\n"));
+    page.say(&piece(&"#".repeat(990)));
+    // What follows is a piece of it still, however short it is.
+    page.say(&piece("\npoint Q = (0, 0)"));
+    let answer = page.exec("\npoint R = (0, 0)");
+    assert_eq!(answer["ok"], false);
+    assert!(
+        answer["said"][0]["text"].as_str().expect("a text").contains("source-bytes"),
+        "{answer}"
+    );
+    for name in ["P", "Q", "R"] {
+        assert_eq!(page.exec(&format!("print {name}"))["ok"], false, "{name} is not there");
+    }
+    // The next is another text.
+    page.say(&piece("print "));
+    assert_eq!(page.print("A"), ["(0, 0)"]);
+}
+
+#[test]
 fn a_page_may_stop_what_it_asked_for() {
     let viewed = Viewed::on(SCENE);
     let (mut page, mut other) = (viewed.open(), viewed.open());
