@@ -18,6 +18,7 @@ mod drawn;
 mod files;
 mod grip;
 mod hands;
+mod journal;
 mod listener;
 mod live_session;
 mod message;

@@ -261,6 +261,26 @@ fn a_text_in_pieces_has_an_end() {
 }
 
 #[test]
+fn long_statements_lock_nobody_out() {
+    let mut viewed = Viewed::on(SCENE);
+    let mut page = viewed.open();
+    for (k, n_bytes) in [1_500_000, 1_500_000, 1_500_000, 5_000_000, 10].into_iter().enumerate() {
+        let room = " ".repeat(n_bytes);
+        viewed.enter(&format!("for i in 1..1 {{ move C to ({k}, 0){room}}}"));
+        page.until(|message| message["journal"][0]["number"] == k);
+    }
+    let late = viewed.open();
+    let journal = late.last("journal").as_array().expect("a list");
+    assert!(late.last("journal").to_string().len() <= 4 << 20);
+    let texts: Vec<&str> = journal.iter().map(|it| it["text"].as_str().expect("a text")).collect();
+    // The last are there; of the one that is longer than all may be, its beginning.
+    let [.., cut, last] = &texts[..] else { panic!("{} statements", texts.len()) };
+    assert!(cut.starts_with("for i in 1..1 { move C to (3, 0) ") && cut.ends_with('…'));
+    assert_eq!(*last, format!("for i in 1..1 {{ move C to (4, 0){}}}", " ".repeat(10)));
+    assert_eq!(journal[0]["number"], 1);
+}
+
+#[test]
 fn a_page_may_stop_what_it_asked_for() {
     let viewed = Viewed::on(SCENE);
     let (mut page, mut other) = (viewed.open(), viewed.open());
