@@ -266,6 +266,11 @@ impl Session {
         self.input.quotas.set(quota, most);
     }
 
+    /// How much there may be of something.
+    pub const fn quota(&self, quota: Quota) -> u64 {
+        self.input.quotas.of(quota)
+    }
+
     /// Carries out one statement, whole or not at all.
     ///
     /// # Errors
