@@ -3,6 +3,7 @@
 use super::abreast::{Abreast, Places, Poses, put_each};
 use super::cluster::{self, Cluster};
 use super::found::larger;
+use super::length::{Length, Values, bar};
 use crate::constraint::{Constraint, Point, PointIdx, Vector};
 
 /// A body whose ends are this part of its size apart, or less, is not known by them.
@@ -11,6 +12,7 @@ const SHORT: f64 = 1e-3;
 /// Two points that are to keep their distance.
 pub(super) struct Bar {
     points: [PointIdx; 2],
+    length: Length,
     /// The square of the length, and half of one over the length.
     square: f64,
     half_inverse: f64,
@@ -18,8 +20,15 @@ pub(super) struct Bar {
 
 impl Bar {
     /// A bar of that length.
-    pub fn new(points: [PointIdx; 2], length: f64) -> Self {
-        Self { points, square: length * length, half_inverse: 0.5 / length }
+    pub fn new(points: [PointIdx; 2], length: Length) -> Self {
+        let now = length.now;
+        Self { points, length, square: now * now, half_inverse: 0.5 / now }
+    }
+
+    /// Takes in how long it is in this frame.
+    pub fn drive(&mut self, values: &Values) {
+        self.length.drive(values);
+        *self = Self::new(self.points, self.length);
     }
 
     /// Checks it in each frame.
@@ -97,10 +106,10 @@ impl Body {
             let constraint = &constraints[c as usize];
             let frame = match constraint {
                 Constraint::Rigid(rigid) => rigid.frame(),
-                _ => cluster::bar(constraint),
+                _ => bar(constraint),
             };
             let (ends, length) = frame?;
-            bars.push(Bar::new(ends, length));
+            bars.push(Bar::new(ends, Length::fixed(length)));
             if let Constraint::Rigid(rigid) = constraint {
                 plates.extend(rigid.others().map(|(p, zeta)| ([p, ends[0], ends[1]], zeta)));
             }

@@ -2,6 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
+use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -11,24 +12,58 @@ pub(super) struct Circles {
     pub to: PointIdx,
     /// The centres.
     from: [PointIdx; 2],
-    /// The squares of the radii.
-    squares: [f64; 2],
-    /// Half of one over each radius.
-    half_inverses: [f64; 2],
-    /// The distances of the centres at which the circles touch, from outside and from inside.
-    reach: [f64; 2],
-    /// Their squares.
-    reach_squares: [f64; 2],
-    /// Twice the product of the radii, which times the sine of the angle between them is [`area`].
-    scale: f64,
-    /// One over the square of that.
-    inverse_square: f64,
-    /// The square of [`area`] below which the pose is nearly singular.
-    least: f64,
+    /// What the radii are.
+    radii: [Length; 2],
+    /// The numbers that follow from them.
+    of_radii: Numbers,
     /// The distance of the centres at the last pose.
     apart: f64,
     /// On which side of the line from the first centre to the second the point is: 1 or -1.
     side: f64,
+}
+
+/// What follows from two radii, and from how much longer or shorter each was on its way.
+struct Numbers {
+    /// Their squares.
+    squares: [f64; 2],
+    /// Half of one over each.
+    half_inverses: [f64; 2],
+    /// The squares of the distances of the centres at which the circles touch, from outside and from inside.
+    reach_squares: [f64; 2],
+    /// The distances at which they touched nowhere on the way.
+    clear: [f64; 2],
+    /// Their squares.
+    clear_squares: [f64; 2],
+    /// Twice the product of the radii, at most: [`area_squared`] over its square is at least that of the
+    /// sine of the angle between them.
+    scale: f64,
+    /// One over the square of that at the end.
+    inverse_square: f64,
+    /// [`area_squared`] below which the pose is nearly singular.
+    least: f64,
+    /// How far the radii changed.
+    changed: f64,
+}
+
+impl Numbers {
+    fn new(radii: [Length; 2]) -> Self {
+        let [l, m] = radii.map(|radius| radius.now);
+        let changed = radii[0].changed + radii[1].changed;
+        let (reach, scale) = ([l + m, (l - m).abs()], 2.0 * l * m);
+        let clear = [reach[0] - changed, reach[1] + changed];
+        let longest = 2.0 * (l + radii[0].changed) * (m + radii[1].changed);
+        Self {
+            squares: [l * l, m * m],
+            half_inverses: [0.5 / l, 0.5 / m],
+            reach_squares: reach.map(|r| r * r),
+            clear,
+            clear_squares: clear.map(|r| r * r),
+            scale: longest,
+            inverse_square: 1.0 / (scale * scale),
+            least: (NEARLY_SINGULAR * longest) * (NEARLY_SINGULAR * longest),
+            changed,
+        }
+    }
 }
 
 /// Sixteen times the square of the area between the centres and the point.
@@ -39,24 +74,20 @@ fn area_squared([outer, inner]: [f64; 2], apart_squared: f64) -> f64 {
 
 impl Circles {
     /// A point at the distances `radii` from two others; none where one is no distance.
-    pub fn new(to: PointIdx, from: [PointIdx; 2], radii: [f64; 2]) -> Option<Self> {
-        let [l, m] = radii;
-        let scale = 2.0 * l * m;
-        let reach = [l + m, (l - m).abs()];
-        let is_sound = l > 0.0 && m > 0.0 && scale * scale > 0.0 && (scale * scale).is_finite();
-        is_sound.then(|| Self {
-            to,
-            from,
-            squares: radii.map(|r| r * r),
-            half_inverses: radii.map(|r| 0.5 / r),
-            reach,
-            reach_squares: reach.map(|r| r * r),
-            scale,
-            inverse_square: 1.0 / (scale * scale),
-            least: (NEARLY_SINGULAR * scale) * (NEARLY_SINGULAR * scale),
-            apart: 0.0,
-            side: 1.0,
-        })
+    pub fn new(to: PointIdx, from: [PointIdx; 2], radii: [Length; 2]) -> Option<Self> {
+        let of_radii = Numbers::new(radii);
+        let is_sound = radii.iter().all(Length::is_sound)
+            && of_radii.inverse_square > 0.0
+            && of_radii.inverse_square.is_finite();
+        is_sound.then_some(Self { to, from, radii, of_radii, apart: 0.0, side: 1.0 })
+    }
+
+    /// Takes in how long its radii are in this frame.
+    pub fn drive(&mut self, values: &Values) {
+        for radius in &mut self.radii {
+            radius.drive(values);
+        }
+        self.of_radii = Numbers::new(self.radii);
     }
 
     /// Looks at a pose that counts.
@@ -98,35 +129,35 @@ impl Meeting<2> for Circles {
         _: (Vector, f64),
     ) -> Met {
         let e = b - a;
+        let of = &self.of_radii;
         let apart_squared = e.norm_squared();
-        let squared = area_squared(self.reach_squares, apart_squared);
+        let squared = area_squared(of.reach_squares, apart_squared);
         let way = ways[0] + ways[1];
         // The distance changes by no more than the ways of both centres, there and back included.
         let middle = apart + before;
         let (near, far) = (0.5 * (middle - way), 0.5 * (middle + way));
-        let at_near = area_squared(self.reach_squares, near * near);
-        let at_far = area_squared(self.reach_squares, far * far);
+        let at_near = area_squared(of.clear_squares, near * near);
+        let at_far = area_squared(of.clear_squares, far * far);
         let least = if at_near < at_far { at_near } else { at_far };
-        let [outer, inner] = self.reach;
+        let [outer, inner] = of.clear;
         // False for what is not a number.
-        let is_proved =
-            (near > inner) & (far < outer) & (least > self.least) & (squared > self.least);
+        let is_proved = (near > inner) & (far < outer) & (least > of.least) & (squared > of.least);
         let half = 0.5 / apart_squared;
-        let along = 0.5 + (self.squares[0] - self.squares[1]) * half;
+        let along = 0.5 + (of.squares[0] - of.squares[1]) * half;
         let across = self.side * squared.sqrt() * half;
         let v = e * along + e.perp() * across;
         let at = a + v;
         let w = at - b;
         let off = larger(
-            (((at - a).norm_squared() - self.squares[0]) * self.half_inverses[0]).abs(),
-            (w.norm_squared() - self.squares[1]) * self.half_inverses[1],
+            (((at - a).norm_squared() - of.squares[0]) * of.half_inverses[0]).abs(),
+            (w.norm_squared() - of.squares[1]) * of.half_inverses[1],
         );
         Met {
             at,
-            // Its velocity is that of the centres over the sine, at most.
-            way: way * self.scale / least.sqrt(),
+            // Its velocity is that of the centres and radii over the sine, at most.
+            way: (way + of.changed) * of.scale / least.sqrt(),
             off: if is_proved { off } else { f64::NAN },
-            side_squared: squared * self.inverse_square,
+            side_squared: squared * of.inverse_square,
         }
     }
 }

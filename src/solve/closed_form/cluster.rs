@@ -4,6 +4,7 @@
 //! by bars is part of it, and so is a `rigid` constraint two of whose points are. What the shape is
 //! follows from the lengths, but for the side on which each point is of the two that it hangs on.
 
+use super::length::bar;
 use crate::constraint::{Constraint, ConstraintKind as _, Point, PointIdx, Rigid, Vector};
 use crate::solve::frame::decomposition::Part;
 
@@ -236,18 +237,6 @@ impl<'a> Net<'a> {
                 }
             }
         }
-    }
-}
-
-/// The ends and the length of a bar.
-pub(super) fn bar(constraint: &Constraint) -> Option<([PointIdx; 2], f64)> {
-    match constraint {
-        Constraint::Length(bar) => {
-            let [a, b] = bar.points;
-            let is_bar = bar.bounds.is_equality() && bar.bounds.lo > 0.0 && a != b;
-            is_bar.then_some((bar.points, bar.bounds.lo))
-        }
-        _ => None,
     }
 }
 

@@ -1,9 +1,9 @@
 //! From the constraints of an island to its list of steps.
 
 use super::abreast::Abreast;
-use super::cluster::bar;
+use super::length::{Length, bar};
 use super::{
-    Bar, CircleLine, Circles, ClosedForm, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
+    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
 use crate::solve::frame::decomposition::Plan;
@@ -64,6 +64,9 @@ impl ClosedForm {
             extent: 0.0,
             counts_turns: false,
             knows_pose: false,
+            knows_lengths: false,
+            held: Vec::new(),
+            is_outdated: false,
         };
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
         let n_driven = constraints.iter().filter(is_driver).count() as u32;
@@ -77,15 +80,48 @@ impl ClosedForm {
         }
         let Compiler { mut form, n_driven, .. } = compiler;
         form.one = Abreast::new(x.len(), n_driven as usize);
+        form.held.sort_unstable();
         Some(form)
     }
 
-    /// Whether steps ask a constraint for its values in each frame, so that these may change.
+    /// Whether steps may ask a constraint for its values in each frame, so that these may change.
     pub fn asks(constraint: &Constraint) -> bool {
-        matches!(
-            constraint,
-            Constraint::Motor(_) | Constraint::Coordinate(_) | Constraint::Orientation(_)
-        )
+        match constraint {
+            Constraint::Motor(_) | Constraint::Coordinate(_) | Constraint::Orientation(_) => true,
+            Constraint::Length(bar) => bar.bounds.is_equality(),
+            _ => false,
+        }
+    }
+
+    /// Whether the steps of this list ask one of these.
+    pub fn takes(&self, c: u32) -> bool {
+        self.held.binary_search(&c).is_err()
+    }
+
+    /// Values of a constraint changed.
+    pub fn note_values(&mut self, c: u32) {
+        self.knows_lengths = false;
+        self.is_outdated |= !self.takes(c);
+    }
+
+    /// Whether a step holds what is no more.
+    pub fn is_outdated(&self) -> bool {
+        self.is_outdated
+    }
+}
+
+impl Compiled {
+    /// Values of the constraint of number `c` change, from the first of these to the second.
+    pub fn note_values(&mut self, c: u32, [before, now]: [&Constraint; 2]) {
+        let is_bar = |constraint: &Constraint| {
+            !matches!(constraint, Constraint::Length(_)) || bar(constraint).is_some()
+        };
+        match self {
+            // What is no length has no list.
+            _ if !ClosedForm::asks(now) || is_bar(before) != is_bar(now) => *self = Self::NotYet,
+            Self::List(form) => form.note_values(c),
+            Self::NotYet | Self::Impossible => {}
+        }
     }
 }
 
@@ -119,7 +155,7 @@ impl Compiler<'_> {
     /// The check of a bar whose ends others find.
     pub fn check(&self, c: u32) -> Option<Step> {
         let (points, length) = bar(&self.given.constraints[c as usize])?;
-        Some(Step::Bar(Bar::new(points, length)))
+        Some(Step::Bar(Bar::new(points, Length::of_bar(length, c))))
     }
 
     /// The step that finds a point by one or two constraints.
@@ -129,12 +165,11 @@ impl Compiler<'_> {
             [c] if is_determined && all[c as usize].traits().is_linear => self.assignment(c, to),
             [one, two] if is_determined => {
                 let pair = [one, two].map(|c| (c, &all[c as usize]));
-                let circle = |(_, bar): (u32, &Constraint)| locus(bar, to);
-                let turned = |by, bar| self.turned(to, by, &circle(bar)?);
+                let mut turned = |by, bar| self.turned(to, by, &locus(bar, to)?);
                 let turned = turned(pair[0], pair[1]).or_else(|| turned(pair[1], pair[0]));
-                turned.or_else(|| meeting(to, circle(pair[0])?, circle(pair[1])?))
+                turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?))
             }
-            [one] if !is_determined => match locus(&all[one as usize], to)? {
+            [one] if !is_determined => match locus((one, &all[one as usize]), to)? {
                 Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
                 Locus::Line(..) | Locus::Beyond(..) => None,
             },
@@ -159,10 +194,14 @@ impl Compiler<'_> {
     }
 
     /// The step that finds a point on a circle which a constraint turns.
-    pub fn turned(&self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
+    pub fn turned(&mut self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
         let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
         match by {
-            (c, Constraint::Cog(cog)) => Some(Step::Wheel(Wheel::new(to, from, length, (c, cog))?)),
+            (c, Constraint::Cog(cog)) => {
+                let wheel = Wheel::new(to, from, length.now, (c, cog))?;
+                self.form.held.extend(length.bar());
+                Some(Step::Wheel(wheel))
+            }
             (c, Constraint::Orientation(orientation)) => {
                 let by = (c, orientation);
                 Some(Step::Direction(Direction::new(to, from, length, by, self.n_driven)?))
@@ -193,10 +232,11 @@ pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
 }
 
 /// What a constraint leaves to a point.
-pub(super) fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
+pub(super) fn locus((c, constraint): (u32, &Constraint), p: PointIdx) -> Option<Locus> {
     match constraint {
         Constraint::Length(bar) if bar.bounds.is_equality() => {
-            Some(Locus::Circle(other_end(bar.points, p)?, Radius::Fixed(bar.bounds.lo)))
+            let radius = Radius::Fixed(Length::of_bar(bar.bounds.lo, c));
+            Some(Locus::Circle(other_end(bar.points, p)?, radius))
         }
         Constraint::Glider(glider) => {
             let [slider, a, b] = glider.points;

@@ -2,6 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
+use super::length::{Length, Values};
 use crate::constraint::{Bounds, Constraint, Orientation, Period, Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -14,6 +15,7 @@ pub(super) struct Direction {
     /// The segment.
     along: [PointIdx; 2],
     /// The length of the link.
+    bar: Length,
     length: f64,
     /// The constraint that says the angle.
     pub constraint: u32,
@@ -28,12 +30,12 @@ pub(super) struct Direction {
 }
 
 impl Direction {
-    /// A point at the distance `length` from another, with the angle of an orientation, which is
+    /// A point at the distance of a bar's length from another, with the angle of an orientation, which is
     /// the constraint of number `c`; none where that does not say its direction.
     pub fn new(
         to: PointIdx,
         from: PointIdx,
-        length: f64,
+        bar: Length,
         (c, orientation): (u32, &Orientation),
         drive: u32,
     ) -> Option<Self> {
@@ -47,11 +49,17 @@ impl Direction {
         let is_sound = orientation.period == Period::Whole
             && orientation.bounds.is_equality()
             && !along.contains(&to)
-            && length > 0.0
-            && (length * length).is_finite();
+            && bar.is_sound();
         let end = if own[0] == from { 1.0 } else { -1.0 };
-        let link = Self { to, from, along, length, constraint: c, sense, end, drive, apart: 0.0 };
+        let (constraint, length, apart) = (c, bar.now, 0.0);
+        let link = Self { to, from, along, bar, length, constraint, sense, end, drive, apart };
         is_sound.then_some(link)
+    }
+
+    /// Takes in how long the link is in this frame.
+    pub fn drive(&mut self, values: &Values) {
+        self.bar.drive(values);
+        self.length = self.bar.now;
     }
 
     /// Looks at a pose that counts.
@@ -73,7 +81,7 @@ impl Direction {
         };
         let way: f64 = before.map(|before| (angle(now) - angle(before)).abs()).sum();
         let target = Vector::polar(self.end * self.length, self.sense * angle(now));
-        (target, way * self.length)
+        (target, way * (self.length + self.bar.changed) + self.bar.changed)
     }
 }
 
@@ -124,7 +132,7 @@ impl Meeting<3> for Direction {
         Met {
             at,
             // The segment turns by the ways of both ends over its length, at most.
-            way: ways[2] + turned + way * self.length / least,
+            way: ways[2] + turned + way * (self.length + self.bar.changed) / least,
             off: if is_proved { off } else { f64::NAN },
             side_squared: 1.0,
         }

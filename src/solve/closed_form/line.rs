@@ -2,6 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
+use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -15,9 +16,13 @@ pub(super) struct CircleLine {
     line: [PointIdx; 2],
     /// Whether the point stays between them.
     is_bounded: bool,
-    /// The square of the radius, and half of one over the radius.
+    /// The radius, its square, and half of one over it.
+    radius: Length,
     square: f64,
     half_inverse: f64,
+    /// The squares of what it was at least and at most on its way.
+    least_square: f64,
+    most_square: f64,
     /// The signed distance of the centre from the line at the last pose.
     height: f64,
     /// On which side of the foot of the centre the point is, along the line: 1 or -1.
@@ -30,21 +35,38 @@ impl CircleLine {
         to: PointIdx,
         from: PointIdx,
         line: [PointIdx; 2],
-        radius: f64,
+        radius: Length,
         is_bounded: bool,
     ) -> Option<Self> {
-        let (square, half_inverse) = (radius * radius, 0.5 / radius);
-        let is_sound = radius > 0.0 && square > 0.0 && square.is_finite();
-        is_sound.then_some(Self {
+        let mut meeting = Self {
             to,
             from,
             line,
             is_bounded,
-            square,
-            half_inverse,
+            radius,
+            square: 0.0,
+            half_inverse: 0.0,
+            least_square: 0.0,
+            most_square: 0.0,
             height: 0.0,
             side: 1.0,
-        })
+        };
+        meeting.measure();
+        radius.is_sound().then_some(meeting)
+    }
+
+    /// Takes in how long the radius is in this frame.
+    pub fn drive(&mut self, values: &Values) {
+        self.radius.drive(values);
+        self.measure();
+    }
+
+    /// Works out what follows from the radius.
+    fn measure(&mut self) {
+        let Length { now, changed, .. } = self.radius;
+        (self.square, self.half_inverse) = (now * now, 0.5 / now);
+        let least = if now > changed { now - changed } else { 0.0 };
+        (self.least_square, self.most_square) = (least * least, (now + changed) * (now + changed));
     }
 
     /// Looks at a pose that counts.
@@ -93,9 +115,9 @@ impl Meeting<3> for CircleLine {
         let way = ways[2];
         let middle = height + before;
         let farthest = 0.5 * (middle.abs() + way);
-        let least = self.square - farthest * farthest;
+        let least = self.least_square - farthest * farthest;
         let squared = self.square - height * height;
-        let floor = NEARLY_SINGULAR * NEARLY_SINGULAR * self.square;
+        let floor = NEARLY_SINGULAR * NEARLY_SINGULAR * self.most_square;
         let along = e.dot(u) / length_squared + self.side * squared.sqrt() / length;
         let is_between = !self.is_bounded | (along >= 0.0) & (along <= 1.0);
         // False for what is not a number.
@@ -108,8 +130,8 @@ impl Meeting<3> for CircleLine {
         );
         Met {
             at,
-            // Its velocity is that of the centre over the cosine of the angle of the bar, at most.
-            way: way * (self.square / least).sqrt(),
+            // Its velocity is that of centre and radius over the cosine of the angle of the bar, at most.
+            way: (way + self.radius.changed) * (self.most_square / least).sqrt(),
             off: if is_proved { off } else { f64::NAN },
             side_squared: squared / self.square,
         }

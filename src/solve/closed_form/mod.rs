@@ -28,6 +28,7 @@ mod compile;
 mod direction;
 mod found;
 mod lanes;
+mod length;
 mod line;
 mod parts;
 mod ray;
@@ -44,6 +45,7 @@ pub(crate) use compile::Given;
 use direction::Direction;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
+use length::Length;
 use line::CircleLine;
 use ray::Ray;
 use sum::Sum;
@@ -68,6 +70,12 @@ pub(crate) struct ClosedForm {
     counts_turns: bool,
     /// Whether what steps know of the pose is of the present one.
     knows_pose: bool,
+    /// Whether the lengths of steps are those of the present values, and none of them just changed.
+    knows_lengths: bool,
+    /// The bars whose lengths steps hold for good, ascending.
+    held: Vec<u32>,
+    /// Whether one of these changed: the list is to be compiled anew.
+    is_outdated: bool,
 }
 
 /// What is known of the list of an island.
@@ -137,8 +145,8 @@ struct Crank {
 /// The radius of a circle.
 #[derive(Clone, Copy)]
 enum Radius {
-    /// A number.
-    Fixed(f64),
+    /// A length.
+    Fixed(Length),
     /// So many times the distance between two points, and so much more.
     Measured {
         /// The points.

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use super::cluster::{Cluster, Net};
 use super::compile::{Compiler, Locus, locus, meeting};
-use super::{Body, Radius, Step};
+use super::{Body, Length, Radius, Step};
 use crate::constraint::{ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Part, Search};
 
@@ -110,6 +110,7 @@ impl Compiler<'_> {
         // The longer side of what holds two points is no shorter than that.
         self.form.extent = self.form.extent.max(body.extent * std::f64::consts::FRAC_1_SQRT_2);
         let found = body.finds().collect();
+        self.form.held.extend(&cluster.constraints);
         self.form.steps.push(Step::Body(Box::new(body)));
         Some(found)
     }
@@ -142,7 +143,8 @@ impl Compiler<'_> {
         let by_one = ready.iter().find_map(|&c| {
             let constraint = &all[c as usize];
             let turned = self.turned(to, (c, constraint), &first);
-            Some((turned.or_else(|| meeting(to, first, locus(constraint, to)?))?, Some(c)))
+            let step = turned.or_else(|| meeting(to, first, locus((c, constraint), to)?))?;
+            Some((step, Some(c)))
         });
         let (step, by) = by_one.or_else(|| Some((meeting(to, first, *others.first()?)?, None)))?;
         self.push(step, ready.iter().copied().filter(|&c| Some(c) != by))
@@ -198,7 +200,7 @@ impl Assembly<'_> {
             let anchor = self.anchors[b as usize]?;
             let body = &self.bodies[b as usize];
             let radius = (body.place(p)? - body.place(anchor)?).norm();
-            Some(Locus::Circle(anchor, Radius::Fixed(radius)))
+            Some(Locus::Circle(anchor, Radius::Fixed(Length::fixed(radius))))
         };
         let bodies = self.of_point[p as usize].iter();
         bodies.filter(|&&b| !self.is_placed[b as usize]).filter_map(circle).collect()

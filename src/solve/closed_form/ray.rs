@@ -2,6 +2,7 @@
 
 use super::abreast::{Meeting, Met};
 use super::found::larger;
+use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
 
@@ -16,6 +17,7 @@ pub(super) struct Ray {
     /// Whether the slider stays between the ends.
     is_bounded: bool,
     /// The distance of the ends, its square, and half of one over it.
+    bar: Length,
     length: f64,
     square: f64,
     half_inverse: f64,
@@ -26,28 +28,41 @@ pub(super) struct Ray {
 }
 
 impl Ray {
-    /// A point at the distance `length` from another, in line with a slider; none where that is no
+    /// A point at the distance of a bar's length from another, in line with a slider; none where that is no
     /// distance.
     pub fn new(
         to: PointIdx,
         from: PointIdx,
         through: PointIdx,
-        length: f64,
+        bar: Length,
         is_bounded: bool,
     ) -> Option<Self> {
-        let (square, half_inverse) = (length * length, 0.5 / length);
-        let is_sound = length > 0.0 && square > 0.0 && square.is_finite() && through != from;
-        is_sound.then_some(Self {
+        let mut ray = Self {
             to,
             from,
             through,
             is_bounded,
-            length,
-            square,
-            half_inverse,
+            bar,
+            length: 0.0,
+            square: 0.0,
+            half_inverse: 0.0,
             apart: 0.0,
             side: 1.0,
-        })
+        };
+        ray.measure();
+        (bar.is_sound() && through != from).then_some(ray)
+    }
+
+    /// Takes in how long the link is in this frame.
+    pub fn drive(&mut self, values: &Values) {
+        self.bar.drive(values);
+        self.measure();
+    }
+
+    /// Works out what follows from the length.
+    fn measure(&mut self) {
+        let length = self.bar.now;
+        (self.length, self.square, self.half_inverse) = (length, length * length, 0.5 / length);
     }
 
     /// Looks at a pose that counts.
@@ -103,7 +118,7 @@ impl Meeting<2> for Ray {
         Met {
             at,
             // The line turns by the ways of both over their distance, at most.
-            way: ways[0] + way * self.length / least,
+            way: ways[0] + self.bar.changed + way * (self.length + self.bar.changed) / least,
             off: if is_proved { off } else { f64::NAN },
             side_squared: (apart / self.length) * (apart / self.length),
         }

@@ -2,6 +2,7 @@
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
 use super::found::Found;
+use super::length::Values;
 use super::{ClosedForm, Crank, Radius, Step};
 use crate::constraint::{
     Constraint, ConstraintKind as _, Field, Motor, Point, PointIdx, Stateful as _, Vector,
@@ -40,7 +41,30 @@ impl ClosedForm {
 
     /// The pose was, or is to be, reached in another way.
     pub fn forget_pose(&mut self) {
-        self.knows_pose = false;
+        (self.knows_pose, self.knows_lengths) = (false, false);
+    }
+
+    /// Takes in how long bars are in this frame, and what they were before it.
+    fn measure(&mut self, constraints: &[Constraint], inputs: Option<&Inputs>) {
+        let values = Values { constraints, inputs };
+        for step in &mut self.steps {
+            match step {
+                Step::Circles(circles) => circles.drive(&values),
+                Step::CircleLine(meeting) => meeting.drive(&values),
+                Step::Ray(ray) => ray.drive(&values),
+                Step::Direction(link) => link.drive(&values),
+                Step::Bar(bar) => bar.drive(&values),
+                Step::Nearest { radius: Radius::Fixed(length), .. } => length.drive(&values),
+                Step::Crank(_)
+                | Step::Place { .. }
+                | Step::Wheel(_)
+                | Step::Sum(_)
+                | Step::Body(_)
+                | Step::Nearest { radius: Radius::Measured { .. }, .. } => {}
+            }
+        }
+        // What just changed does not in the frame that comes next, unless it is said again.
+        self.knows_lengths = inputs.is_none_or(|inputs| !changes_lengths(inputs));
     }
 
     /// Whether frames may be found side by side.
@@ -75,6 +99,9 @@ impl ClosedForm {
                 return None;
             }
             n_turning += usize::from(here.turns());
+        }
+        if !self.knows_lengths {
+            self.measure(constraints, None);
         }
         self.one.ways.fill([0.0]);
         for step in &mut self.steps {
@@ -126,6 +153,9 @@ impl ClosedForm {
 
     /// Takes in what drove points and constraints in this frame, and how far that went.
     pub fn drive(&mut self, inputs: &Inputs, x: &[Point], constraints: &[Constraint]) {
+        if !self.knows_lengths || changes_lengths(inputs) {
+            self.measure(constraints, Some(inputs));
+        }
         self.one.ways.fill([0.0]);
         for &(p, before) in &inputs.points {
             self.one.ways[p as usize] = [x[p as usize].distance(before)];
@@ -254,13 +284,18 @@ impl Radius {
     /// How long it is in each frame.
     fn of<const N: usize>(&self, x: &(impl Poses<N> + ?Sized)) -> [f64; N] {
         match *self {
-            Self::Fixed(radius) => [radius; N],
+            Self::Fixed(radius) => [radius.now; N],
             Self::Measured { between, factor, offset } => {
                 let [p, q] = between.map(|p| x.get(p));
                 std::array::from_fn(|l| factor * p.at(l).distance(q.at(l)) + offset)
             }
         }
     }
+}
+
+/// Whether a bar is among what drives a frame.
+fn changes_lengths(inputs: &Inputs) -> bool {
+    inputs.constraints().iter().any(|(_, before)| matches!(before, Constraint::Length(_)))
 }
 
 /// Where a constraint says that its point is.

@@ -16,10 +16,23 @@ impl Island {
         if !self.is_under_way() || self.inputs.is_disturbed {
             return Err(NoStep::First);
         }
-        if !self.inputs.constraints().iter().all(|(_, before)| ClosedForm::asks(before)) {
+        let changed = self.inputs.constraints();
+        if !changed.iter().all(|(_, before)| ClosedForm::asks(before)) {
+            return Err(NoStep::Changed);
+        }
+        let is_taken = |form: &ClosedForm| changed.iter().all(|(c, _)| form.takes(*c));
+        // What was compiled for other values takes the same constraints.
+        if let Compiled::List(form) = &self.closed_form
+            && !is_taken(form)
+        {
             return Err(NoStep::Changed);
         }
         let mut form = self.take_closed_form().ok_or(NoStep::Open)?;
+        let changed = self.inputs.constraints();
+        if !changed.iter().all(|(c, _)| form.takes(*c)) {
+            self.closed_form = Compiled::List(form);
+            return Err(NoStep::Changed);
+        }
         if !form.knows_pose() {
             self.swap_inputs();
             let fits = form.look(&self.x);
@@ -77,8 +90,8 @@ impl Island {
     /// Lends the list of steps that finds its pose; none if it has none.
     pub fn take_closed_form(&mut self) -> Option<Box<ClosedForm>> {
         match std::mem::take(&mut self.closed_form) {
-            Compiled::List(form) => Some(form),
-            Compiled::NotYet => {
+            Compiled::List(form) if !form.is_outdated() => Some(form),
+            Compiled::NotYet | Compiled::List(_) => {
                 let form = self.compile();
                 if form.is_none() {
                     self.closed_form = Compiled::Impossible;

@@ -18,7 +18,7 @@ pub mod workspaces;
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
-use super::closed_form::{ClosedForm, Compiled};
+use super::closed_form::Compiled;
 use super::frame::branch::Watch;
 use super::frame::decomposition::{Plan, Side};
 use super::method::spectrum::Spectrum;
@@ -287,10 +287,7 @@ impl Island {
         if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;
         }
-        if !ClosedForm::asks(&new) {
-            // Its step holds values.
-            self.closed_form = Compiled::NotYet;
-        }
+        self.closed_form.note_values(c as u32, [&self.constraints[c], &new]);
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.note_values(c as u32, old);
         true

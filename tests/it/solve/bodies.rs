@@ -189,6 +189,9 @@ fn truss_of(fields: &[(Joint, Joint)], is_rigid: bool, hung: usize) -> String {
     let on_it = [
         format!("point H = (2, 9); hinge H on T{end} C at 0.4"),
         "point H = (9, 9), G = (9, 2) frozen; length U0 H; length G H".to_owned(),
+        "point H = (9, 9), G = (9, 2) frozen
+         length U0 H; length G H = 6 + sin(time * 3rev)"
+            .to_owned(),
         "point H = (2, 5), I = (3, 5); length T0 H; length C H; length H I; length C I".to_owned(),
     ];
     lines.extend(on_it.get(hung).cloned());
@@ -200,7 +203,7 @@ fn truss_of(fields: &[(Joint, Joint)], is_rigid: bool, hung: usize) -> String {
 fn truss() -> impl Strategy<Value = String> {
     let joint = || (-0.3..0.3, -0.3..0.3, any::<bool>());
     let fields = prop::collection::vec((joint(), joint()), 1..5);
-    (fields, any::<bool>(), 0..4_usize)
+    (fields, any::<bool>(), 0..5_usize)
         .prop_map(|(fields, is_rigid, hung)| truss_of(&fields, is_rigid, hung))
 }
 

@@ -221,6 +221,67 @@ fn bars_that_follow_from_others_are_checked() {
     assert!(samples.len() == 5 && samples.iter().all(|sample| sample.missed));
 }
 
+/// A crank and what hangs on it by bars that change: on another bar, on a line, in a slot, at an angle,
+/// and loose.
+const ACTUATORS: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
+    crank: motor A B radius 1 speed 1rev
+    let swell = 3 + 0.4 * sin(time * 2rev)
+    length B C = swell
+    length C D = 3 + crank.angle / 100rev
+    point L = (-9, -1) frozen, R = (9, -1) frozen, S = (4, -1)
+    glider S on L R
+    length B S = swell + 0.2
+    point O = (0, -5) frozen, E = (0, 1)
+    glider B on O E
+    length O E = 2 * swell
+    point F = (1, 2)
+    length B F = swell / 2
+    orientation A D, B F = 70deg
+    point G = (1, 9)
+    length F G = swell";
+
+#[test]
+fn bars_whose_lengths_change_are_steps() {
+    for dt in ["1/360", "1/48"] {
+        let scene = format!("{ACTUATORS}\nset dt {dt}");
+        check_same(dt, &scene, 60);
+        let mut talking = Talking::after(&format!("{scene}\nstep"));
+        let before = talking.session.frame_counts();
+        for _ in 0..10 {
+            talking.run(
+                "step 30
+                 let long = 3 + 0.4 * sin(time * 2rev)
+                 assert distance(B, C) = long within 1e-12
+                 assert distance(C, D) = 3 + time / 100 within 1e-12
+                 assert S = (B.x + sqrt((long + 0.2)^2 - (B.y + 1)^2), -1) within 1e-11
+                 assert E = O + 2 * long / norm(B - O) * (B - O) within 1e-11
+                 assert F = B + polar(long / 2, 70deg) within 1e-12
+                 assert distance(F, G) = long within 1e-12
+                 delete long",
+            );
+        }
+        let after = talking.session.frame_counts();
+        assert_eq!(after.closed - before.closed, 300, "{after:?}");
+    }
+}
+
+#[test]
+fn a_bar_that_grows_out_of_reach_is_followed_until_it_cannot_be() {
+    // The bars lie in line when the second is 5 long, at t = 1/2, and again on the way back.
+    let scene = "point A = (0, 0) frozen, D = (8, 0) frozen, C = (3, 1)
+        length A C = 3
+        length C D = 6 - 2 * time
+        set dt 1/7";
+    let mut talking = Talking::after(&format!("{scene}\ntrace C\nstep 10"));
+    let missed = |talking: &Talking| -> Vec<bool> {
+        talking.world().traces()[0].samples.iter().map(|sample| sample.missed).collect()
+    };
+    let expected: Vec<bool> = (1..=10).map(|k| f64::from(k) / 7.0 > 0.5).collect();
+    assert_eq!(missed(&talking), expected);
+    talking.run("assert angle(A, C) = 0 within 1e-6");
+    check_same("out of reach", scene, 10);
+}
+
 /// A crank on a bar of 100 that reaches too far for 0.3 degrees on both sides of one direction, so
 /// that frames of 10 degrees may begin and end where the bars meet, and none of its motion does.
 const GAP: &str = "point A = (0, 0) frozen, D = (199.5, 0) frozen
