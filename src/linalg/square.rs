@@ -4,17 +4,16 @@
 pub const MOST_UNKNOWNS: usize = 24;
 
 /// A square matrix of few rows, with a right side.
-pub struct Square {
+pub struct Square<const MOST: usize = MOST_UNKNOWNS> {
     n: usize,
-    rows: [[f64; MOST_UNKNOWNS]; MOST_UNKNOWNS],
-    rhs: [f64; MOST_UNKNOWNS],
+    rows: [[f64; MOST]; MOST],
+    rhs: [f64; MOST],
 }
 
-impl Square {
-    /// A matrix of `n` rows, no more than [`MOST_UNKNOWNS`], of zeros.
+impl<const MOST: usize> Square<MOST> {
+    /// A matrix of `n` rows, no more than there is room for, of zeros.
     pub const fn new(n: usize) -> Self {
-        let rows = [[0.0; MOST_UNKNOWNS]; MOST_UNKNOWNS];
-        Self { n, rows, rhs: [0.0; MOST_UNKNOWNS] }
+        Self { n, rows: [[0.0; MOST]; MOST], rhs: [0.0; MOST] }
     }
 
     /// A row, to be filled in.
@@ -67,8 +66,8 @@ impl Square {
     }
 
     /// The unknowns, after an elimination whose least pivot is not 0.
-    pub fn solution(&self) -> [f64; MOST_UNKNOWNS] {
-        let mut x = [0.0; MOST_UNKNOWNS];
+    pub fn solution(&self) -> [f64; MOST] {
+        let mut x = [0.0; MOST];
         for k in (0..self.n).rev() {
             let known: f64 = (k + 1..self.n).map(|j| self.rows[k][j] * x[j]).sum();
             x[k] = (self.rhs[k] - known) / self.rows[k][k];
@@ -85,7 +84,7 @@ mod tests {
     fn a_pivot_has_the_sign_of_the_determinant_and_a_solution_meets_its_rows() {
         let rows = [[0.0, 2.0, 1.0], [3.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
         let x = [1.0, -2.0, 0.5];
-        let mut square = Square::new(3);
+        let mut square: Square = Square::new(3);
         for (r, row) in rows.iter().enumerate() {
             square.row(r).copy_from_slice(row);
             square.set_right_side(r, row.iter().zip(x).map(|(a, x)| a * x).sum());

@@ -91,7 +91,7 @@ fn moved(at: &[f64], columns: &[Vec<f64>], r: &[f64], damping: f64) -> Vec<f64> 
         !(x <= 0.0 && slope > 0.0 || x >= 1.0 && slope < 0.0)
     };
     let free: Vec<usize> = (0..at.len()).filter(may_move).take(MOST_UNKNOWNS).collect();
-    let mut square = Square::new(free.len());
+    let mut square: Square = Square::new(free.len());
     for (row, &j) in free.iter().enumerate() {
         for (column, &k) in free.iter().enumerate() {
             square.row(row)[column] = dot(&columns[j], &columns[k]);

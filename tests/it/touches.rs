@@ -42,7 +42,13 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
     (
         Kind::Hinge,
-        &["render/export/parts.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
+        &[
+            "render/export/parts.rs",
+            "session/commands/touch.rs",
+            "solve/closed_form/body.rs",
+            "solve/closed_form/cluster.rs",
+            "solve/closed_form/sum.rs",
+        ],
     ),
     (
         Kind::Rigid,
@@ -95,8 +101,9 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
-            "solve/closed_form/cluster.rs",
             "solve/closed_form/compile.rs",
+            "solve/closed_form/length.rs",
+            "solve/closed_form/run.rs",
             "solve/frame/branch.rs",
             "solve/frame/decomposition.rs",
             "solve/frame/dyad.rs",

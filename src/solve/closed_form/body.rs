@@ -4,7 +4,7 @@ use super::abreast::{Abreast, Places, Poses, put_each};
 use super::cluster::{self, Cluster};
 use super::found::larger;
 use super::length::{Length, Values, bar};
-use crate::constraint::{Constraint, Point, PointIdx, Vector};
+use crate::constraint::{Constraint, Hinge, Point, PointIdx, Vector};
 
 /// A body whose ends are this part of its size apart, or less, is not known by them.
 const SHORT: f64 = 1e-3;
@@ -66,7 +66,7 @@ pub(super) struct Body {
     carried: Vec<Carried>,
     /// Each of its bars.
     bars: Vec<Bar>,
-    /// Each point of a `rigid` constraint, its first two, and where it is as a multiple of the way from one
+    /// Each point of a `rigid` constraint or a hinge, two others, and where it is as a multiple of the way from one
     /// to the other.
     plates: Vec<([PointIdx; 3], Vector)>,
     /// On which side of two others each of its points is.
@@ -103,15 +103,19 @@ impl Body {
         let least_side = if second.is_some() { 1.0 / farthest.max(1.0) } else { 1.0 };
         let (mut bars, mut plates) = (Vec::new(), Vec::new());
         for &c in &cluster.constraints {
-            let constraint = &constraints[c as usize];
-            let frame = match constraint {
-                Constraint::Rigid(rigid) => rigid.frame(),
-                _ => bar(constraint),
-            };
-            let (ends, length) = frame?;
-            bars.push(Bar::new(ends, Length::fixed(length)));
-            if let Constraint::Rigid(rigid) = constraint {
-                plates.extend(rigid.others().map(|(p, zeta)| ([p, ends[0], ends[1]], zeta)));
+            match &constraints[c as usize] {
+                Constraint::Hinge(Hinge { points, ratio }) => {
+                    plates.push((*points, Vector::new(*ratio, 0.0)));
+                }
+                Constraint::Rigid(rigid) => {
+                    let (ends, length) = rigid.frame()?;
+                    bars.push(Bar::new(ends, Length::fixed(length)));
+                    plates.extend(rigid.others().map(|(p, zeta)| ([p, ends[0], ends[1]], zeta)));
+                }
+                constraint => {
+                    let (ends, length) = bar(constraint)?;
+                    bars.push(Bar::new(ends, Length::fixed(length)));
+                }
             }
         }
         let extent = all().map(|(_, at)| away(at)).fold(0.0, f64::max).sqrt();

@@ -1,11 +1,12 @@
 //! Points that bars and `rigid` constraints tie together to bodies.
 //!
-//! A body grows from a triangle of bars, or from a `rigid` constraint: a point on two of its points
-//! by bars is part of it, and so is a `rigid` constraint two of whose points are. What the shape is
-//! follows from the lengths, but for the side on which each point is of the two that it hangs on.
+//! A body grows from a triangle of bars, from a `rigid` constraint, or from a bar with a hinge on it: a
+//! point on two of its points by bars is part of it, and so are the points of a `rigid` constraint or a
+//! hinge two of which are. What the shape is follows from the lengths, but for the side on which each
+//! point is of the two that it hangs on.
 
 use super::length::bar;
-use crate::constraint::{Constraint, ConstraintKind as _, Point, PointIdx, Rigid, Vector};
+use crate::constraint::{Constraint, ConstraintKind as _, Hinge, Point, PointIdx, Vector};
 use crate::solve::frame::decomposition::Part;
 
 /// Two bars that meet in a flatter angle than this, as its sine, do not hold a point: what is off in
@@ -47,7 +48,7 @@ struct Bar {
     constraint: u32,
 }
 
-/// The bars and `rigid` constraints of an island, by the points that they hold.
+/// The bars, hinges and `rigid` constraints of an island, by the points that they hold.
 pub(super) struct Net<'a> {
     constraints: &'a [Constraint],
     x: &'a [Point],
@@ -92,17 +93,16 @@ impl<'a> Net<'a> {
     /// The clusters of a part.
     pub fn clusters(&mut self, part: &Part) -> Vec<Cluster> {
         let mut all = Vec::new();
-        for &c in &part.constraints {
+        for &c in part.constraints.iter().filter(|&&c| is_rigid(&self.constraints[c as usize])) {
             if let Some(plate) = plate(&self.constraints[c as usize]).filter(|_| !self.is_taken(c))
             {
-                let seed: Vec<_> = plate.places().collect();
-                all.push(self.grow(seed));
+                all.push(self.grow(plate.places));
             }
         }
         for &c in &part.constraints {
             if let Some(([a, b], length)) = bar(&self.constraints[c as usize])
                 && !self.is_taken(c)
-                && self.is_of_a_triangle(a, b)
+                && (self.is_of_a_triangle(a, b) || self.is_hinged(a, b))
             {
                 let cluster = self.grow(vec![(a, Vector::ZERO), (b, Vector::new(length, 0.0))]);
                 if cluster.points.len() > 2 {
@@ -113,6 +113,12 @@ impl<'a> Net<'a> {
             }
         }
         all
+    }
+
+    /// Whether a hinge ties a third point to both.
+    fn is_hinged(&self, a: PointIdx, b: PointIdx) -> bool {
+        let ties = |&&c: &&u32| self.constraints[c as usize].points().contains(&b);
+        self.plates[a as usize].iter().filter(ties).any(|&c| !self.is_taken(c))
     }
 
     fn is_taken(&self, c: u32) -> bool {
@@ -191,33 +197,31 @@ impl<'a> Net<'a> {
         Some((at, (points, side)))
     }
 
-    /// Adds the points of a `rigid` constraint, once two of them are in the cluster.
+    /// Adds the points of a `rigid` constraint or a hinge, once two of them are in the cluster.
     fn add_plate(&mut self, c: u32, cluster: &mut Cluster) {
         let Some(plate) = plate(&self.constraints[c as usize]).filter(|_| !self.is_taken(c)) else {
             return;
         };
         let known = || {
-            let placed = |(p, own): (PointIdx, Vector)| Some((self.place[p as usize]?, own));
-            plate.places().filter_map(placed)
+            let placed = |&(p, own): &(PointIdx, Vector)| Some((self.place[p as usize]?, own));
+            plate.places.iter().filter_map(placed)
         };
         let Some((a, own_a)) = known().next() else { return };
-        let far = |(_, own): &(Vector, Vector)| (*own - own_a).norm_squared();
-        let Some((b, own_b)) = known().max_by(|one, two| far(one).total_cmp(&far(two))) else {
+        let far = |own: Vector| (own - own_a).norm_squared();
+        let Some((b, own_b)) = known().max_by(|one, two| far(one.1).total_cmp(&far(two.1))) else {
             return;
         };
-        let others: Vec<_> =
-            plate.places().filter(|(p, _)| self.place[*p as usize].is_none()).collect();
-        // None for two points in one place.
-        let Some(turn) = (b - a).over(own_b - own_a).unit().filter(|turn| turn.is_finite()) else {
-            return;
-        };
-        let longest =
-            others.iter().map(|(_, own)| (*own - own_a).norm_squared()).fold(0.0, f64::max);
-        if far(&(b, own_b)) < FLAT * FLAT * longest {
+        let farthest = plate.places.iter().map(|(_, own)| far(*own)).fold(0.0, f64::max);
+        // One point, or two that are as good as one, do not say how it lies.
+        if far(own_b) <= FLAT * FLAT * farthest {
             return;
         }
-        for (p, own) in others {
-            self.add(p, a + (own - own_a).times(turn), cluster);
+        let turn = (b - a).over(own_b - own_a);
+        let turn = if plate.has_size { turn / turn.norm() } else { turn };
+        for &(p, own) in &plate.places {
+            if self.place[p as usize].is_none() {
+                self.add(p, a + (own - own_a).times(turn), cluster);
+            }
         }
     }
 
@@ -240,13 +244,32 @@ impl<'a> Net<'a> {
     }
 }
 
-/// A `rigid` constraint that is more than a bar.
-fn plate(constraint: &Constraint) -> Option<&Rigid> {
+/// Points whose places two of them tell.
+struct Plate {
+    /// Where they are in a frame of their own.
+    places: Vec<(PointIdx, Vector)>,
+    /// Whether that says how far they are apart, too.
+    has_size: bool,
+}
+
+/// What a `rigid` constraint that is more than a bar, or a hinge, says of its points.
+fn plate(constraint: &Constraint) -> Option<Plate> {
     match constraint {
         Constraint::Rigid(rigid) if rigid.points().len() > 2 => {
+            let plate = Plate { places: rigid.places().collect(), has_size: true };
             // Points in one place have no frame.
-            rigid.places().any(|(_, at)| at != Vector::ZERO).then_some(rigid)
+            plate.places.iter().any(|(_, at)| *at != Vector::ZERO).then_some(plate)
+        }
+        Constraint::Hinge(Hinge { points: [p, a, b], ratio }) => {
+            let own = |along| Vector::new(along, 0.0);
+            let places = vec![(*p, own(*ratio)), (*a, own(0.0)), (*b, own(1.0))];
+            (p != a && p != b && a != b).then_some(Plate { places, has_size: false })
         }
         _ => None,
     }
+}
+
+/// Whether it is one from which a body grows by itself.
+fn is_rigid(constraint: &Constraint) -> bool {
+    matches!(constraint, Constraint::Rigid(_))
 }

@@ -63,6 +63,7 @@ impl ClosedForm {
             n_constraints: constraints.len() as u32,
             extent: 0.0,
             counts_turns: false,
+            has_blocks: false,
             knows_pose: false,
             knows_lengths: false,
             held: Vec::new(),

@@ -5,7 +5,8 @@
 //! An island that falls apart into such steps is compiled when it is first followed, and again
 //! once a value that a step holds was changed. A frame runs the list. It has no start and no
 //! iterations, so what it gives does not depend on the poses before but for one thing: on which
-//! side each point is, where it has two places. A point keeps its side as long as no pose on the
+//! side each point is, where it has two places. (A few bodies that none of this finds are found from where the
+//! frames before let them be expected.) A point keeps its side as long as no pose on the
 //! way is singular, and that is proved for each frame: from how far cranks and hands went follows
 //! how far each point went at most, and so how near any pose on the way can have been to the one
 //! where the two places meet. Where that cannot be proved, or a constraint is not met, the frame
@@ -21,6 +22,7 @@
 )]
 
 mod abreast;
+mod block;
 mod body;
 mod circles;
 mod cluster;
@@ -34,11 +36,13 @@ mod parts;
 mod ray;
 mod run;
 mod sum;
+mod together;
 mod wheel;
 
 use crate::constraint::{Heading, PointIdx};
 use abreast::Abreast;
 pub(crate) use abreast::WIDE;
+use block::Block;
 use body::{Bar, Body};
 use circles::Circles;
 pub(crate) use compile::Given;
@@ -52,6 +56,7 @@ use sum::Sum;
 use wheel::Wheel;
 
 /// What finds an island's pose.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(crate) struct ClosedForm {
     /// The steps, each after those it depends on.
     steps: Vec<Step>,
@@ -68,6 +73,8 @@ pub(crate) struct ClosedForm {
     pub extent: f64,
     /// Whether each frame counts turns on from the one before, so that none is found beside others.
     counts_turns: bool,
+    /// Whether some steps begin where the frames before let points be expected.
+    pub has_blocks: bool,
     /// Whether what steps know of the pose is of the present one.
     knows_pose: bool,
     /// Whether the lengths of steps are those of the present values, and none of them just changed.
@@ -117,6 +124,8 @@ enum Step {
     Sum(Sum),
     /// On a body.
     Body(Box<Body>),
+    /// On bodies that are found together.
+    Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
     /// On a circle, where it is nearest to.

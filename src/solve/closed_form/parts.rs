@@ -1,7 +1,7 @@
 //! The steps of what does not fall apart point by point: bodies, and points that hang on them.
 //!
 //! A body one of whose points is known holds each of its others as a bar would. Two known points say
-//! where it is.
+//! where it is. Where that leads no further a few bodies and points are found [together](super::block).
 
 use std::collections::VecDeque;
 
@@ -12,16 +12,16 @@ use crate::constraint::{ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Part, Search};
 
 /// What is known of a part of an island on the way.
-struct Assembly<'a> {
-    search: &'a mut Search,
-    bodies: Vec<Cluster>,
+pub(super) struct Assembly<'a> {
+    pub search: &'a mut Search,
+    pub bodies: Vec<Cluster>,
     /// The bodies that a point is of, for each point.
-    of_point: &'a mut [Vec<u32>],
+    pub of_point: &'a mut [Vec<u32>],
     /// The first point of each body that was known.
     anchors: Vec<Option<PointIdx>>,
-    is_placed: Vec<bool>,
+    pub is_placed: Vec<bool>,
     /// Whether a constraint is checked by a step.
-    is_met: Vec<bool>,
+    pub is_met: Vec<bool>,
     /// Bodies that may be placed now, and points that may be found.
     next_bodies: VecDeque<usize>,
     next_points: VecDeque<PointIdx>,
@@ -73,7 +73,7 @@ impl Compiler<'_> {
                 self.body(b, &mut assembly)?;
             } else if let Some(p) = assembly.next_points.pop_front() {
                 self.joint(p, &mut assembly);
-            } else {
+            } else if !self.together(part, &mut assembly) {
                 break;
             }
         }
@@ -179,7 +179,7 @@ impl Assembly<'_> {
     }
 
     /// A point is known, and with it perhaps others.
-    fn learn(&mut self, compiler: &Compiler, p: PointIdx) {
+    pub fn learn(&mut self, compiler: &Compiler, p: PointIdx) {
         self.next_points.extend(self.search.learn(compiler.given.constraints, p));
         for &b in &self.of_point[p as usize] {
             let b = b as usize;

@@ -7,6 +7,7 @@ use super::{ClosedForm, Crank, Radius, Step};
 use crate::constraint::{
     Constraint, ConstraintKind as _, Field, Motor, Point, PointIdx, Stateful as _, Vector,
 };
+use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
 use crate::world::{ConstraintId, World};
 
@@ -27,6 +28,7 @@ impl ClosedForm {
                 Step::Ray(ray) => ray.look(x),
                 Step::Direction(link) => link.look(x),
                 Step::Body(body) => fits &= body.fits(x),
+                Step::Block(block) => block.look(x),
                 Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Wheel(_)
@@ -54,6 +56,7 @@ impl ClosedForm {
                 Step::Ray(ray) => ray.drive(&values),
                 Step::Direction(link) => link.drive(&values),
                 Step::Bar(bar) => bar.drive(&values),
+                Step::Block(block) => block.drive(&values),
                 Step::Nearest { radius: Radius::Fixed(length), .. } => length.drive(&values),
                 Step::Crank(_)
                 | Step::Place { .. }
@@ -69,7 +72,7 @@ impl ClosedForm {
 
     /// Whether frames may be found side by side.
     pub fn is_for_lanes(&self) -> bool {
-        !self.counts_turns
+        !self.counts_turns && !self.has_blocks
     }
 
     /// How many constraints a frame evaluates.
@@ -188,6 +191,15 @@ impl ClosedForm {
         }
     }
 
+    /// Takes in where the frames before let points be expected.
+    pub fn expect(&mut self, history: &History, x: &[Point]) {
+        for step in &mut self.steps {
+            if let Step::Block(block) = step {
+                block.expect(history, x);
+            }
+        }
+    }
+
     /// Puts the points where they are at the end of the frame. Where the pose is to be found in
     /// another way the distance to satisfaction is not a number, and they are anywhere.
     #[inline]
@@ -218,6 +230,7 @@ pub(super) fn make<const N: usize>(
             Step::Wheel(wheel) => wheel.run(x, constraints, abreast),
             Step::Sum(sum) => sum.run(x, abreast),
             Step::Body(body) => body.run(x, abreast),
+            Step::Block(block) => block.run(x, abreast),
             Step::Bar(bar) => bar.check(x, abreast),
             Step::Place { to, constraint, way } => {
                 x.put(*to, Places::all(place(&constraints[*constraint as usize])));

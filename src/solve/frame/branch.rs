@@ -52,7 +52,7 @@ impl PartSide {
         if n > MOST_UNKNOWNS || rows.n_active() != n || equations.n_rows() > u64::BITS as usize {
             return None;
         }
-        let mut square = Square::new(n);
+        let mut square: Square = Square::new(n);
         let (mut active, mut used) = (0, 0);
         for (r, (_, unknowns, gradient, _)) in rows.iter(equations).enumerate() {
             if rows.scales()[r] > 0.0 {

@@ -168,7 +168,7 @@ fn solve_part(
     if rows.len() != n {
         return None;
     }
-    let mut square = Square::new(n);
+    let mut square: Square = Square::new(n);
     for (r, row) in rows.iter().enumerate() {
         square.set_right_side(r, row.rhs);
         let to = square.row(r);

@@ -139,19 +139,33 @@ fn follows(island: &Island, attempt: &Attempt, is_predicted: bool, limits: &Limi
     if !is_predicted && attempt.nearest_squared.is_finite() {
         return false;
     }
-    let is_well_expected = island.history.n_past() == WELL_KNOWN;
+    let n_past = island.history.n_past();
     if attempt.has_crossed {
-        return is_well_expected
+        return n_past == WELL_KNOWN
             && attempt.least_side >= NEARLY_SINGULAR
             && attempt.leap <= LEAP
             && attempt.doubt_squared <= NEAR_DOUBT * NEAR_DOUBT;
     }
-    if attempt.nearest_squared < (FAR * motion) * (FAR * motion) {
-        is_well_expected
-            && attempt.doubt_squared <= NEAR_DOUBT * NEAR_DOUBT
-            && attempt.correction <= NEAR_DOUBT * motion
+    is_clear(attempt.correction, motion, attempt.doubt_squared, attempt.nearest_squared, n_past)
+}
+
+/// Whether a pose that crossed nothing is the one that a motion leads to: `doubt_squared` is how large a
+/// part of the way to the other place where its constraints hold the correction of a point is at most, and
+/// `nearest_squared` how far away the nearest of these is, both squared; it was expected from the last pose
+/// and `n_past` before it.
+pub(crate) fn is_clear(
+    correction: f64,
+    motion: f64,
+    doubt_squared: f64,
+    nearest_squared: f64,
+    n_past: usize,
+) -> bool {
+    if nearest_squared < (FAR * motion) * (FAR * motion) {
+        n_past == WELL_KNOWN
+            && doubt_squared <= NEAR_DOUBT * NEAR_DOUBT
+            && correction <= NEAR_DOUBT * motion
     } else {
-        attempt.doubt_squared <= DOUBT * DOUBT
+        doubt_squared <= DOUBT * DOUBT
     }
 }
 

@@ -61,6 +61,9 @@ impl Island {
     #[inline]
     pub fn run_closed(&mut self, form: &mut ClosedForm, tolerance: f64) -> Option<Found> {
         self.history.begin(&self.x[..self.n_free], form.degree);
+        if form.has_blocks {
+            form.expect(&self.history, &self.x);
+        }
         let found = form.run(&mut self.x, &self.constraints);
         let is_met = found.worst <= self.enough(form, tolerance) || found.worst <= self.rounding();
         if !is_met {

@@ -96,6 +96,21 @@ impl History {
         true
     }
 
+    /// Where a point is expected whose motion is smooth; none if nothing is known.
+    pub fn expect(&self, p: usize) -> Option<Point> {
+        let here = *self.past(0).get(p).filter(|_| self.n_past > 0)?;
+        let mut d = Vector::ZERO;
+        for (k, weight) in WEIGHTS[self.n_past].iter().enumerate().skip(1).take(self.n_past) {
+            d += (self.past(k)[p] - here) * *weight;
+        }
+        Some(here + d)
+    }
+
+    /// How far a point went in the last frame; 0 where nothing is known.
+    pub fn last_way(&self, p: usize) -> f64 {
+        if self.n_past > 0 { self.past(0)[p].distance(self.past(1)[p]) } else { 0.0 }
+    }
+
     /// The frame was solved: its beginning is past.
     pub fn advance(&mut self) {
         let n_poses = self.n_poses();

@@ -19,7 +19,7 @@ const TRUSS: &str = "point P = (1, 1), Q = (2, 0.3), R = (1.8, 2), S = (2.8, 1.4
 
 /// The lengths of a scene's bars, each against what it is to be.
 #[track_caller]
-fn check_bars(talking: &Talking) {
+pub fn check_bars(talking: &Talking) {
     for (_, record) in talking.world().constraints().filter(|(_, record)| record.is_on) {
         let x = talking.world().points().column();
         let violation = record.constraint.violation(x, &talking.world().points().inverse_masses());
@@ -30,7 +30,7 @@ fn check_bars(talking: &Talking) {
 /// Lets frames pass, none of which is found in another way than by closed steps but the first, and
 /// what must be.
 #[track_caller]
-fn check_closed(scene: &str, n: u64) -> Talking {
+pub fn check_closed(scene: &str, n: u64) -> Talking {
     let mut talking = Talking::after(&format!("{scene}\nstep"));
     let before = talking.session.frame_counts();
     talking.run(&format!("step {n}"));

@@ -232,7 +232,7 @@ const ACTUATORS: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0),
     glider S on L R
     length B S = swell + 0.2
     point O = (0, -5) frozen, E = (0, 1)
-    glider B on O E
+    glider B on O E unbounded
     length O E = 2 * swell
     point F = (1, 2)
     length B F = swell / 2

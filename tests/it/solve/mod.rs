@@ -1,5 +1,6 @@
 //! The solver on mechanisms whose answers are known.
 
+mod blocks;
 mod bodies;
 mod closed_form;
 mod hands;
