@@ -6,7 +6,7 @@ use super::{
     Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
-use crate::solve::frame::decomposition::Plan;
+use crate::solve::frame::decomposition::{Block, Plan};
 
 /// What a constraint leaves of the plane to a point.
 #[derive(Clone, Copy)]
@@ -47,7 +47,7 @@ pub(super) struct Compiler<'a> {
 impl ClosedForm {
     /// The list for an island; none if some of its points have no closed form.
     pub fn new(given: Given) -> Option<Self> {
-        let Given { plan, constraints, x, degree, .. } = given;
+        let Given { plan, constraints, x, .. } = given;
         let carries = |c: &Constraint| {
             let is_told = matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
             !is_told && !matches!(c, Constraint::Cog(_) | Constraint::Orientation(_))
@@ -55,31 +55,11 @@ impl ClosedForm {
         if constraints.iter().any(carries) {
             return None;
         }
-        let form = Self {
-            steps: Vec::with_capacity(plan.blocks.len()),
-            cranks: Vec::new(),
-            degree,
-            one: Abreast::new(x.len(), 0),
-            n_constraints: constraints.len() as u32,
-            extent: 0.0,
-            counts_turns: false,
-            has_blocks: false,
-            knows_pose: false,
-            knows_lengths: false,
-            held: Vec::new(),
-            is_outdated: false,
-        };
-        let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
-        let n_driven = constraints.iter().filter(is_driver).count() as u32;
-        let mut compiler = Compiler { given, form, n_driven };
-        for block in &plan.blocks {
-            let which = &plan.constraints[block.first as usize..block.end as usize];
-            compiler.point(block.point, which, block.is_determined)?;
-        }
-        if !plan.is_complete() {
-            compiler.parts()?;
-        }
-        let Compiler { mut form, n_driven, .. } = compiler;
+        let compiler = Compiler::new(given);
+        let by_points = plan.is_complete() && !compiler.has_bodies();
+        let found = if by_points { compiler.blocks(|_| true) } else { None };
+        let found = found.or_else(|| Compiler::new(given).by_bodies());
+        let Compiler { mut form, n_driven, .. } = found?;
         form.one = Abreast::new(x.len(), n_driven as usize);
         form.held.sort_unstable();
         Some(form)
@@ -126,7 +106,39 @@ impl Compiled {
     }
 }
 
-impl Compiler<'_> {
+impl<'a> Compiler<'a> {
+    /// A list without steps.
+    fn new(given: Given<'a>) -> Self {
+        let Given { plan, constraints, x, degree, .. } = given;
+        let form = ClosedForm {
+            steps: Vec::with_capacity(plan.blocks.len()),
+            cranks: Vec::new(),
+            degree,
+            one: Abreast::new(x.len(), 0),
+            n_constraints: constraints.len() as u32,
+            extent: 0.0,
+            counts_turns: false,
+            has_blocks: false,
+            knows_pose: false,
+            knows_lengths: false,
+            held: Vec::new(),
+            is_outdated: false,
+        };
+        let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
+        let n_driven = constraints.iter().filter(is_driver).count() as u32;
+        Self { given, form, n_driven }
+    }
+
+    /// The steps of some of the points that are found one by one; none if one has no closed form.
+    pub fn blocks(mut self, are_meant: impl Fn(&Block) -> bool) -> Option<Self> {
+        let plan = self.given.plan;
+        for block in plan.blocks.iter().filter(|block| are_meant(block)) {
+            let which = &plan.constraints[block.first as usize..block.end as usize];
+            self.point(block.point, which, block.is_determined)?;
+        }
+        Some(self)
+    }
+
     /// The steps that find a point by some constraints, and check those of them that it takes no more. None
     /// if there are none; nothing is added then.
     pub fn point(&mut self, to: PointIdx, which: &[u32], is_determined: bool) -> Option<()> {

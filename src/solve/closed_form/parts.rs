@@ -1,4 +1,4 @@
-//! The steps of what does not fall apart point by point: bodies, and points that hang on them.
+//! The steps of bodies, and of points that hang on them.
 //!
 //! A body one of whose points is known holds each of its others as a bar would. Two known points say
 //! where it is. Where that leads no further a few bodies and points are found [together](super::block).
@@ -6,10 +6,10 @@
 use std::collections::VecDeque;
 
 use super::cluster::{Cluster, Net};
-use super::compile::{Compiler, Locus, locus, meeting};
+use super::compile::{Compiler, Given, Locus, locus, meeting};
 use super::{Body, Length, Radius, Step};
 use crate::constraint::{ConstraintKind as _, PointIdx};
-use crate::solve::frame::decomposition::{Part, Search};
+use crate::solve::frame::decomposition::{Part, Plan, Search};
 
 /// What is known of a part of an island on the way.
 pub(super) struct Assembly<'a> {
@@ -27,24 +27,38 @@ pub(super) struct Assembly<'a> {
     next_points: VecDeque<PointIdx>,
 }
 
+/// A body of fewer points is found as fast point by point.
+const FEW: usize = 6;
+
 impl Compiler<'_> {
-    /// The steps of all parts; none if one has no closed form.
-    pub fn parts(&mut self) -> Option<()> {
+    /// The steps of an island in which there may be bodies; none if some of it has no closed form.
+    pub fn by_bodies(mut self) -> Option<Self> {
         let (plan, x) = (self.given.plan, self.given.x);
-        let constraints = self.given.constraints;
-        let mut search = Search::new(constraints, self.given.n_free, x.len());
-        for block in plan.blocks.iter().filter(|block| block.is_determined) {
-            search.learn(constraints, block.point);
-        }
-        let mut net = Net::new(constraints, x, &plan.rest);
+        let mut parts = vec![determined(plan)];
+        parts.extend(plan.rest.iter().cloned());
+        let mut net = Net::new(self.given.constraints, x, &parts);
+        let mut search = Search::new(self.given.constraints, self.given.n_free, x.len());
         let mut of_point = vec![Vec::new(); x.len()];
         let mut is_smooth = true;
-        for part in &plan.rest {
+        for part in &parts {
             is_smooth &= self.part(part, &mut net, &mut search, &mut of_point)?;
         }
-        // Whether that was found out already makes no difference to what is kept of poses.
-        self.form.degree = if is_smooth { 3 } else { 1 };
-        Some(())
+        if !plan.is_complete() {
+            // Whether that was found out already makes no difference to what is kept of poses.
+            self.form.degree = if is_smooth { 3 } else { 1 };
+        }
+        self.blocks(|block| !block.is_determined)
+    }
+
+    /// Whether an island that can be found point by point has bodies.
+    pub fn has_bodies(&self) -> bool {
+        let Given { plan, constraints, x, .. } = self.given;
+        if constraints.len() < 2 * FEW - 3 {
+            return false;
+        }
+        let parts = [determined(plan)];
+        let clusters = Net::new(constraints, x, &parts).clusters(&parts[0]);
+        clusters.iter().any(|cluster| cluster.points.len() >= FEW)
     }
 
     /// The steps of a part, and whether it has no freedom.
@@ -159,6 +173,19 @@ impl Compiler<'_> {
         self.place(cluster, assembly)?;
         Some(())
     }
+}
+
+/// All points that can be found one by one, as one part.
+fn determined(plan: &Plan) -> Part {
+    let mut part = Part::default();
+    for block in plan.blocks.iter().filter(|block| block.is_determined) {
+        part.points.push(block.point);
+        let which = block.first as usize..block.end as usize;
+        part.constraints.extend(&plan.constraints[which]);
+    }
+    part.points.sort_unstable();
+    part.constraints.sort_unstable();
+    part
 }
 
 impl Assembly<'_> {

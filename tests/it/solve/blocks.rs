@@ -90,14 +90,12 @@ fn a_rod_of_a_link_that_changes_moves_it() {
 #[test]
 fn a_link_that_cannot_go_on_meets_its_dead_point_as_in_small_steps() {
     let scene = TRIAD.replace("0.3, 0)", "2.5, 0)").replace("radius 0.3", "radius 2.5");
-    let run = |per_turn: u32| {
+    for per_turn in [360, 1440] {
         let mut talking = Talking::after(&format!("{scene}\n{}\nset dt 1/{per_turn}", LINKS[0]));
-        talking.run(&format!("step {}", 6 * per_turn / 5));
-        (talking.talk.told().join("\n"), talking.session.position("R").unwrap())
-    };
-    let ((told, end), (_, small)) = (run(360), run(1440));
-    assert!(told.contains("dead point"), "{told}");
-    assert!(end.distance(small) < 1e-3, "{end:?} {small:?}");
+        talking.run(&format!("step {}", per_turn / 5));
+        let told = talking.talk.told().join("\n");
+        assert!(told.contains("meets a dead point at 38.30"), "{told}");
+    }
     check_same("dead point", &format!("{scene}\n{}", LINKS[0]), 200);
 }
 
