@@ -186,7 +186,8 @@ fn a_trial_is_a_run() {
         let best = told.iter().find_map(|it| it.strip_prefix("l = ")).expect("the best");
         let best: f64 = best.parse().expect("a number");
         assert_eq!(number(&mut talking, "l").to_bits(), best.to_bits());
-        let how = told.iter().find(|it| it.starts_with("x.span = ")).expect("how good it is").clone();
+        let how =
+            told.iter().find(|it| it.starts_with("x.span = ")).expect("how good it is").clone();
         talking.run("measure x = S.x; step 90");
         let found = number(&mut talking, "x.span");
         let said = how["x.span = ".len()..].split(',').next().expect("a value").to_owned();
@@ -195,7 +196,8 @@ fn a_trial_is_a_run() {
     }
     // Where the run ends before its frames, nothing is found.
     let mut talking = Talking::after(&format!("{STOPPED}\nset dead-points stop"));
-    let problem = talking.execute("fit l in 1.2..1.6 to maximise x.span over 90").expect_err("stopped");
+    let problem =
+        talking.execute("fit l in 1.2..1.6 to maximise x.span over 90").expect_err("stopped");
     assert!(talking.drawn(&problem).contains("none of these numbers gives a motion"));
 }
 
@@ -224,7 +226,8 @@ fn a_trial_is_left_between_two_frames() {
     let mut talking = Talking::after(crank);
     talking.talk.tick = 0.01;
     talking.session.limit(Quota::Seconds, 1);
-    let problem = talking.execute("fit r in 1..2 to minimise d.span over 1e6").expect_err("too long");
+    let problem =
+        talking.execute("fit r in 1..2 to minimise d.span over 1e6").expect_err("too long");
     assert!(talking.drawn(&problem).contains("`seconds`"));
 }
 

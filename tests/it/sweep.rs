@@ -73,7 +73,12 @@ fn what_goes_wrong_is_in_its_row() {
     let out = sweep(folder.path(), &["--set", "l=0.5,1.25,2"]);
     fine(&out);
     let told = text(&out.stderr);
-    assert!(told.contains("3 rows in sweep.csv: 2 ended in an error, 1 missed the tolerance, 1 met dead points"), "{told}");
+    assert!(
+        told.contains(
+            "3 rows in sweep.csv: 2 ended in an error, 1 missed the tolerance, 1 met dead points"
+        ),
+        "{told}"
+    );
     let table = table(folder.path(), "sweep.csv");
     let rows = rows(&table);
     assert_eq!(rows[0][4], "error");
@@ -194,7 +199,12 @@ fn what_was_there_before_is_not_counted_as_run() {
         text(&out.stderr)
     };
     let told = note(&[]);
-    assert!(told.contains("4 rows in sweep.csv: 3 ended in an error, 1 missed the tolerance, 1 met dead points"), "{told}");
+    assert!(
+        told.contains(
+            "4 rows in sweep.csv: 3 ended in an error, 1 missed the tolerance, 1 met dead points"
+        ),
+        "{told}"
+    );
     let whole = table(folder.path(), "sweep.csv");
     let (third, _) = whole.match_indices('\n').nth(2).expect("three lines");
     fs::write(folder.path().join("sweep.csv"), &whole[..=third]).expect("a table");

@@ -83,7 +83,8 @@ fn what_a_stopped_command_did_is_there_too() {
     terminal.begin("for i in 1..1000 { let q = i; for j in 1..1000 { step 500 } }");
     // Some rounds are done, however fast it is.
     terminal.wait("progress", |it| {
-        let share = it.line().split_once(" %").and_then(|(bar, _)| bar.rsplit(' ').next()?.parse().ok());
+        let share =
+            it.line().split_once(" %").and_then(|(bar, _)| bar.rsplit(' ').next()?.parse().ok());
         share.is_some_and(|percent: u32| percent > 0)
     });
     terminal.press("\x03");
