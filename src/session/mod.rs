@@ -14,6 +14,7 @@ mod attempt;
 mod check;
 mod commands;
 mod completion;
+mod csv;
 mod culprits;
 mod curve;
 mod deadline;
@@ -31,6 +32,7 @@ mod output_file;
 mod overview;
 mod parcel;
 mod preferences;
+mod quiet;
 mod quotas;
 mod report;
 mod resolve;
@@ -45,6 +47,7 @@ mod state;
 mod summary;
 pub(crate) mod sweep;
 mod transcript;
+mod undeclared;
 mod undo;
 mod value_text;
 
@@ -74,9 +77,11 @@ pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use sweep::{
-    Axis, Columns, Failure, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet,
+    Axis, Columns, Failure, Grid, Refusal, Shard, Sweep, SweepScript, Variant, parse_axis,
+    picture_sheet,
 };
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
+pub use undeclared::Undeclared;
 
 pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
