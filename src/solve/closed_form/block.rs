@@ -10,8 +10,7 @@ use super::abreast::{Abreast, Places, Poses};
 use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::linalg::Square;
-use crate::solve::frame::attempt::{NO_MOTION, SURPRISE};
-use crate::solve::frame::predict::is_clear;
+use crate::solve::frame::expected::{NO_MOTION, SURPRISE, is_clear};
 use crate::solve::island::history::History;
 
 /// No more numbers are found together.

@@ -3,6 +3,7 @@
 
 use super::branch::PartSide;
 use super::dyad;
+use super::expected::{NO_MOTION, SURPRISE};
 use crate::constraint::{ConstraintKind, Point};
 use crate::solve::island::Island;
 use crate::solve::island::sides::SINGULAR;
@@ -10,14 +11,8 @@ use crate::solve::method::newton;
 use crate::solve::method::{Limits, Pose, Stiffness, Workspace};
 use crate::solve::report::Counters;
 
-/// A correction of the expected pose larger than this part of the motion means that the
-/// motion was not understood; measured on mechanisms at 1 to 60 degrees a frame.
-pub(crate) const SURPRISE: f64 = 0.3;
-/// The same for points with freedom left, against the size.
+/// A correction larger than this part of the size means the same for points with freedom left.
 const FREE_SURPRISE: f64 = 0.02;
-/// A motion that is smaller than this part of the size is not worth a second look.
-pub(crate) const NO_MOTION: f64 = 1e-6;
-
 /// Squares of singular values below this count as freedom: in the middle of the range in
 /// which the count was right on all scenes measured, 1e-14 to 1e-6.
 const RANK_CUT: f64 = 1e-10;

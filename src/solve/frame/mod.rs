@@ -6,6 +6,7 @@ pub mod attempt;
 pub mod branch;
 pub mod decomposition;
 pub mod dyad;
+pub mod expected;
 pub mod interpolate;
 pub mod motion;
 pub mod nearest;

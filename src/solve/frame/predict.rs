@@ -2,8 +2,9 @@
 //! follow the motion in smaller steps where that is not safe, and where there is no solution
 //! settle for the best fit.
 
-use super::attempt::{Attempt, NO_MOTION, attempt, motion_between, motion_since};
+use super::attempt::{Attempt, attempt, motion_between, motion_since};
 use super::branch::{NEARLY_SINGULAR, SENSITIVE};
+use super::expected::{NEAR_DOUBT, NO_MOTION, WELL_KNOWN, is_clear};
 use super::{nearest, settle, substep};
 use crate::constraint::Point;
 use crate::solve::island::Island;
@@ -22,16 +23,7 @@ const WELL_EXPECTED: f64 = 1e-4;
 /// points that depend on each other: what cannot be the largest of a run is not worked out.
 const ROUGHLY: f64 = 10.0;
 
-/// How many poses before the present one an expectation of full degree is made from.
-const WELL_KNOWN: usize = 3;
-/// A point is where it was expected if it was corrected by no more than this part of the way to the
-/// other place where its constraints hold, and if that place is so near that it might be there, by
-/// no more than the second.
-const DOUBT: f64 = 0.25;
-const NEAR_DOUBT: f64 = 1e-2;
-/// That place is near if it is no more than so many times as far away as a point went.
-const FAR: f64 = 4.0;
-/// The same for one that passed a singular pose. Two branches may come near there and not meet. If
+/// The same as [`NEAR_DOUBT`] for one that passed a singular pose. Two branches may come near there and not meet. If
 /// they are passed in a part e of the frame, four poses on one let a pose on the other expect with an
 /// error of more than 3 e^2 of the way by which the branches part in a frame.
 const LEAP: f64 = 1.5e-5;
@@ -147,26 +139,6 @@ fn follows(island: &Island, attempt: &Attempt, is_predicted: bool, limits: &Limi
             && attempt.doubt_squared <= NEAR_DOUBT * NEAR_DOUBT;
     }
     is_clear(attempt.correction, motion, attempt.doubt_squared, attempt.nearest_squared, n_past)
-}
-
-/// Whether a pose that crossed nothing is the one that a motion leads to: `doubt_squared` is how large a
-/// part of the way to the other place where its constraints hold the correction of a point is at most, and
-/// `nearest_squared` how far away the nearest of these is, both squared; it was expected from the last pose
-/// and `n_past` before it.
-pub(crate) fn is_clear(
-    correction: f64,
-    motion: f64,
-    doubt_squared: f64,
-    nearest_squared: f64,
-    n_past: usize,
-) -> bool {
-    if nearest_squared < (FAR * motion) * (FAR * motion) {
-        n_past == WELL_KNOWN
-            && doubt_squared <= NEAR_DOUBT * NEAR_DOUBT
-            && correction <= NEAR_DOUBT * motion
-    } else {
-        doubt_squared <= DOUBT * DOUBT
-    }
 }
 
 /// Solves a frame that does not follow from the one before, and notes what changed sides.

@@ -8,8 +8,9 @@
 //! the determinant, and its velocities fit far better; a kinked one and the other branch of two
 //! that come near do not.
 
-use super::attempt::{Attempt, NO_MOTION, SURPRISE, attempt, motion_since};
+use super::attempt::{Attempt, attempt, motion_since};
 use super::branch::NEARLY_SINGULAR;
+use super::expected::{NO_MOTION, SURPRISE};
 use super::interpolate::Ends;
 use super::motion::Rates;
 use crate::constraint::{Point, Vector};
