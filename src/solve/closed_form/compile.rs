@@ -79,8 +79,8 @@ impl ClosedForm {
         self.held.binary_search(&c).is_err()
     }
 
-    /// Values of a constraint changed.
-    pub fn note_values(&mut self, c: u32) {
+    /// The length of a bar changed.
+    fn note_length(&mut self, c: u32) {
         self.knows_lengths = false;
         self.is_outdated |= !self.takes(c);
     }
@@ -100,8 +100,9 @@ impl Compiled {
         match self {
             // What is no length has no list.
             _ if !ClosedForm::asks(now) || is_bar(before) != is_bar(now) => *self = Self::NotYet,
-            Self::List(form) => form.note_values(c),
-            Self::NotYet | Self::Impossible => {}
+            Self::List(form) if matches!(now, Constraint::Length(_)) => form.note_length(c),
+            // Others are asked anew in each frame.
+            Self::List(_) | Self::NotYet | Self::Impossible => {}
         }
     }
 }
