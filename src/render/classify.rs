@@ -14,8 +14,12 @@ use crate::constraint::{
     PointIdx, Touch,
 };
 use crate::diag::format_rounded;
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::world::{ConstraintId, Record, World};
+
+/// What finding the symbols of a constraint takes, in ticks.
+const CONSTRAINT: usize = 100;
 
 /// Triangles of rods are looked for among at most so many rods: a net of a thousand is a net
 /// without a filling too.
@@ -25,10 +29,12 @@ const MOST_RODS: usize = 400;
 pub fn symbols(world: &World) -> Vec<Symbol> {
     let mut classifier = Classifier::new(world);
     for (_, record) in world.constraints() {
+        tick(CONSTRAINT);
         classifier.bars(record);
         classifier.segments(record);
     }
     for (id, record) in world.constraints() {
+        tick(CONSTRAINT);
         classifier.constraint(id, record);
     }
     classifier.webs();

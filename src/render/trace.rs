@@ -10,10 +10,14 @@ use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
 use crate::constraint::{Point, Vector};
+use crate::interrupt::tick;
 use crate::world::{Entity, PointId, Sample, Trace, World};
 
 /// How far a drawn line may pass a sample, px: a tenth of what a screen can show.
 const TOLERANCE: f64 = 0.1;
+
+/// What passing a place takes, in ticks.
+const THINNED: usize = 10;
 
 /// A path longer than this crosses itself many times over and is drawn finer, px.
 const LONG: f64 = 6000.0;
@@ -137,6 +141,7 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<Point> {
     let mut before = first;
     let mut sector = Sector::default();
     for &p in &points[1..] {
+        tick(THINNED);
         if !sector.admits(p - anchor, tolerance) {
             kept.push(before);
             anchor = before;

@@ -8,7 +8,11 @@ use super::resolve::unbind::Unbind;
 use super::state::State;
 use super::summary::Summary;
 use crate::diag::{format_number, format_rounded};
+use crate::interrupt::tick;
 use crate::render::Options;
+
+/// What the writing of a line takes, in ticks.
+const LINE: usize = 1000;
 
 impl State {
     /// A hash of the scene: the same for the same settings, points at the start, parameters
@@ -21,6 +25,7 @@ impl State {
         }
         let points = self.world.points();
         for id in points.ids() {
+            tick(LINE);
             let has_begun = self.world.clock().frame > 0;
             let at = if has_begun { points.start(id) } else { points.at(id) };
             let _ = writeln!(
@@ -37,6 +42,7 @@ impl State {
             let _ = writeln!(text, "{}", Unbind::of(&self.world).parameter_text(id));
         }
         for (_, record) in self.world.constraints() {
+            tick(LINE);
             let rho = record.rho().map(format_number).unwrap_or_default();
             let _ = writeln!(
                 text,

@@ -14,6 +14,8 @@ use crate::render::text::printable;
 
 /// What the writing of an element takes, in ticks.
 const ELEMENT: usize = 200;
+/// The same of a place of a line.
+const PLACE: usize = 80;
 
 const FONT: &str = "Helvetica, Arial, 'Liberation Sans', sans-serif";
 
@@ -81,7 +83,10 @@ pub fn number(value: f64) -> String {
 
 /// The chain of straight lines through some places, as the data of a path.
 pub fn polyline(places: &[Point]) -> String {
-    let place = |p: &Point| format!("{} {}", number(p.x), number(p.y));
+    let place = |p: &Point| {
+        tick(PLACE);
+        format!("{} {}", number(p.x), number(p.y))
+    };
     let places: Vec<String> = places.iter().map(place).collect();
     format!("M{}", places.join("L"))
 }
