@@ -14,6 +14,7 @@ mod attempt;
 mod check;
 mod commands;
 mod completion;
+mod csv;
 mod culprits;
 mod curve;
 mod deadline;
@@ -31,6 +32,7 @@ mod output_file;
 mod overview;
 mod parcel;
 mod preferences;
+mod quiet;
 mod quotas;
 mod report;
 mod resolve;
@@ -45,6 +47,7 @@ mod state;
 mod summary;
 pub(crate) mod sweep;
 mod transcript;
+mod undeclared;
 mod undo;
 mod value_text;
 
@@ -74,9 +77,11 @@ pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use sweep::{
-    Axis, Columns, Failure, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet,
+    Axis, Columns, Failure, Grid, Refusal, Shard, Sweep, SweepScript, Variant, parse_axis,
+    picture_sheet,
 };
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
+pub use undeclared::Undeclared;
 
 pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};
@@ -85,7 +90,7 @@ use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources, Span};
 use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
-use crate::solve::present;
+use crate::solve::{FrameCounts, present};
 use crate::world::{Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
@@ -162,6 +167,12 @@ impl Session {
         // Nobody holds a place in what had a value.
         self.input.sources.forget_last();
         Ok(value)
+    }
+
+    /// How the frames that passed were found.
+    #[doc(hidden)]
+    pub fn frame_counts(&self) -> FrameCounts {
+        self.state.solver.frame_counts()
     }
 
     /// Where a point is.

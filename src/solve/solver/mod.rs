@@ -15,7 +15,7 @@ use super::island::memory::{self, Memory};
 use super::island::partition::{Home, Partition};
 use super::island::recall::{Kept, Notes, Recall};
 use super::island::snapshot::Snapshot;
-use super::report::{Budget, Counters, Report, Status};
+use super::report::{Budget, Counters, FrameCounts, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
 use crate::constraint::Point;
@@ -50,6 +50,8 @@ pub struct Solver {
     is_stale: bool,
     /// What commands take back.
     notes: Notes,
+    /// How frames were found since it was made.
+    counts: FrameCounts,
 }
 
 impl Solver {
@@ -86,6 +88,11 @@ impl Solver {
             Some(why) => Err(why),
             None => Ok(report),
         }
+    }
+
+    /// How frames were found so far. Nothing takes that back.
+    pub fn frame_counts(&self) -> FrameCounts {
+        self.counts
     }
 
     /// Does `n` bare iterations of the chosen method; `auto` means relaxation here.
