@@ -186,10 +186,8 @@ fn nudge(apex: &str, by: f64) -> Counters {
         "point A = (0, 0) frozen, D = (4, 0) frozen, C = {apex}\nlength A C\nlength C D"
     ));
     let mut solver = Solver::new();
-    let mut settle = |world: &mut World| {
-        let report = solver.settle(world, &Settings::default(), &Budget::default());
-        report.expect("values at every time").counters
-    };
+    let mut settle =
+        |world: &mut World| solver.settle(world, &Settings::default(), &Budget::default()).counters;
     settle(&mut world);
     let Some(Entity::Point(d)) = world.names().get("D") else { panic!("no point") };
     world.apply(Edit::Move(d, Point::new(4.0 + by, 0.0)));
