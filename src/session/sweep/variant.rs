@@ -8,7 +8,7 @@ use super::quiet::Quiet;
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
 use crate::lang::parse;
-use crate::render::{Options, Scene, svg};
+use crate::render::{Options, svg};
 use crate::session::host::Host;
 use crate::session::results::Results;
 use crate::session::{Quota, Session};
@@ -136,7 +136,7 @@ impl SweepScript {
         host: &mut dyn Host,
     ) -> Option<String> {
         let (session, _) = self.run_to_its_end(grid, number, host)?;
-        Some(svg(&Scene::new(session.world()), options))
+        Some(svg(&session.scene(), options))
     }
 
     fn run_to_its_end(
