@@ -42,9 +42,9 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
     (
         Kind::Hinge,
-        &["render/export/parts.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
+        &["render/export/members.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
     ),
-    (Kind::Rigid, &["render/export/parts.rs"]),
+    (Kind::Rigid, &["render/export/members.rs"]),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
         Kind::Curve,
@@ -87,7 +87,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Length,
         &[
             "lang/lower/errors/refusal.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
@@ -115,7 +115,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "render/style.rs",
             "solve/closed_form/compile.rs",
             "solve/closed_form/run.rs",
