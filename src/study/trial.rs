@@ -3,7 +3,8 @@
 use crate::constraint::Point;
 use crate::solve::{Along, Budget, Memory, Settings, Solver, Status};
 use crate::world::{
-    Edit, Extremes, Formula, Measuring, ParameterId, PointId, Rates, Trace, Value, World,
+    Edit, Extremes, Formula, Measuring, ParameterId, PointId, Rates, SampleList, Trace, Value,
+    World,
 };
 
 /// A motion that is tried with different numbers, each time from the same pose.
@@ -41,8 +42,13 @@ impl Trial {
             world.apply(Edit::Trace(k, None));
         }
         if let Some(point) = path_of {
-            let trace =
-                Trace { point, label: None, every: 1, is_ended: false, samples: Vec::new() };
+            let trace = Trace {
+                point,
+                label: None,
+                every: 1,
+                is_ended: false,
+                samples: SampleList::default(),
+            };
             world.apply(Edit::Trace(0, Some(Box::new(trace))));
         }
         Self { world, memory, settings, n_frames }
@@ -119,6 +125,6 @@ impl Tried {
 
     /// Where the point was whose path was kept: at the start, and after each frame.
     pub fn path(&self) -> impl Iterator<Item = Point> {
-        self.world.traces().iter().flat_map(|trace| &trace.samples).map(|sample| sample.at)
+        self.world.traces().iter().flat_map(|trace| trace.samples.iter()).map(|sample| sample.at)
     }
 }
