@@ -37,6 +37,19 @@ pub fn read(path: &Path) -> io::Result<String> {
     read_text(File::open(path)?)
 }
 
+/// Reads a text from a file at a place without links. If somebody has put a link in its way since, there is
+/// nothing.
+pub fn read_at(place: &Path) -> io::Result<String> {
+    let is_there = is_regular(place)? && real(place)?.is_some_and(|real| real == place);
+    let nothing = || io::Error::from(io::ErrorKind::NotFound);
+    let file = is_there.then(|| File::open(place)).ok_or_else(nothing)??;
+    // What was opened is looked at: it may have been replaced meanwhile.
+    if !is_same_file(&fs::symlink_metadata(place)?, &file)? {
+        return Err(nothing());
+    }
+    read_text(file)
+}
+
 /// Reads a text in UTF-8, of which so much is there that it may be a script.
 pub fn read_text(source: impl Read) -> io::Result<String> {
     let mut bytes = Vec::new();

@@ -1,6 +1,6 @@
 //! The host of a session that runs in a process: files, a clock, Ctrl-C.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -30,6 +30,8 @@ pub struct ProcessHost {
     libraries: Vec<PathBuf>,
     /// Folders in which nothing is left of runs that were killed.
     tidy: BTreeSet<PathBuf>,
+    /// What was written, and where that really lies.
+    written: BTreeMap<PathBuf, PathBuf>,
     may_replace_any: bool,
     is_quiet: bool,
     /// Whether what is said is read by a program.
@@ -60,6 +62,7 @@ impl ProcessHost {
             readable,
             libraries: host.libraries.clone(),
             tidy: BTreeSet::new(),
+            written: BTreeMap::new(),
             may_replace_any: host.force,
             is_quiet: host.quiet,
             speaks_json: host.json,
@@ -269,7 +272,16 @@ impl Host for ProcessHost {
             files::remove_leftovers(folder);
         }
         let within = (!self.allows_any_path).then_some(&*self.out);
-        files::write_in_pieces(path, within, content)
+        files::write_in_pieces(path, within, content)?;
+        if let Ok(place) = path.canonicalize() {
+            self.written.insert(path.to_path_buf(), place);
+        }
+        Ok(())
+    }
+
+    fn read_back(&mut self, path: &Path) -> io::Result<String> {
+        let place = self.written.get(path).ok_or(io::ErrorKind::NotFound)?;
+        files::read_at(place)
     }
 
     fn spool(&mut self) -> io::Result<Box<dyn Spool>> {

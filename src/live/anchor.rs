@@ -10,7 +10,7 @@ use crate::world::World;
 pub enum Anchor {
     /// At a point, upright.
     Point(PointIdx),
-    /// At the first, its x axis towards the second.
+    /// At the first, its x axis towards the second, which is another.
     Bar(PointIdx, PointIdx),
 }
 
@@ -29,7 +29,8 @@ impl Anchor {
             Key::Triangle(corners) => corners,
             Key::Trace(_) | Key::Legend => return None,
         };
-        let bars = points.iter().flat_map(|&a| points.iter().map(move |&b| Self::Bar(a, b)));
+        let ends = points.iter().flat_map(|&a| points.iter().map(move |&b| (a, b)));
+        let bars = ends.filter(|(a, b)| a != b).map(|(a, b)| Self::Bar(a, b));
         let upright = points.iter().map(|&p| Self::Point(p));
         let has = |anchor: &Self| anchor.has(&figure.placement, drawing, at);
         // A bar that happens to be level lies upright on its end too; what is round is never turned.

@@ -1,5 +1,6 @@
 //! Files that a page asks for. They are made of a copy of the session, which is not touched.
 
+use std::io;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -38,7 +39,10 @@ pub fn file(wish: &FileWish, session: &Session, host: &mut dyn Host) -> Result<V
         }
         FileWish::Written(name) => {
             let path = Path::new(name);
-            let text = host.read(path).map_err(|why| crate::session::reason(&why))?;
+            let text = host.read_back(path).map_err(|why| match why.kind() {
+                io::ErrorKind::NotFound => "no statement wrote that".to_owned(),
+                _ => crate::session::reason(&why),
+            })?;
             let name = path.file_name().map_or_else(|| name.clone(), |n| n.display().to_string());
             let mime = match path.extension().and_then(|ending| ending.to_str()) {
                 Some("svg") => "image/svg+xml",

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::grip::Grip;
-use super::listener::{Listener, told};
+use super::listener::{Listener, refused, told};
 use super::live_session::Live;
 use super::message::{ClientId, PAGE};
 use crate::constraint::Point;
@@ -22,8 +22,6 @@ impl Live {
         session: &mut Session,
         host: &mut dyn Host,
     ) -> Value {
-        let refused =
-            |why: &str| json!({ "ok": false, "said": [{ "kind": "error", "text": why }] });
         if self.grip.is_some() {
             return refused("a point is held already");
         }

@@ -14,7 +14,7 @@ pub struct Listener<'a> {
     inner: &'a mut dyn Host,
     /// What was said, as the page is told.
     pub said: Vec<Value>,
-    /// Files that were written, as scripts name them.
+    /// Files that were written, where [`Host::resolve`] puts them.
     pub wrote: Vec<String>,
     /// The text that the page sent, if places in it are to be told.
     pub source: Option<SourceId>,
@@ -55,6 +55,11 @@ pub fn told(what: &Diagnostic, sources: &Sources, source: Option<SourceId>) -> V
         told["to"] = json!(to_utf16(text, place.range().end));
     }
     told
+}
+
+/// What answers a wish that is not granted.
+pub fn refused(why: &str) -> Value {
+    json!({ "ok": false, "said": [{ "kind": "error", "text": why }] })
 }
 
 impl Host for Listener<'_> {

@@ -1,10 +1,11 @@
 //! What pages and a session have with one another, and who of them is there.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
 use super::grip::Grip;
+use super::journal::Journal;
 use super::message::{ClientId, Message, PAGE};
 use super::pace::Pace;
 use super::pose::Pose;
@@ -25,8 +26,7 @@ pub struct Live {
     /// Seconds of the mechanism a second, as it was wished last.
     pub(super) speed: f64,
     pub(super) attempt: Option<Attempt>,
-    pub(super) journal: VecDeque<Value>,
-    pub(super) n_journal: u64,
+    pub(super) journal: Journal,
     /// How many of the session's statements are in the journal.
     pub(super) n_typed: usize,
     pub(super) scene: Option<Scene>,
@@ -56,8 +56,7 @@ impl Live {
             pace: None,
             speed: 1.0,
             attempt: None,
-            journal: VecDeque::new(),
-            n_journal: 0,
+            journal: Journal::default(),
             n_typed: 0,
             scene: None,
             pose_number: 1,

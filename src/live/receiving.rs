@@ -5,12 +5,13 @@ use serde_json::{Value, json};
 use super::completing::complete;
 use super::files;
 use super::grip::rounded;
+use super::listener::refused;
 use super::live_session::Live;
 use super::message::{ClientId, PAGE};
 use super::pace::Pace;
 use super::request::{Request, Wish};
 use super::viewer::Viewer;
-use crate::session::{EXAMPLES, Host, Session};
+use crate::session::{EXAMPLES, Host, Quota, Session};
 
 /// Whether a message wants what is under way to stop: a carrier hears that while the session works.
 pub fn is_stop(message: &str) -> bool {
@@ -57,13 +58,18 @@ impl Live {
                 return Some(json!({ "ok": true }));
             }
             Wish::Execute { text, is_more_to_come } => {
-                let viewer = self.viewers.get_mut(&client)?;
-                viewer.pending.push_str(&text);
+                let pieces = &mut self.viewers.get_mut(&client)?.pieces;
+                pieces.add(&text, session.quota(Quota::SourceBytes));
                 if is_more_to_come {
                     return None;
                 }
-                let text = std::mem::take(&mut viewer.pending);
-                return Some(self.execute(&text, session, host));
+                return Some(match pieces.take() {
+                    Some(text) => self.execute(&text, session, host),
+                    None => refused(&format!(
+                        "the text is longer than the limit `{}`",
+                        Quota::SourceBytes.word()
+                    )),
+                });
             }
             Wish::Try(text) => return Some(self.attempt(&text, session, host)),
             Wish::Keep => self.keep(session, host),
@@ -116,7 +122,7 @@ impl Live {
                         file["ok"] = json!(true);
                         file
                     }
-                    Err(why) => json!({ "ok": false, "said": [{ "kind": "error", "text": why }] }),
+                    Err(why) => refused(&why),
                 });
             }
             Wish::View(scale) => self.viewers.get_mut(&client)?.set_scale(scale),

@@ -64,7 +64,7 @@ pub enum FileWish {
     Table(u64),
     /// The script that makes it all.
     Script,
-    /// A file that a statement wrote.
+    /// A file that a statement wrote, by the name that was told then.
     Written(String),
 }
 

@@ -10,9 +10,6 @@ use super::viewer::{News, Viewer};
 use crate::render::Scene;
 use crate::session::Session;
 
-/// Statements of the journal that a page gets when it comes.
-const RECENT: usize = 500;
-
 impl Live {
     /// What is to be told now, to whom.
     pub fn take(&mut self, session: &mut Session) -> Vec<(ClientId, Message)> {
@@ -64,26 +61,18 @@ impl Live {
     pub(super) fn note_journal(&mut self, session: &Session, by: &str) -> bool {
         let n = session.n_typed();
         for text in session.changes_since(self.n_typed) {
-            self.journal.push_back(json!({ "number": self.n_journal, "text": text, "by": by }));
-            self.n_journal += 1;
-        }
-        while self.journal.len() > RECENT {
-            self.journal.pop_front();
+            self.journal.write(text, by);
         }
         std::mem::replace(&mut self.n_typed, n) != n
     }
 
     pub(super) fn tell_journal(&mut self) {
-        let first = self.n_journal - self.journal.len() as u64;
         for (&client, viewer) in &mut self.viewers {
-            if !viewer.is_here || viewer.n_journal == self.n_journal {
-                continue;
+            if viewer.is_here && viewer.n_journal != self.journal.n() {
+                let text = self.journal.message_since(viewer.n_journal);
+                viewer.n_journal = self.journal.n();
+                self.outbox.push((client, Message::Text(text)));
             }
-            let from = viewer.n_journal.max(first) - first;
-            let news: Vec<&Value> = self.journal.iter().skip(from as usize).collect();
-            viewer.n_journal = self.n_journal;
-            let text = json!({ "journal": news }).to_string();
-            self.outbox.push((client, Message::Text(text)));
         }
     }
 

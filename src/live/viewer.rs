@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use super::anchor::Places;
 use super::drawn;
 use super::message::Message;
+use super::pieces::Pieces;
 use super::pose::Pose;
 use crate::render::{Drawing, Followed, Scene};
 use crate::session::Session;
@@ -21,8 +22,8 @@ const AHEAD: u64 = 2;
 pub struct Viewer {
     /// Whether it said that it is there: before, it is told nothing.
     pub is_here: bool,
-    /// The text that it sends in pieces, so far.
-    pub pending: String,
+    /// The text that it sends in pieces.
+    pub pieces: Pieces,
     /// px a world unit, where it wants that.
     scale: Option<f64>,
     drawing: Option<Drawing>,

@@ -195,6 +195,17 @@ pub trait Host {
         self.write(path, &bytes)
     }
 
+    /// Reads a text back that was written at a place that [`resolve`](Self::resolve) gave; by default
+    /// nothing was.
+    ///
+    /// # Errors
+    /// [`NotFound`](io::ErrorKind::NotFound) where nothing was written, or where something else
+    /// lies since, whatever that is.
+    fn read_back(&mut self, path: &Path) -> io::Result<String> {
+        self.behind_mut()
+            .map_or_else(|| Err(io::ErrorKind::NotFound.into()), |host| host.read_back(path))
+    }
+
     /// Somewhere to put what a recording takes until it is written; by default in memory.
     ///
     /// # Errors

@@ -86,7 +86,7 @@ use crate::constraint::{ConstraintKind as _, Point};
 use crate::diag::{Diagnostic, SourceId, Sources, Span};
 use crate::interrupt::{self, Stopped};
 use crate::lang::ast::Statement;
-use crate::solve::present;
+use crate::solve::{FrameCounts, present};
 use crate::world::{Entity, Value, World};
 use execution::Execution;
 use input::{Input, Override};
@@ -163,6 +163,12 @@ impl Session {
         // Nobody holds a place in what had a value.
         self.input.sources.forget_last();
         Ok(value)
+    }
+
+    /// How the frames that passed were found.
+    #[doc(hidden)]
+    pub fn frame_counts(&self) -> FrameCounts {
+        self.state.solver.frame_counts()
     }
 
     /// Where a point is.
@@ -259,6 +265,11 @@ impl Session {
     /// Sets how much there may be of something.
     pub const fn limit(&mut self, quota: Quota, most: u64) {
         self.input.quotas.set(quota, most);
+    }
+
+    /// How much there may be of something.
+    pub const fn quota(&self, quota: Quota) -> u64 {
+        self.input.quotas.of(quota)
     }
 
     /// Carries out one statement, whole or not at all.

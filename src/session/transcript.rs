@@ -60,6 +60,8 @@ pub struct Transcript {
     n_lines: usize,
     /// Whether somebody sees each answer before they go on.
     is_conversation: bool,
+    /// Whether all that stands behind a mistake is left out.
+    ends_at_a_mistake: bool,
     /// Whether the pose was solved when it was looked at last.
     was_solved: bool,
 }
@@ -72,7 +74,13 @@ impl Transcript {
 
     /// A text that errors call `name`.
     pub const fn new(name: &'static str) -> Self {
-        Self { name, n_lines: 0, is_conversation: false, was_solved: true }
+        Self {
+            name,
+            n_lines: 0,
+            is_conversation: false,
+            ends_at_a_mistake: false,
+            was_solved: true,
+        }
     }
 
     /// A conversation: who types is told when an edit leaves the pose unsolved.
@@ -80,8 +88,14 @@ impl Transcript {
         Self { is_conversation: true, ..Self::new(name) }
     }
 
+    /// A request of a program: what stands behind a mistake was not written for what is then.
+    pub const fn request(name: &'static str) -> Self {
+        Self { ends_at_a_mistake: true, ..Self::new(name) }
+    }
+
     /// Carries out a piece. After a mistake the rest of its line is left out, as it was typed
-    /// in the belief that what stands before it works; the next line is carried out again.
+    /// in the belief that what stands before it works; the next line is carried out again, but for
+    /// a request.
     pub fn enter(&mut self, piece: &str, session: &mut Session, host: &mut dyn Host) -> Outcome {
         let folder = Some(PathBuf::new());
         let source = session.add_piece(self.name, piece, self.n_lines + 1, folder);
@@ -124,6 +138,9 @@ impl Transcript {
                     host.tell(&problem, session.sources());
                     session.tell_done(span, false, host);
                     outcome.failure.get_or_insert(problem);
+                    if self.ends_at_a_mistake {
+                        break;
+                    }
                     left_out = line_end(piece, span);
                 }
             }

@@ -4,7 +4,7 @@ use super::closed_form::Found;
 use super::frame::{predict, settle};
 use super::island::{Island, rounding};
 use super::method::{self, Limits, Outcome};
-use super::report::{Budget, Counters, Status};
+use super::report::{Budget, Counters, NoStep, Status};
 use super::settings::{Method, Settings};
 use crate::constraint::{Constraint, ConstraintKind, Point};
 use crate::world::{PointId, World};
@@ -36,6 +36,7 @@ pub(super) enum Cause {
 const FACTORISATION: u64 = 4;
 
 /// What a visit came to.
+#[derive(Clone, Copy)]
 pub(super) struct Visit {
     /// How solving ended; none if there was nothing to solve.
     pub outcome: Option<Outcome>,
@@ -43,6 +44,8 @@ pub(super) struct Visit {
     pub size: f64,
     /// The coefficient of relaxation, if it had to be lowered.
     pub lowered: Option<f64>,
+    /// Whether its list of steps found the pose, or why not; none where it was not asked.
+    pub by_steps: Option<Result<(), NoStep>>,
 }
 
 /// Solves an island. Touches nothing else: visits may be made in any order, or side by side.
@@ -53,7 +56,7 @@ pub(super) fn visit(
     task: Task,
     work: &mut Counters,
 ) -> Visit {
-    let mut visit = Visit { outcome: None, size: 1.0, lowered: None };
+    let mut visit = Visit { outcome: None, size: 1.0, lowered: None, by_steps: None };
     work.islands_visited += 1;
     island.remembered.take();
     island.before = None;
@@ -67,11 +70,12 @@ pub(super) fn visit(
         return visit;
     }
     island.prepare();
-    if task == Task::Frame
-        && settings.method == Method::Auto
-        && let Some(found) = island.closed_frame(budget.tolerance_of(settings))
-    {
-        return end_closed(island, &found, budget, work);
+    if task == Task::Frame && settings.method == Method::Auto {
+        let found = island.closed_frame(budget.tolerance_of(settings));
+        visit.by_steps = is_driven.then_some(found.map(|_| ()));
+        if let Ok(found) = found {
+            return end_closed(island, &found, budget, work, visit);
+        }
     }
     island.leave_closed_form();
     let limits = island.limits(settings, budget);
@@ -112,7 +116,13 @@ pub(super) fn visit(
 }
 
 /// Ends a visit in which the pose was found by the list of steps.
-fn end_closed(island: &mut Island, found: &Found, budget: &Budget, work: &mut Counters) -> Visit {
+fn end_closed(
+    island: &mut Island,
+    found: &Found,
+    budget: &Budget,
+    work: &mut Counters,
+    visit: Visit,
+) -> Visit {
     let size = island.size_before();
     island.note_closed_form(found, size, budget.known_error);
     let n = island.n_closed();
@@ -123,7 +133,7 @@ fn end_closed(island: &mut Island, found: &Found, budget: &Budget, work: &mut Co
     island.is_awake = true;
     let (worst, energy) = (found.worst, 0.5 * found.worst * found.worst);
     let outcome = Outcome { status: Status::Converged, worst, energy, n_iterations: 1 };
-    Visit { outcome: Some(outcome), size, lowered: None }
+    Visit { outcome: Some(outcome), size, ..visit }
 }
 
 /// Works out what drove an island at the beginning of a frame that it was made in.

@@ -35,7 +35,7 @@ pub use island::recall::Recall;
 pub use parallel::limit_cores;
 pub use report::Status;
 #[doc(hidden)]
-pub use report::{Budget, Counters, Report};
+pub use report::{Budget, Counters, FrameCounts, Report};
 pub use settings::{CogForm, Method, Settings};
 #[doc(hidden)]
 pub use solver::{Along, Solver, Stretch};

@@ -119,6 +119,50 @@ impl Counters {
     }
 }
 
+/// How often islands that something drove were followed through a frame by `auto`, by the way that
+/// their poses were found. The same on every machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FrameCounts {
+    /// By a list of closed steps.
+    pub closed: u64,
+    /// As any motion is: the first frame, or the first after an edit.
+    pub first: u64,
+    /// The same, where a step holds a value that changed.
+    pub changed: u64,
+    /// Where some points have no closed form.
+    pub open: u64,
+    /// Next to a singular pose, and where it was not proved that none lay on the way.
+    pub unproved: u64,
+}
+
+impl FrameCounts {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        let Self { closed, first, changed, open, unproved } = self;
+        closed + first + changed + open + unproved
+    }
+
+    /// Counts a frame for which the list of steps was asked.
+    pub(super) fn count(&mut self, found: Result<(), NoStep>) {
+        *match found {
+            Ok(()) => &mut self.closed,
+            Err(NoStep::First) => &mut self.first,
+            Err(NoStep::Changed) => &mut self.changed,
+            Err(NoStep::Open) => &mut self.open,
+            Err(NoStep::Unproved) => &mut self.unproved,
+        } += 1;
+    }
+}
+
+/// Why a frame is not found by closed steps, see [`FrameCounts`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoStep {
+    First,
+    Changed,
+    Open,
+    Unproved,
+}
+
 /// What limits the work of one call.
 #[derive(Clone, Copy, Default)]
 pub struct Budget<'a> {

@@ -239,6 +239,14 @@ fn requests_are_answered_up_to_done() {
 }
 
 #[test]
+fn lines_are_counted_through_requests() {
+    let input = "point Z = (1, 2)\n{\"run\": \"print 1\\nprint 2\"}\nnonsense\n";
+    let (_, found) = objects(&["--json"], input);
+    let place = &find(&found, "error")["places"][0];
+    assert_eq!(place["line"], 3, "{place}");
+}
+
+#[test]
 fn a_dead_point_and_a_miss_are_data() {
     let script = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (0, 2), C = (3, 2)
         crank: motor A B radius 2 speed 1rev; length B C = 3; length C D = 1.5

@@ -51,6 +51,13 @@ fn expressions_are_limited_in_depth() {
 }
 
 #[test]
+fn a_word_in_brackets_within_brackets_is_one_mistake() {
+    let nested = format!("{}3{}", "(".repeat(40), ")".repeat(40));
+    check(format!("freeze {nested}"), Err("unexpected `(`"));
+    check(format!("length {nested} = 3"), Err("unexpected `(`"));
+}
+
+#[test]
 fn blocks_are_limited_in_depth() {
     let nested = |n| "for i in 1..2 { ".repeat(n) + "step" + &" }".repeat(n);
     check(nested(64), Ok(()));

@@ -44,7 +44,11 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Hinge,
         &["render/export/members.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
     ),
-    (Kind::Rigid, &["render/export/members.rs"]),
+    (
+        Kind::Rigid,
+        // A body is placed as one.
+        &["render/export/members.rs", "solve/closed_form/body.rs", "solve/closed_form/cluster.rs"],
+    ),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
         Kind::Curve,
@@ -91,6 +95,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
+            "solve/closed_form/cluster.rs",
             "solve/closed_form/compile.rs",
             "solve/frame/branch.rs",
             "solve/frame/decomposition.rs",

@@ -55,13 +55,23 @@ impl Rigid {
         Self { points: once.into(), shape, ends, length }
     }
 
+    /// Where each point is in a frame of the body's own, in units of length.
+    pub fn places(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
+        self.points.iter().zip(&self.shape).map(|(&p, &zeta)| (p, zeta * self.length))
+    }
+
+    /// The points A and B, and their distance; none for a single point.
+    pub fn frame(&self) -> Option<([PointIdx; 2], f64)> {
+        Some((self.base()?, self.length))
+    }
+
     /// The points A and B; none for a single point, which is rigid anyhow.
     fn base(&self) -> Option<[PointIdx; 2]> {
         (self.points.len() > 1).then(|| self.ends.map(|i| self.points[i]))
     }
 
     /// The points other than A and B, with their zeta.
-    fn others(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
+    pub fn others(&self) -> impl Iterator<Item = (PointIdx, Vector)> + '_ {
         self.points
             .iter()
             .zip(&self.shape)

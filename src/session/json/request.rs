@@ -1,8 +1,6 @@
 //! Requests of a program that holds a session: a text to be run whole, or a question, each answered by
 //! objects of which the last says that it is done.
 
-use std::path::PathBuf;
-
 use serde_json::{Value, json};
 
 use super::host::Objects;
@@ -13,7 +11,7 @@ use crate::render::svg;
 use crate::session::Session;
 use crate::session::execution::Flow;
 use crate::session::host::Host as _;
-use crate::session::transcript::Outcome;
+use crate::session::transcript::{Outcome, Transcript};
 
 /// What a request may ask for.
 const QUESTIONS: [&str; 4] = ["traces", "measures", "svg", "script"];
@@ -31,12 +29,7 @@ pub fn answer_request(line: &str, session: &mut Session, host: &mut Objects) -> 
     };
     let id = &request["id"];
     let outcome = match (request["run"].as_str(), request["get"].as_str()) {
-        (Some(text), None) => {
-            let source = session.add_source("<request>", text, Some(PathBuf::new()));
-            let outcome = session.run_text(source, host);
-            session.keep_whole(host);
-            outcome
-        }
+        (Some(text), None) => Transcript::request("<request>").enter(text, session, host),
         (None, Some("traces")) => say(&objects::traces(session.world()), host),
         (None, Some("measures")) => say(&objects::measures(session.world()), host),
         (None, Some("svg")) => {

@@ -136,6 +136,12 @@ impl<const N: usize> Abreast<N> {
         (0..N).for_each(|l| self.add(l, off(l), 1.0));
     }
 
+    /// Takes in how near each pose is to a singular one.
+    #[inline(always)]
+    pub fn note_side(&mut self, side_squared: f64) {
+        (0..N).for_each(|l| self.add(l, 0.0, side_squared));
+    }
+
     /// Takes in what a step came to in a frame.
     #[inline(always)]
     fn add(&mut self, l: usize, off: f64, side_squared: f64) {

@@ -1,12 +1,16 @@
 //! From the constraints of an island to its list of steps.
 
 use super::abreast::Abreast;
-use super::{CircleLine, Circles, ClosedForm, Crank, Direction, Radius, Ray, Step, Sum, Wheel};
-use crate::constraint::{Carried, Constraint, ConstraintKind as _, PointIdx};
-use crate::solve::frame::decomposition::{Block, Form, Plan};
+use super::cluster::bar;
+use super::{
+    Bar, CircleLine, Circles, ClosedForm, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
+};
+use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
+use crate::solve::frame::decomposition::Plan;
 
 /// What a constraint leaves of the plane to a point.
-enum Locus {
+#[derive(Clone, Copy)]
+pub(super) enum Locus {
     /// A circle around another point.
     Circle(PointIdx, Radius),
     /// The line through two others; whether only the part between them.
@@ -15,45 +19,64 @@ enum Locus {
     Beyond(PointIdx, PointIdx, bool),
 }
 
+/// An island at a pose that counts.
+#[derive(Clone, Copy)]
+pub(crate) struct Given<'a> {
+    /// The order in which its points can be found.
+    pub plan: &'a Plan,
+    /// Its constraints.
+    pub constraints: &'a [Constraint],
+    /// Where its points are, the free ones first.
+    pub x: &'a [Point],
+    /// How many of them are free.
+    pub n_free: usize,
+    /// Their inverse masses.
+    pub w: &'a [f64],
+    /// The highest degree up to which the motion of points that are found one by one is smooth.
+    pub degree: u8,
+}
+
+/// A list on its way.
+pub(super) struct Compiler<'a> {
+    pub given: Given<'a>,
+    pub form: ClosedForm,
+    /// How many numbers drive its steps so far.
+    n_driven: u32,
+}
+
 impl ClosedForm {
-    /// The list for constraints over `n_points` points, in the order of a plan; none if some of
-    /// these have no closed form. `degree` is the highest up to which a motion is smooth.
-    pub fn new(
-        plan: &Plan,
-        constraints: &[Constraint],
-        n_points: usize,
-        degree: u8,
-    ) -> Option<Self> {
+    /// The list for an island; none if some of its points have no closed form.
+    pub fn new(given: Given) -> Option<Self> {
+        let Given { plan, constraints, x, degree, .. } = given;
         let carries = |c: &Constraint| {
             let is_told = matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
             !is_told && !matches!(c, Constraint::Cog(_) | Constraint::Orientation(_))
         };
-        if !plan.is_complete() || constraints.iter().any(carries) {
+        if constraints.iter().any(carries) {
             return None;
         }
-        let mut form = Self {
+        let form = Self {
             steps: Vec::with_capacity(plan.blocks.len()),
             cranks: Vec::new(),
             degree,
-            one: Abreast::new(n_points, 0),
-            n_constraints: plan.constraints.len() as u32,
+            one: Abreast::new(x.len(), 0),
+            n_constraints: constraints.len() as u32,
+            extent: 0.0,
             counts_turns: false,
             knows_pose: false,
         };
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
-        let n_motors = constraints.iter().filter(is_driver).count() as u32;
-        let mut n_driven = n_motors;
+        let n_driven = constraints.iter().filter(is_driver).count() as u32;
+        let mut compiler = Compiler { given, form, n_driven };
         for block in &plan.blocks {
             let which = &plan.constraints[block.first as usize..block.end as usize];
-            let (step, pair) = form.block(block, which, constraints, n_driven)?;
-            n_driven += u32::from(matches!(step, Step::Direction(_)));
-            form.counts_turns |= matches!(step, Step::Wheel(_));
-            form.steps.push(step);
-            for &c in which.iter().filter(|c| !pair.contains(c)) {
-                form.steps.push(bar(&constraints[c as usize])?);
-            }
+            compiler.point(block.point, which, block.is_determined)?;
         }
-        form.one = Abreast::new(n_points, n_driven as usize);
+        if !plan.is_complete() {
+            compiler.parts()?;
+        }
+        let Compiler { mut form, n_driven, .. } = compiler;
+        form.one = Abreast::new(x.len(), n_driven as usize);
         Some(form)
     }
 
@@ -64,44 +87,54 @@ impl ClosedForm {
             Constraint::Motor(_) | Constraint::Coordinate(_) | Constraint::Orientation(_)
         )
     }
+}
 
-    /// The step that finds the point of a block, and the constraints it does so by: all, or of many
-    /// the first and one that goes with it.
-    fn block(
-        &mut self,
-        block: &Block,
-        which: &[u32],
-        all: &[Constraint],
-        drive: u32,
-    ) -> Option<(Step, [u32; 2])> {
-        match *which {
-            [one] => Some((self.step(block, which, all, drive)?, [one, one])),
+impl Compiler<'_> {
+    /// The steps that find a point by some constraints, and check those of them that it takes no more. None
+    /// if there are none; nothing is added then.
+    pub fn point(&mut self, to: PointIdx, which: &[u32], is_determined: bool) -> Option<()> {
+        let (step, pair) = match *which {
+            [one] => (self.step(to, which, is_determined)?, [one, one]),
             [first, ref others @ ..] => others.iter().find_map(|&other| {
                 let pair = [first, other];
-                Some((self.step(block, &pair, all, drive)?, pair))
-            }),
-            [] => None,
-        }
+                Some((self.step(to, &pair, is_determined)?, pair))
+            })?,
+            [] => return None,
+        };
+        let others = which.iter().copied().filter(|c| !pair.contains(c));
+        self.push(step, others)
     }
 
-    /// The step that finds the point of a block by some constraints; `drive` are the next numbers to drive one.
-    fn step(
-        &mut self,
-        block: &Block,
-        which: &[u32],
-        all: &[Constraint],
-        drive: u32,
-    ) -> Option<Step> {
-        let to = block.point;
-        match (block.form, which) {
-            (Form::Assignment, &[c]) => self.assignment(&all[c as usize], c, to),
-            (_, &[one, two]) if block.is_determined => {
+    /// Adds a step, and checks of constraints after it.
+    pub fn push(&mut self, step: Step, checked: impl Iterator<Item = u32>) -> Option<()> {
+        let checks: Option<Vec<Step>> = checked.map(|c| self.check(c)).collect();
+        let checks = checks?;
+        self.n_driven += u32::from(matches!(step, Step::Direction(_)));
+        self.form.counts_turns |= matches!(step, Step::Wheel(_));
+        self.form.steps.push(step);
+        self.form.steps.extend(checks);
+        Some(())
+    }
+
+    /// The check of a bar whose ends others find.
+    pub fn check(&self, c: u32) -> Option<Step> {
+        let (points, length) = bar(&self.given.constraints[c as usize])?;
+        Some(Step::Bar(Bar::new(points, length)))
+    }
+
+    /// The step that finds a point by one or two constraints.
+    fn step(&mut self, to: PointIdx, which: &[u32], is_determined: bool) -> Option<Step> {
+        let all = self.given.constraints;
+        match *which {
+            [c] if is_determined && all[c as usize].traits().is_linear => self.assignment(c, to),
+            [one, two] if is_determined => {
                 let pair = [one, two].map(|c| (c, &all[c as usize]));
-                let turned =
-                    turned(to, pair, drive).or_else(|| turned(to, [pair[1], pair[0]], drive));
-                turned.or_else(|| meeting(to, locus(pair[0].1, to)?, locus(pair[1].1, to)?))
+                let circle = |(_, bar): (u32, &Constraint)| locus(bar, to);
+                let turned = |by, bar| self.turned(to, by, &circle(bar)?);
+                let turned = turned(pair[0], pair[1]).or_else(|| turned(pair[1], pair[0]));
+                turned.or_else(|| meeting(to, circle(pair[0])?, circle(pair[1])?))
             }
-            (_, &[one]) if !block.is_determined => match locus(&all[one as usize], to)? {
+            [one] if !is_determined => match locus(&all[one as usize], to)? {
                 Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
                 Locus::Line(..) | Locus::Beyond(..) => None,
             },
@@ -110,47 +143,37 @@ impl ClosedForm {
     }
 
     /// The step of a constraint that says by itself where a point is.
-    fn assignment(&mut self, constraint: &Constraint, c: u32, to: PointIdx) -> Option<Step> {
-        match constraint {
+    fn assignment(&mut self, c: u32, to: PointIdx) -> Option<Step> {
+        match &self.given.constraints[c as usize] {
             Constraint::Motor(motor) if motor.measured_from().is_none() => {
                 let [from, driven] = motor.crank();
                 if driven != to || from == to {
                     return None;
                 }
-                self.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
-                Some(Step::Crank(self.cranks.len() as u32 - 1))
+                self.form.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
+                Some(Step::Crank(self.form.cranks.len() as u32 - 1))
             }
             Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
-            _ => Some(Step::Sum(Sum::new(to, constraint, self.one.ways.len())?)),
+            constraint => Some(Step::Sum(Sum::new(to, constraint, self.given.x.len())?)),
         }
     }
-}
 
-/// The step that finds the end of a bar that the first constraint turns.
-fn turned(to: PointIdx, [by, bar]: [(u32, &Constraint); 2], drive: u32) -> Option<Step> {
-    let Locus::Circle(from, Radius::Fixed(length)) = locus(bar.1, to)? else { return None };
-    match by {
-        (c, Constraint::Cog(cog)) => Some(Step::Wheel(Wheel::new(to, from, length, (c, cog))?)),
-        (c, Constraint::Orientation(orientation)) => {
-            let link = Direction::new(to, from, length, (c, orientation), drive)?;
-            Some(Step::Direction(link))
+    /// The step that finds a point on a circle which a constraint turns.
+    pub fn turned(&self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
+        let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
+        match by {
+            (c, Constraint::Cog(cog)) => Some(Step::Wheel(Wheel::new(to, from, length, (c, cog))?)),
+            (c, Constraint::Orientation(orientation)) => {
+                let by = (c, orientation);
+                Some(Step::Direction(Direction::new(to, from, length, by, self.n_driven)?))
+            }
+            _ => None,
         }
-        _ => None,
-    }
-}
-
-/// The check of a bar whose ends others find.
-fn bar(constraint: &Constraint) -> Option<Step> {
-    match constraint {
-        Constraint::Length(bar) if bar.bounds.is_equality() && bar.bounds.lo > 0.0 => {
-            Some(Step::Bar { points: bar.points, length: bar.bounds.lo })
-        }
-        _ => None,
     }
 }
 
 /// The step that finds a point on two loci.
-fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
+pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
     match (one, two) {
         (Locus::Circle(a, Radius::Fixed(l)), Locus::Circle(b, Radius::Fixed(m))) => {
             (a != b).then_some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
@@ -170,7 +193,7 @@ fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
 }
 
 /// What a constraint leaves to a point.
-fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
+pub(super) fn locus(constraint: &Constraint, p: PointIdx) -> Option<Locus> {
     match constraint {
         Constraint::Length(bar) if bar.bounds.is_equality() => {
             Some(Locus::Circle(other_end(bar.points, p)?, Radius::Fixed(bar.bounds.lo)))
@@ -216,7 +239,9 @@ mod tests {
 
     fn has_list(constraints: &[Constraint], n_free: usize, n_points: usize) -> bool {
         let plan = Plan::new(constraints, n_free, n_points);
-        ClosedForm::new(&plan, constraints, n_points, 3).is_some()
+        let (x, w) = (vec![Point::ORIGIN; n_points], vec![1.0; n_points]);
+        let (plan, x, w) = (&plan, &x, &w);
+        ClosedForm::new(Given { plan, constraints, x, n_free, w, degree: 3 }).is_some()
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The pose of an island as a list of steps, each of which says outright where a point is: on a
-//! crank, at a place, where two circles meet, where a hinge divides a bar.
+//! crank, at a place, where two circles meet, where a hinge divides a bar, on a body two points of which
+//! are known.
 //!
 //! An island that falls apart into such steps is compiled when it is first followed, and again
 //! once a value that a step holds was changed. A frame runs the list. It has no start and no
@@ -20,12 +21,15 @@
 )]
 
 mod abreast;
+mod body;
 mod circles;
+mod cluster;
 mod compile;
 mod direction;
 mod found;
 mod lanes;
 mod line;
+mod parts;
 mod ray;
 mod run;
 mod sum;
@@ -34,7 +38,9 @@ mod wheel;
 use crate::constraint::{Heading, PointIdx};
 use abreast::Abreast;
 pub(crate) use abreast::WIDE;
+use body::{Bar, Body};
 use circles::Circles;
+pub(crate) use compile::Given;
 use direction::Direction;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
@@ -56,6 +62,8 @@ pub(crate) struct ClosedForm {
     one: Abreast<1>,
     /// How many constraints a frame evaluates.
     n_constraints: u32,
+    /// How large the island is at least, for the bodies in it.
+    pub extent: f64,
     /// Whether each frame counts turns on from the one before, so that none is found beside others.
     counts_turns: bool,
     /// Whether what steps know of the pose is of the present one.
@@ -99,13 +107,10 @@ enum Step {
     Wheel(Wheel),
     /// Where a constraint adds up other points to.
     Sum(Sum),
+    /// On a body.
+    Body(Box<Body>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
-    Bar {
-        /// Its ends.
-        points: [PointIdx; 2],
-        /// Its length.
-        length: f64,
-    },
+    Bar(Bar),
     /// On a circle, where it is nearest to.
     Nearest {
         /// The point that is found.

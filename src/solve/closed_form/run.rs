@@ -15,23 +15,27 @@ impl ClosedForm {
         self.knows_pose
     }
 
-    /// Looks at a pose that counts.
-    pub fn look(&mut self, x: &[Point]) {
+    /// Looks at a pose that counts. False if a body has another shape there than it had: the list is
+    /// to be compiled anew.
+    pub fn look(&mut self, x: &[Point]) -> bool {
+        let mut fits = true;
         for step in &mut self.steps {
             match step {
                 Step::Circles(circles) => circles.look(x),
                 Step::CircleLine(meeting) => meeting.look(x),
                 Step::Ray(ray) => ray.look(x),
                 Step::Direction(link) => link.look(x),
+                Step::Body(body) => fits &= body.fits(x),
                 Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Bar { .. }
+                | Step::Bar(_)
                 | Step::Nearest { .. } => {}
             }
         }
-        self.knows_pose = true;
+        self.knows_pose = fits;
+        fits
     }
 
     /// The pose was, or is to be, reached in another way.
@@ -84,10 +88,7 @@ impl ClosedForm {
                 _ => {}
             }
         }
-        if !self.knows_pose {
-            self.look(x);
-        }
-        Some(n_turning)
+        (self.knows_pose || self.look(x)).then_some(n_turning)
     }
 
     /// Turns the motors on by a frame.
@@ -186,11 +187,8 @@ pub(super) fn make<const N: usize>(
             Step::Direction(link) => link.run(x, abreast),
             Step::Wheel(wheel) => wheel.run(x, constraints, abreast),
             Step::Sum(sum) => sum.run(x, abreast),
-            Step::Bar { points, length } => {
-                let [a, b] = points.map(|p| x.get(p));
-                let (square, half) = (*length * *length, 0.5 / *length);
-                abreast.check_each(|l| ((b.at(l) - a.at(l)).norm_squared() - square) * half);
-            }
+            Step::Body(body) => body.run(x, abreast),
+            Step::Bar(bar) => bar.check(x, abreast),
             Step::Place { to, constraint, way } => {
                 x.put(*to, Places::all(place(&constraints[*constraint as usize])));
                 abreast.ways[*to as usize] = [*way; N];

@@ -142,7 +142,7 @@ impl Plan {
 }
 
 /// What is known so far.
-struct Search {
+pub(crate) struct Search {
     is_known: Vec<bool>,
     /// For each point the constraints that hold it.
     users: Vec<Vec<u32>>,
@@ -153,7 +153,8 @@ struct Search {
 }
 
 impl Search {
-    fn new(constraints: &[Constraint], n_free: usize, n_points: usize) -> Self {
+    /// The points from `n_free` on are known.
+    pub fn new(constraints: &[Constraint], n_free: usize, n_points: usize) -> Self {
         let is_known: Vec<bool> = (0..n_points).map(|p| p >= n_free).collect();
         let mut users = vec![Vec::new(); n_points];
         let mut n_unknown = vec![0; constraints.len()];
@@ -166,7 +167,13 @@ impl Search {
         Self { is_known, users, n_unknown, is_taken: vec![false; constraints.len()] }
     }
 
-    fn ready(&self, p: PointIdx) -> impl Iterator<Item = u32> + '_ {
+    /// Whether a point is known.
+    pub fn knows(&self, p: PointIdx) -> bool {
+        self.is_known[p as usize]
+    }
+
+    /// The constraints that hold `p` and otherwise known points alone.
+    pub fn ready(&self, p: PointIdx) -> impl Iterator<Item = u32> + '_ {
         self.users[p as usize].iter().copied().filter(|&c| self.n_unknown[c as usize] == 1)
     }
 
@@ -184,7 +191,7 @@ impl Search {
     }
 
     /// Makes a point known; gives the unknown points that this may have determined.
-    fn learn(&mut self, constraints: &[Constraint], p: PointIdx) -> Vec<PointIdx> {
+    pub fn learn(&mut self, constraints: &[Constraint], p: PointIdx) -> Vec<PointIdx> {
         self.is_known[p as usize] = true;
         let mut next = Vec::new();
         for &c in &self.users[p as usize] {

@@ -139,17 +139,24 @@ pub(crate) fn settle(island: &mut Island, limits: &Limits, work: &mut Counters) 
     }
     if best.is_converged() && !island.plan.is_linear() {
         let from = if best_is_from_feasible { island.feasible.take() } else { None };
-        nearest::approach(island, &mut workspace, from.as_deref().unwrap_or(&start), limits, work);
-        if !best_is_from_feasible {
-            by_small_steps(island, &mut workspace, &start, best, limits, work);
+        let from = from.as_deref().unwrap_or(&start);
+        let has_moved = island.x[..n_free] != *from;
+        if has_moved {
+            nearest::approach(island, &mut workspace, from, limits, work);
+            if !best_is_from_feasible {
+                by_small_steps(island, &mut workspace, &start, best, limits, work);
+            }
         }
         let width = extent(&island.x[..n_free]);
-        if width > 0.0 && width <= SMALL_PART * limits.size {
+        let is_small = width > 0.0 && width <= SMALL_PART * limits.size;
+        if is_small {
             let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
             newton::refine(&mut workspace, &mut pose, limits, work);
         }
-        best.worst = workspace.rows.worst;
-        best.energy = workspace.rows.energy;
+        if has_moved || is_small {
+            best.worst = workspace.rows.worst;
+            best.energy = workspace.rows.energy;
+        }
     }
     island.put_workspace(workspace);
     if best.is_converged() {

@@ -3,24 +3,30 @@
 
 use super::{Island, corners, rounding};
 use crate::constraint::Point;
-use crate::solve::closed_form::{ClosedForm, Compiled, Found};
+use crate::solve::closed_form::{ClosedForm, Compiled, Found, Given};
 use crate::solve::frame::predict;
-use crate::solve::report::Status;
+use crate::solve::report::{NoStep, Status};
 
 impl Island {
-    /// Finds the pose at the end of a frame; none if the frame has to be followed in another way,
-    /// from where everything still is.
-    pub fn closed_frame(&mut self, tolerance: f64) -> Option<Found> {
-        let inputs = &self.inputs;
-        let are_asked = || inputs.constraints().iter().all(|(_, before)| ClosedForm::asks(before));
-        if !self.is_under_way() || inputs.is_disturbed || !are_asked() {
-            return None;
+    /// Finds the pose at the end of a frame.
+    ///
+    /// # Errors
+    /// Why the frame has to be followed in another way, from where everything still is.
+    pub fn closed_frame(&mut self, tolerance: f64) -> Result<Found, NoStep> {
+        if !self.is_under_way() || self.inputs.is_disturbed {
+            return Err(NoStep::First);
         }
-        let mut form = self.take_closed_form()?;
+        if !self.inputs.constraints().iter().all(|(_, before)| ClosedForm::asks(before)) {
+            return Err(NoStep::Changed);
+        }
+        let mut form = self.take_closed_form().ok_or(NoStep::Open)?;
         if !form.knows_pose() {
             self.swap_inputs();
-            form.look(&self.x);
+            let fits = form.look(&self.x);
             self.swap_inputs();
+            if !fits {
+                form = self.compile().ok_or(NoStep::Open)?;
+            }
         }
         form.drive(&self.inputs, &self.x, &self.constraints);
         let found = self.run_closed(&mut form, tolerance);
@@ -29,7 +35,7 @@ impl Island {
             self.accept_pose();
         }
         self.closed_form = Compiled::List(form);
-        found
+        found.ok_or(NoStep::Unproved)
     }
 
     /// Whether it is where the last frame left it, and everything holds there.
@@ -43,7 +49,7 @@ impl Island {
     pub fn run_closed(&mut self, form: &mut ClosedForm, tolerance: f64) -> Option<Found> {
         self.history.begin(&self.x[..self.n_free], form.degree);
         let found = form.run(&mut self.x, &self.constraints);
-        let is_met = found.worst <= self.enough(tolerance) || found.worst <= self.rounding();
+        let is_met = found.worst <= self.enough(form, tolerance) || found.worst <= self.rounding();
         if !is_met {
             self.put_back(form);
         }
@@ -51,9 +57,9 @@ impl Island {
     }
 
     /// The distance to satisfaction that a tolerance leaves: the size is at least the longest length
-    /// that is asked for.
-    pub fn enough(&self, tolerance: f64) -> f64 {
-        tolerance * self.wanted()
+    /// that is asked for, and that of each body.
+    pub fn enough(&self, form: &ClosedForm, tolerance: f64) -> f64 {
+        tolerance * self.wanted().max(form.extent)
     }
 
     /// Puts everything back where the frame began.
@@ -151,8 +157,22 @@ impl Island {
         (hi.x - lo.x).max(hi.y - lo.y).max(self.wanted())
     }
 
-    fn compile(&self) -> Option<Box<ClosedForm>> {
-        let degree = self.highest_degree();
-        ClosedForm::new(&self.plan, &self.constraints, self.points.len(), degree).map(Box::new)
+    /// The list of steps for the pose that the frame begins with.
+    fn compile(&mut self) -> Option<Box<ClosedForm>> {
+        self.swap_inputs();
+        let form = ClosedForm::new(Given {
+            plan: &self.plan,
+            constraints: &self.constraints,
+            x: &self.x,
+            n_free: self.n_free,
+            w: &self.w,
+            degree: self.highest_degree(),
+        });
+        let form = form.map(|mut form| {
+            form.look(&self.x);
+            Box::new(form)
+        });
+        self.swap_inputs();
+        form
     }
 }

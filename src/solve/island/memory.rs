@@ -94,8 +94,13 @@ impl Memory {
 
 /// What of an island is remembered; worked out once after each visit.
 pub(crate) fn snapshot_of(island: &Island) -> Arc<Snapshot> {
-    let snapshot = || {
-        Arc::new(Snapshot {
+    island.remembered.get_or_init(|| Arc::new(Snapshot::of(island))).clone()
+}
+
+impl Snapshot {
+    /// What of an island is remembered.
+    pub fn of(island: &Island) -> Self {
+        Self {
             n_free: island.n_free,
             status: island.status,
             residual: island.residual,
@@ -114,9 +119,8 @@ pub(crate) fn snapshot_of(island: &Island) -> Arc<Snapshot> {
                 sides: island.known_sides(),
                 inputs: (!island.inputs.is_empty()).then(|| Box::new(island.inputs.clone())),
             }),
-        })
-    };
-    island.remembered.get_or_init(snapshot).clone()
+        }
+    }
 }
 
 /// Puts an island in a remembered state, if it is of the same structure. What was edited since

@@ -7,6 +7,7 @@ pub mod history;
 pub mod inputs;
 pub mod known_sides;
 pub mod memory;
+mod packed;
 pub mod partition;
 pub mod recall;
 pub mod sides;
@@ -153,11 +154,13 @@ impl<'a> Member<'a> {
 const FIRST_VISIT: u32 = 20;
 
 impl Island {
-    /// The island of these constraints; `at` and `w` are the columns of all points.
+    /// The island of these constraints; `at` and `w` are the columns of all points, and `local` one
+    /// that it writes over.
     pub fn new(
         members: &mut [Member],
         at: impl Fn(PointId) -> Point,
         w: impl Fn(PointId) -> f64,
+        local: &mut [u32],
     ) -> Self {
         members.sort_by(Member::order);
         let mut handles: Vec<u32> =
@@ -166,14 +169,13 @@ impl Island {
         handles.dedup();
         let (free, frozen): (Vec<u32>, Vec<u32>) =
             handles.into_iter().partition(|&p| w(PointId(p)) > 0.0);
-        let local = |p: u32| match free.binary_search(&p) {
-            Ok(k) => k as u32,
-            Err(_) => (free.len() + frozen.binary_search(&p).expect("each point is listed")) as u32,
-        };
+        for (k, &p) in free.iter().chain(&frozen).enumerate() {
+            local[p as usize] = k as u32;
+        }
         let mut constraints = Vec::with_capacity(members.len());
         for member in members.iter() {
             let mut constraint = member.constraint.clone();
-            constraint.map_points(local);
+            constraint.map_points(|p| local[p as usize]);
             constraints.push(constraint);
         }
         let own_rho = if members.iter().any(|m| m.rho.is_some()) {

@@ -1,6 +1,6 @@
 //! Which constraints and points make which island, kept up to date edit by edit.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use super::{Island, Member};
@@ -8,6 +8,7 @@ use crate::constraint::ConstraintKind;
 use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::solve::parallel::Effort;
+use crate::world::marks::Marks;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
 /// Not in any island.
@@ -44,6 +45,10 @@ pub(crate) struct Partition {
     /// What holds each frozen point. Made when it is first asked for, which a scene in which no
     /// frozen point is moved never does, and kept up from then on.
     holders: OnceLock<BTreeSet<(PointId, ConstraintId)>>,
+    /// Room for putting islands together: a column by handle of a point, of which each use reads what
+    /// it wrote.
+    by_point: Vec<u32>,
+    marks: Marks,
 }
 
 impl Partition {
@@ -136,15 +141,14 @@ impl Partition {
         self.of_point.resize(n_points, NONE);
         self.of_constraint.resize(world.next_constraint().idx(), NONE);
         self.local_constraint.resize(world.next_constraint().idx(), NONE);
-        let mut loose = Loose { constraints: BTreeSet::new(), leave };
+        self.by_point.resize(n_points, NONE);
+        let mut loose = Loose { constraints: Vec::new(), leave };
         if touched.all {
             for island in self.islands.iter().flatten() {
                 (loose.leave)(island);
             }
             self.clear();
-            for (id, _) in world.constraints().filter(|(_, record)| record.is_on) {
-                loose.constraints.insert(id);
-            }
+            loose.constraints.extend(world.constraints().map(|(id, _)| id));
         } else {
             for &p in outdated {
                 if let Some(k) = self.island_of_point(p) {
@@ -153,7 +157,12 @@ impl Partition {
             }
             self.loosen(touched, world, &mut loose);
         }
-        self.assemble(&loose, world)
+        let mut constraints = loose.constraints;
+        constraints.sort_unstable();
+        constraints.dedup();
+        // One that was switched off or deleted may have been in one of these islands.
+        constraints.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
+        self.assemble(&constraints, world)
     }
 
     fn clear(&mut self) {
@@ -167,15 +176,9 @@ impl Partition {
 
     /// Collects all constraints whose island may change.
     fn loosen(&mut self, touched: &Touched, world: &World, loose: &mut Loose<'_>) {
-        let changed: BTreeSet<ConstraintId> = touched.constraints.iter().copied().collect();
-        for &id in &changed {
+        for &id in &touched.constraints {
             self.dissolve_home(id, loose);
-            loose.constraints.remove(&id);
-        }
-        for &id in &changed {
-            if world.constraint(id).is_some_and(|record| record.is_on) {
-                loose.constraints.insert(id);
-            }
+            loose.constraints.push(id);
         }
         for &p in &touched.points {
             if let Some(k) = self.island_of_point(p) {
@@ -185,39 +188,37 @@ impl Partition {
             for id in holders {
                 if self.home(id) != Home::None {
                     self.dissolve_home(id, loose);
-                    loose.constraints.insert(id);
+                    loose.constraints.push(id);
                 }
             }
         }
-        // What a loose constraint ties to an island becomes part of the same.
-        let mut pending: Vec<ConstraintId> = loose.constraints.iter().copied().collect();
-        while let Some(id) = pending.pop() {
+        // What a changed constraint ties to an island becomes part of the same; those of an island
+        // that was taken apart hold no other points than its own.
+        for &id in &touched.constraints {
             let Some(record) = world.constraint(id) else { continue };
             for &p in record.constraint.points() {
                 if let Some(k) = self.island_of_point(PointId(p)) {
-                    pending.extend(self.dissolve(k, loose));
+                    self.dissolve(k, loose);
                 }
             }
         }
-        // A constraint deleted in between may have been in one of these islands.
-        loose.constraints.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
     }
 
     fn dissolve_home(&mut self, id: ConstraintId, loose: &mut Loose<'_>) {
         match self.home(id) {
             Home::None => {}
-            Home::Island(k) => drop(self.dissolve(k, loose)),
+            Home::Island(k) => self.dissolve(k, loose),
             Home::Checked => {
                 self.of_constraint[id.idx()] = NONE;
                 self.checked.remove(&id);
-                loose.constraints.insert(id);
+                loose.constraints.push(id);
             }
         }
     }
 
-    /// Takes an island apart; gives its constraints.
-    fn dissolve(&mut self, k: u32, loose: &mut Loose<'_>) -> Vec<ConstraintId> {
-        let Some(island) = self.islands[k as usize].take() else { return Vec::new() };
+    /// Takes an island apart.
+    fn dissolve(&mut self, k: u32, loose: &mut Loose<'_>) {
+        let Some(island) = self.islands[k as usize].take() else { return };
         self.vacant.push(k);
         (loose.leave)(&island);
         for p in &island.points[..island.n_free] {
@@ -225,23 +226,26 @@ impl Partition {
         }
         for id in &island.ids {
             self.of_constraint[id.idx()] = NONE;
-            loose.constraints.insert(*id);
         }
+        loose.constraints.extend_from_slice(&island.ids);
         if let Some(holders) = self.holders.get_mut() {
             for holder in frozen_points(&island) {
                 holders.remove(&holder);
             }
         }
-        island.ids
     }
 
     /// Puts loose constraints together to islands, by the free points they share.
-    fn assemble(&mut self, loose: &Loose<'_>, world: &World) -> Vec<u32> {
+    fn assemble(&mut self, loose: &[ConstraintId], world: &World) -> Vec<u32> {
         let points = world.points();
         let is_free = |p: u32| !points.is_frozen(PointId(p));
-        let mut sets = Sets::default();
-        let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.constraints.len());
-        for &id in &loose.constraints {
+        let mut by_point = std::mem::take(&mut self.by_point);
+        self.marks.begin();
+        let numbers = DisjointSets::default();
+        let mut sets =
+            Sets { by_point: &mut by_point, marks: &mut self.marks, n_entered: 0, numbers };
+        let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.len());
+        for &id in loose {
             tick(CONSTRAINT);
             let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
             if constraint.n_rows() == 0 {
@@ -277,7 +281,12 @@ impl Partition {
                     Member::new(id, record)
                 })
                 .collect();
-            let island = Island::new(&mut group, |p| points.at(p), |p| points.inverse_mass(p));
+            let island = Island::new(
+                &mut group,
+                |p| points.at(p),
+                |p| points.inverse_mass(p),
+                &mut by_point,
+            );
             let k = self.vacant.pop().unwrap_or_else(|| {
                 self.islands.push(None);
                 self.islands.len() as u32 - 1
@@ -295,6 +304,7 @@ impl Partition {
             self.islands[k as usize] = Some(Box::new(island));
             made.push(k);
         }
+        self.by_point = by_point;
         made
     }
 }
@@ -314,25 +324,31 @@ fn frozen_points(island: &Island) -> impl Iterator<Item = (PointId, ConstraintId
     })
 }
 
-/// Constraints that belong to no island for the moment.
+/// Constraints that belong to no island for the moment, some of them twice.
 struct Loose<'a> {
-    constraints: BTreeSet<ConstraintId>,
+    constraints: Vec<ConstraintId>,
     /// Takes a last look at the islands they were in.
     leave: &'a mut dyn FnMut(&Island),
 }
 
 /// Disjoint sets of points, as far as they are named.
-#[derive(Default)]
-struct Sets {
-    number: BTreeMap<u32, u32>,
+struct Sets<'a> {
+    /// The numbers of those that are marked.
+    by_point: &'a mut [u32],
+    marks: &'a mut Marks,
+    n_entered: u32,
     numbers: DisjointSets,
 }
 
-impl Sets {
+impl Sets<'_> {
     /// The number of a point, which is the next one if it has none.
     fn enter(&mut self, p: u32) -> u32 {
-        let next = self.number.len() as u32;
-        *self.number.entry(p).or_insert(next)
+        let number = &mut self.by_point[p as usize];
+        if self.marks.mark(p as usize) {
+            *number = self.n_entered;
+            self.n_entered += 1;
+        }
+        *number
     }
 
     fn join(&mut self, a: u32, b: u32) {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Island;
 use super::memory::snapshot_of;
+use super::packed::Packed;
 use super::snapshot::Snapshot;
 use crate::solve::settings::Settings;
 use crate::world::PointId;
@@ -26,19 +27,48 @@ impl From<Option<Arc<Snapshot>>> for Kept {
     }
 }
 
+/// The same in a list of many.
+#[derive(Debug, Clone)]
+enum Noted {
+    Kept(Kept),
+    /// It begins there in the column.
+    Packed(u32),
+}
+
 /// What was remembered of some islands, each filed under its first free point, in their order.
 #[derive(Debug, Clone, Default)]
 pub struct Recall {
-    pub(crate) islands: Vec<(PointId, Kept)>,
+    islands: Vec<(PointId, Noted)>,
+    packed: Packed,
     /// The settings of the last call then.
     pub(crate) settings: Option<Settings>,
 }
 
 impl Recall {
+    /// What brings this back, of islands in the order of their first points.
+    pub(crate) fn new(islands: Vec<(PointId, Kept)>, settings: Option<Settings>) -> Self {
+        let islands = islands.into_iter().map(|(first, kept)| (first, Noted::Kept(kept)));
+        Self { islands: islands.collect(), packed: Packed::default(), settings }
+    }
+
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        let kept = self.islands.iter().map(|(_, kept)| kept.n_bytes as usize);
-        size_of::<Self>() + size_of_val(&*self.islands) + kept.sum::<usize>()
+        let kept = self.islands.iter().map(|(_, noted)| match noted {
+            Noted::Kept(kept) => kept.n_bytes as usize,
+            Noted::Packed(_) => 0,
+        });
+        size_of::<Self>()
+            + size_of_val(&*self.islands)
+            + self.packed.n_bytes()
+            + kept.sum::<usize>()
+    }
+
+    /// What was remembered, in the order of the first points.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (PointId, Kept)> {
+        self.islands.iter().map(|(first, noted)| match noted {
+            Noted::Kept(kept) => (*first, kept.clone()),
+            Noted::Packed(at) => (*first, Some(Arc::new(self.packed.get(*at))).into()),
+        })
     }
 }
 
@@ -48,8 +78,8 @@ pub(crate) struct Notes {
     /// What was noted; none while nobody asks.
     recall: Option<Recall>,
     firsts: Marks,
-    /// How many islands changed last.
-    n_islands: usize,
+    /// How many islands changed last, and how many words were kept of them.
+    n_last: (usize, usize),
 }
 
 impl Notes {
@@ -57,18 +87,21 @@ impl Notes {
     pub fn begin(&mut self, settings: Option<Settings>) -> Option<Recall> {
         self.firsts.begin();
         // As many as changed last often change again.
-        let islands = Vec::with_capacity(self.n_islands);
-        self.recall.replace(Recall { islands, settings })
+        let (n_islands, n_words) = self.n_last;
+        let islands = Vec::with_capacity(n_islands);
+        let packed = Packed::with_capacity(n_words);
+        self.recall.replace(Recall { islands, packed, settings })
     }
 
     /// What was noted; `outer` goes on noting.
     pub fn end(&mut self, outer: Option<Recall>) -> Option<Recall> {
         let mut recall = std::mem::replace(&mut self.recall, outer)?;
-        self.n_islands = recall.islands.len();
+        self.n_last = (recall.islands.len(), recall.packed.n_words());
         // Of what was noted twice the first counts; a stable order keeps it in front.
         recall.islands.sort_by_key(|(first, _)| *first);
         recall.islands.dedup_by_key(|(first, _)| *first);
         recall.islands.shrink_to_fit();
+        recall.packed.shrink_to_fit();
         // What the outer one noted since it began was marked in a round that is over.
         self.firsts.begin();
         Some(recall)
@@ -85,7 +118,11 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(island.points[0].idx())
         {
-            recall.islands.push((island.points[0], Some(snapshot_of(island)).into()));
+            // What was asked for since the last visit is shared.
+            let is_shared = island.remembered.get().is_some();
+            let packed = if is_shared { None } else { recall.packed.push(island) };
+            let kept = || Noted::Kept(Some(snapshot_of(island)).into());
+            recall.islands.push((island.points[0], packed.map_or_else(kept, Noted::Packed)));
         }
     }
 
@@ -94,7 +131,7 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(first.idx())
         {
-            recall.islands.push((first, kept));
+            recall.islands.push((first, Noted::Kept(kept)));
         }
     }
 }

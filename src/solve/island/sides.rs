@@ -21,25 +21,33 @@ pub(crate) struct Sides {
 }
 
 impl Island {
+    /// Whether anything is watched in parts that are solved as a whole.
+    pub fn is_watched(&self) -> bool {
+        !self.watch.triangles.is_empty() || !self.watch.part_sides.is_empty()
+    }
+
     /// On which side everything was when last looked at.
     pub fn known_sides(&self) -> KnownSides {
         let watch = &self.watch;
-        let is_watched = !watch.triangles.is_empty() || !watch.part_sides.is_empty();
-        let watched = is_watched.then(|| {
+        let watched = self.is_watched().then(|| {
             Box::new(WatchedSides {
                 triangles: watch.sides.clone(),
                 parts: watch.part_sides.clone(),
                 knows_parts: watch.knows_part_sides,
             })
         });
+        let (are_old, blocks) = self.block_sides();
+        KnownSides { blocks: blocks.collect(), are_old, watched }
+    }
+
+    /// The same of its blocks, and whether it has to be worked out again.
+    pub fn block_sides(&self) -> (bool, impl ExactSizeIterator<Item = Side>) {
+        // Where the last frame left it, what was put off is worked out here. Of parts that are solved
+        // as a whole that takes more than to do so when it is asked for.
+        let is_due = self.are_sides_old && self.inputs.is_empty() && self.plan.is_complete();
         let blocks = &self.plan.blocks;
-        if self.are_sides_old && self.inputs.is_empty() {
-            // It is where the last frame left it: what was put off is worked out here.
-            let blocks = (0..blocks.len()).map(|k| self.side_of_block(k)).collect();
-            return KnownSides { blocks, are_old: false, watched };
-        }
-        let blocks = blocks.iter().map(|block| block.side).collect();
-        KnownSides { blocks, are_old: self.are_sides_old, watched }
+        let side = move |k| if is_due { self.side_of_block(k) } else { blocks[k].side };
+        (self.are_sides_old && !is_due, (0..blocks.len()).map(side))
     }
 
     /// Brings back what [`known_sides`](Self::known_sides) gave.

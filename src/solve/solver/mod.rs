@@ -15,7 +15,7 @@ use super::island::memory::{self, Memory};
 use super::island::partition::{Home, Partition};
 use super::island::recall::{Kept, Notes, Recall};
 use super::island::snapshot::Snapshot;
-use super::report::{Budget, Counters, Report, Status};
+use super::report::{Budget, Counters, FrameCounts, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
 use crate::constraint::Point;
@@ -50,6 +50,8 @@ pub struct Solver {
     is_stale: bool,
     /// What commands take back.
     notes: Notes,
+    /// How frames were found since it was made.
+    counts: FrameCounts,
 }
 
 impl Solver {
@@ -86,6 +88,11 @@ impl Solver {
             Some(why) => Err(why),
             None => Ok(report),
         }
+    }
+
+    /// How frames were found so far. Nothing takes that back.
+    pub fn frame_counts(&self) -> FrameCounts {
+        self.counts
     }
 
     /// Does `n` bare iterations of the chosen method; `auto` means relaxation here.
@@ -237,11 +244,12 @@ impl Solver {
 
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
     /// to become so before the solver is called again.
-    pub fn recall(&mut self, mut then: Recall) -> Recall {
+    pub fn recall(&mut self, then: Recall) -> Recall {
+        let mut islands: Vec<(PointId, Kept)> = then.iter().collect();
         let mut others = Vec::new();
-        exchange(&mut self.pending, &mut then.islands, |k| others.push(k));
+        exchange(&mut self.pending, &mut islands, |k| others.push(k));
         let others = others.into_iter().map(|k| {
-            let (first, kept) = &mut then.islands[k];
+            let (first, kept) = &mut islands[k];
             let now = self.remembered_by_island(*first).into();
             (*first, std::mem::replace(kept, now))
         });
@@ -251,18 +259,16 @@ impl Solver {
         } else {
             self.pending.extend(others);
         }
-        std::mem::swap(&mut self.settings, &mut then.settings);
+        let settings = std::mem::replace(&mut self.settings, then.settings);
         self.missed.clear();
-        then
+        Recall::new(islands, settings)
     }
 
     /// Whether what was noted is what is remembered.
     pub fn is_at(&self, recall: &Recall) -> bool {
         let counts =
             |snapshot: Option<Arc<Snapshot>>| snapshot.filter(|snapshot| !snapshot.is_new());
-        let mut islands = recall.islands.iter();
-        islands
-            .all(|(first, then)| counts(self.remembered(*first)) == counts(then.snapshot.clone()))
+        recall.iter().all(|(first, then)| counts(self.remembered(first)) == counts(then.snapshot))
     }
 
     /// What is remembered of the island that begins with a point.

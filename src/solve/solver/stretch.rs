@@ -121,6 +121,7 @@ impl Solver {
             self.missed.clear();
             world.pass(if kept.is_traced { 0 } else { stretch.n_frames });
         }
+        self.counts.closed += stretch.n_frames * riders.len() as u64;
         for rider in riders {
             let k = rider.k;
             self.partition.give_back(k, rider.dismount(stretch.n_frames, world));
@@ -336,7 +337,7 @@ impl Rider {
         let Self { island, form, lanes, .. } = self;
         let lanes = lanes.get_or_insert_with(|| Box::new(Lanes::new(form, island)));
         lanes.find(form, island, course.dt);
-        let enough = island.enough(course.tolerance).max(island.rounding());
+        let enough = island.enough(form, course.tolerance).max(island.rounding());
         let counts = |l: &usize| {
             let found = lanes.found(*l);
             found.worst <= enough && course.is_promised(&found, island)

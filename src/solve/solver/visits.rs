@@ -172,6 +172,9 @@ impl Solver {
 
     /// Takes in what a visit came to.
     fn close(&mut self, k: u32, visit: &Visit, world: &mut World, report: &mut Report) {
+        if let Some(by_steps) = visit.by_steps {
+            self.counts.count(by_steps);
+        }
         let (Some(island), Some(mut outcome)) = (self.partition.get_mut(k), visit.outcome) else {
             return;
         };

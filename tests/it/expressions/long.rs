@@ -46,6 +46,21 @@ fn parameters_that_double_are_worked_out_once() {
 }
 
 #[test]
+fn the_unit_of_what_follows_many_others_is_asked_of_a_few() {
+    let levels = (1..=60).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1));
+    let rows = (1..20_000).map(|k| format!("let b{k} = b{} + 0\n", k - 1));
+    let script = format!(
+        "let a0 = 3deg\nlet b0 = 3deg\n{}{}",
+        levels.collect::<String>(),
+        rows.collect::<String>()
+    );
+    let mut talking = Talking::after(&script);
+    talking.run("show b19999; show a60; show a1; list");
+    let said = talking.talk.printed.join("\n");
+    assert!(said.contains("6deg"), "what is near has its unit:\n{said}");
+}
+
+#[test]
 fn parameters_that_double_what_is_missed_are_refused_at_once() {
     let levels = (1..=40).map(|k| format!("let a{k} = a{0} + a{0}\n", k - 1));
     let levels: String = levels.collect();

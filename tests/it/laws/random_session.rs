@@ -17,6 +17,9 @@ pub const SCENE: &str = "
     point O = (9, 0) frozen, G = (10, 0), Q = (12, 0) frozen, H = (11, 0)
     wheels: cog O G, Q H ratio 2
     spin: motor O G speed 90deg
+    point R = (12, 5) frozen, S = (13, 5), V = (14, 6), W = (14, 4.5), Z = (15, 5.2), T = (17, 8) frozen
+    turner: motor R S speed 1rev
+    length S V; brace: length S W; length V W; length V Z; tie: length W Z; length S Z; length T Z
     define tail(P, l) { point X = P + (l, 0), Y = P + (2 * l, 0); length P X = l; length X Y = l }
     use tail(C, r / 4) as tail
     define shade(P) {
@@ -31,11 +34,13 @@ pub const SCENE: &str = "
 
 /// Statements that may or may not make sense when their turn comes.
 pub fn statement() -> impl Strategy<Value = String> {
-    let point = || prop::sample::select(vec!["B", "C", "E", "G", "K1", "K2", "tail.X", "tail.Y"]);
-    let held = || prop::sample::select(vec!["B", "C", "D", "E", "F", "G", "K1", "shade1.B"]);
+    let point =
+        || prop::sample::select(vec!["B", "C", "E", "G", "K1", "K2", "Z", "tail.X", "tail.Y"]);
+    let held = || prop::sample::select(vec!["B", "C", "D", "E", "F", "G", "K1", "V", "shade1.B"]);
     let constraint = || {
         let names = vec![
             "crank", "coupler", "rocker", "act", "wheels", "spin", "rod1", "rod2", "mesh", "roll",
+            "brace", "tie",
         ];
         prop::sample::select(names)
     };

@@ -131,3 +131,34 @@ fn a_motion_is_studied_from_where_it_began_after_it_was_taken_back_and_done_agai
     talking.run("redo 2");
     check_same(&talking.script(), &before, "nor what is done again");
 }
+
+#[test]
+fn a_freeze_that_is_taken_back_gives_what_measures_the_point_its_values_back() {
+    // What is driven by a value is as old as the frame that gave it, and by how it is bound then.
+    let scene = "point O = (0, 0) frozen, G = (1, 0), A = (5, 0), B = (7, 0), E = (0, 5)
+                 motor O G speed 1rev; set dt 1/7; let far = distance(A, B)
+                 length E B = 2 + turn(O, G) / 9; length O A = 4 + far / 3
+                 hold E.x = (A.y + G.y) / 5; step 5";
+    let freezes = [
+        "freeze G",
+        "freeze A B",
+        "freeze G; thaw G",
+        "thaw O; freeze O G",
+        "freeze B; step 3; thaw B",
+        "for i in 1..3 { freeze G; step; thaw G; freeze A }",
+        "freeze all; thaw all",
+    ];
+    for freeze in freezes {
+        let mut talking = Talking::after(scene);
+        let mut plain = Talking::after(scene);
+        talking.run(&format!("for i in 1..1 {{ {freeze} }}"));
+        let frozen = talking.script();
+        talking.run("undo");
+        check_same(&talking.script(), &plain.script(), &format!("{freeze} taken back"));
+        talking.run("redo");
+        check_same(&talking.script(), &frozen, &format!("{freeze} done again"));
+        talking.run("undo; step 2");
+        plain.run("step 2");
+        check_same(&talking.script(), &plain.script(), &format!("after {freeze}"));
+    }
+}

@@ -18,13 +18,13 @@ const SCRIPTS: [&str; 6] = [
 ];
 
 /// A scene up to its first frame.
-fn scene(name: &str) -> String {
+pub fn scene(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scripts/bench/{name}.link"));
     fs::read_to_string(path).unwrap().replace("step frames", "")
 }
 
 /// The bits of all coordinates, and the frame.
-fn bits(world: &World) -> (u64, Vec<[u64; 2]>) {
+pub fn bits(world: &World) -> (u64, Vec<[u64; 2]>) {
     let all = world.points().ids().map(|id| world.points().at(id));
     (world.clock().frame, all.map(|p| [p.x.to_bits(), p.y.to_bits()]).collect())
 }
@@ -32,7 +32,7 @@ fn bits(world: &World) -> (u64, Vec<[u64; 2]>) {
 /// Lets frames of a scene pass at once, one by one, and with a file in between: the same to the
 /// bit, and so is what the solver remembers.
 #[track_caller]
-fn check_same(name: &str, scene: &str, n: u32) {
+pub fn check_same(name: &str, scene: &str, n: u32) {
     let at_once = Talking::after(&format!("{scene}\nstep {n}"));
     let one_by_one = Talking::after(&format!("{scene}\nfor i in 1..{n} {{ step }}"));
     assert_eq!(one_by_one.script(), at_once.script(), "{name}, frame by frame");

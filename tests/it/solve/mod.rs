@@ -1,5 +1,6 @@
 //! The solver on mechanisms whose answers are known.
 
+mod bodies;
 mod closed_form;
 mod hands;
 mod hard;

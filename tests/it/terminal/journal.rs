@@ -117,9 +117,15 @@ impl Spoken {
 
     /// Says a line; gives what is said until it is carried out.
     fn say(&mut self, line: &str) -> String {
+        self.say_until(line, "statement")
+    }
+
+    /// Says a line; gives what is said up to an object of this type.
+    fn say_until(&mut self, line: &str, last: &str) -> String {
         writeln!(self.to, "{line}").expect("it listens");
         let mut said = String::new();
-        while !said.contains("\"type\":\"statement\"") {
+        let last = format!("\"type\":\"{last}\"");
+        while !said.contains(&last) {
             assert!(self.from.read_line(&mut said).expect("it speaks") > 0, "{said}");
         }
         said
@@ -155,6 +161,13 @@ fn sessions_of_programs_are_brought_back_too() {
         let [told] = &journals(home.path())[..] else { panic!("{:?}", journals(home.path())) };
         fs::remove_file(told).expect("it is there");
     }
+    let mut asked = Spoken::begin(home.path(), &["--json"]);
+    asked.say("let r = 3");
+    asked.say_until(r#"{"run": "let s = 4\nlet t = 5; nonsense\nlet u = 6"}"#, "done");
+    asked.kill();
+    let lines = ["let r = 3", "let s = 4", "let t = 5"];
+    assert_eq!(brought_back(home.path()), typed(&lines));
+    journals(home.path()).iter().for_each(|path| fs::remove_file(path).expect("it is there"));
     let mut silent = Spoken::begin(home.path(), &["--json", "--no-journal"]);
     silent.say("let r = 3");
     silent.kill();

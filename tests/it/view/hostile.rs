@@ -5,7 +5,7 @@ use std::net::TcpStream;
 
 use serde_json::json;
 
-use super::browser::Viewed;
+use super::browser::{Page, Viewed};
 
 const SCENE: &str = "point A = (0, 0) frozen, B = (3, 0), C = (6, 0)\nlength A B; length B C";
 
@@ -160,6 +160,124 @@ fn the_limits_of_a_session_hold_for_pages() {
     let answer = page.exec("point F = (1, 1)");
     assert_eq!(answer["ok"], false);
     assert!(answer["said"][0]["message"].as_str().expect("a text").contains("points"), "{answer}");
+}
+
+#[test]
+fn no_file_is_given_but_those_that_statements_wrote() {
+    let mut viewed = Viewed::on(&format!("{SCENE}\nsvg \"first.svg\""));
+    std::fs::write(viewed.folder.path().join("own.svg"), "<svg/>").expect("it can be written");
+    let mut page = viewed.open();
+    let ask = |page: &mut Page, name: &str| {
+        page.ask(json!({ "do": "file", "kind": "written", "name": name }))
+    };
+    let names = [
+        "/etc/passwd",
+        "scene.link",
+        "./scene.link",
+        "./own.svg",
+        "./folder/../own.svg",
+        "<examples>/klann",
+        "",
+        ".",
+    ];
+    for name in names {
+        let answer = ask(&mut page, name);
+        assert_eq!(answer["ok"], false, "{name}: {answer}");
+        assert_eq!(answer["said"][0]["text"], "no statement wrote that", "{name}");
+    }
+    // Whether a page said it, the prompt, or the script before there were pages.
+    let wrote = page.exec("svg \"now.svg\"")["wrote"][0].clone();
+    viewed.enter("svg \"typed.svg\"; point E = (9, 9)");
+    page.until(|message| message["journal"][0]["by"] == "prompt");
+    for name in [wrote.as_str().expect("a name"), "./typed.svg", "./first.svg"] {
+        let answer = ask(&mut page, name);
+        assert_eq!(answer["ok"], true, "{name}: {answer}");
+        assert!(answer["text"].as_str().expect("a text").starts_with("<svg"), "{name}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_way_of_a_written_file_leads_nowhere() {
+    use std::os::unix::fs::symlink;
+    // Also who may write anywhere gives away only what was written.
+    for args in [&[][..], &["--allow-any-path"]] {
+        let viewed = Viewed::with(SCENE, args);
+        let mut page = viewed.open();
+        let folder = viewed.folder.path();
+        page.exec("svg \"link.svg\"; svg \"below/now.svg\"");
+        let mut is_given = |name: &str| {
+            page.ask(json!({ "do": "file", "kind": "written", "name": name }))["ok"] == true
+        };
+        let names = ["./link.svg", "./below/now.svg"];
+        assert!(names.iter().all(|name| is_given(name)), "{args:?}");
+        std::fs::write(folder.join("secret"), "secret").expect("it can be written");
+        std::fs::remove_file(folder.join("link.svg")).expect("it is there");
+        symlink(folder.join("secret"), folder.join("link.svg")).expect("links are made");
+        std::fs::create_dir(folder.join("other")).expect("it can be made");
+        std::fs::write(folder.join("other/now.svg"), "secret").expect("it can be written");
+        std::fs::rename(folder.join("below"), folder.join("moved")).expect("it is there");
+        symlink(folder.join("other"), folder.join("below")).expect("links are made");
+        for name in names {
+            assert!(!is_given(name), "{name} {args:?}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn what_was_written_through_a_link_of_the_user_is_given() {
+    let viewed = Viewed::on(SCENE);
+    let folder = viewed.folder.path();
+    std::fs::write(folder.join("real.svg"), "").expect("it can be written");
+    std::os::unix::fs::symlink("real.svg", folder.join("now.svg")).expect("links are made");
+    let mut page = viewed.open();
+    page.exec("svg \"now.svg\"");
+    let answer = page.ask(json!({ "do": "file", "kind": "written", "name": "./now.svg" }));
+    assert!(answer["text"].as_str().is_some_and(|text| text.starts_with("<svg")), "{answer}");
+}
+
+#[test]
+fn a_text_in_pieces_has_an_end() {
+    let viewed = Viewed::with(SCENE, &["--limit", "source-bytes=1000"]);
+    let mut page = viewed.open();
+    let piece = |text: &str| json!({ "do": "exec", "text": text, "more": true });
+    page.say(&piece("point P = (0, 0)\n"));
+    page.say(&piece(&"#".repeat(990)));
+    // What follows is a piece of it still, however short it is.
+    page.say(&piece("\npoint Q = (0, 0)"));
+    let answer = page.exec("\npoint R = (0, 0)");
+    assert_eq!(answer["ok"], false);
+    assert!(
+        answer["said"][0]["text"].as_str().expect("a text").contains("source-bytes"),
+        "{answer}"
+    );
+    for name in ["P", "Q", "R"] {
+        assert_eq!(page.exec(&format!("print {name}"))["ok"], false, "{name} is not there");
+    }
+    // The next is another text.
+    page.say(&piece("print "));
+    assert_eq!(page.print("A"), ["(0, 0)"]);
+}
+
+#[test]
+fn long_statements_lock_nobody_out() {
+    let mut viewed = Viewed::on(SCENE);
+    let mut page = viewed.open();
+    for (k, n_bytes) in [1_500_000, 1_500_000, 1_500_000, 5_000_000, 10].into_iter().enumerate() {
+        let room = " ".repeat(n_bytes);
+        viewed.enter(&format!("for i in 1..1 {{ move C to ({k}, 0){room}}}"));
+        page.until(|message| message["journal"][0]["number"] == k);
+    }
+    let late = viewed.open();
+    let journal = late.last("journal").as_array().expect("a list");
+    assert!(late.last("journal").to_string().len() <= 4 << 20);
+    let texts: Vec<&str> = journal.iter().map(|it| it["text"].as_str().expect("a text")).collect();
+    // The last are there; of the one that is longer than all may be, its beginning.
+    let [.., cut, last] = &texts[..] else { panic!("{} statements", texts.len()) };
+    assert!(cut.starts_with("for i in 1..1 { move C to (3, 0) ") && cut.ends_with('…'));
+    assert_eq!(*last, format!("for i in 1..1 {{ move C to (4, 0){}}}", " ".repeat(10)));
+    assert_eq!(journal[0]["number"], 1);
 }
 
 #[test]

@@ -40,6 +40,21 @@ fn a_page_is_told_the_mechanism() {
 }
 
 #[test]
+fn a_bar_that_is_level_lies_on_both_ends() {
+    let viewed = Viewed::on("point A = (0, 0) frozen, B = (1, 0)\nlength A B");
+    let mut page = viewed.open();
+    let figures = page.last("drawing")["figures"].as_array().expect("figures").clone();
+    let bar = figures.iter().find(|it| it["constraint"] == 0).expect("a bar");
+    assert_eq!(bar["on"], json!([0, 1]));
+    // So no frame has to tell where it is.
+    page.exec("move B to (0, 1)");
+    while page.at(1) != [0.0, 1.0] {
+        page.until_frame();
+    }
+    assert_eq!(page.frame.len(), 24 + 16 * 2);
+}
+
+#[test]
 fn what_is_typed_shows_at_once() {
     let mut viewed = Viewed::on("point A = (0, 0), B = (3, 4)");
     let mut page = viewed.open();

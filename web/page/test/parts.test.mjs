@@ -116,6 +116,27 @@ test("texts of any length fit into messages and come out whole", async () => {
   }
 });
 
+test("a path that is begun anew is not the one before", async () => {
+  const { Traces } = await part("engine/traces.ts");
+  const traces = new Traces();
+  const versions = new Set();
+  const told = (update, n = 1) => {
+    const head = { trace: 0, point: 0, name: "A", class: "trace-0", colour: "#000" };
+    traces.update([{ ...head, from: 0, at: [0, 0, 1, 1], missed: [], ...update }], n);
+    return traces.list[0].version;
+  };
+  const isNew = (version) => versions.size < versions.add(version).size;
+  assert.ok(isNew(told({})));
+  assert.ok(!isNew(told({ from: 2, at: [2, 2] })), "one that goes on stays");
+  assert.ok(isNew(told({ from: 1 })), "samples were taken away");
+  assert.ok(isNew(told({ from: 3, colour: "#fff" })), "another colour");
+  // A session that begins, and a path that was taken away before.
+  traces.list.length = 0;
+  assert.ok(isNew(told({})));
+  traces.update([], 0);
+  assert.ok(isNew(told({})));
+});
+
 test("a frame is read, and what is none is not", async () => {
   const { readFrame } = await part("engine/protocol.ts");
   const buffer = new ArrayBuffer(24 + 16 * 2 + 16);

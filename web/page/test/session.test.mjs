@@ -410,6 +410,27 @@ test("fingers drag a point, two of them move the view", async (t) => {
   }, "fingers twice as far apart make it twice as large");
 });
 
+test("a pointer that only passes by leads nothing", async (t) => {
+  const session = await s.session(t, ARM);
+  const page = await s.openAt(t, session.address);
+  const from = await s.screen(page, { x: 3, y: 1 });
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x - 40, from.y, { steps: 4 });
+  await page.evaluate(
+    ([clientX, clientY]) => {
+      const event = { pointerId: 77, pointerType: "pen", clientX, clientY, bubbles: true };
+      for (const name of ["pointerrawupdate", "pointermove"])
+        document.getElementById("canvas").dispatchEvent(new PointerEvent(name, event));
+    },
+    Object.values(await s.screen(page, { x: 0, y: -2 })),
+  );
+  await page.mouse.up();
+  const statement = await s.written(page, /^pull C/);
+  const ys = [...statement.matchAll(/, (-?[\d.]+)\)/g)].map(([, y]) => Number(y));
+  assert.ok(ys.length > 0 && ys.every((y) => Math.abs(y - 1) < 0.1), statement);
+});
+
 test("Enter carries out what is there, however slowly the session answers", async (t) => {
   const session = await s.session(t, ARM);
   // A session that is asked what may stand here is a while about it.

@@ -13,12 +13,14 @@ export interface Trace {
   length: number;
   /** Samples whose frame missed its tolerance. */
   readonly missed: Set<number>;
-  /** Grows when samples are taken away or the colour changes, not when samples are added. */
+  /** Another one when samples are taken away or the colour changes, not when samples are added. None is
+   * given twice, so that a path of the same version is the same path, and goes on. */
   version: number;
 }
 
 export class Traces {
   readonly list: Trace[] = [];
+  private nVersions = 0;
 
   update(updates: readonly TraceUpdate[], n: number | undefined): void {
     for (const update of updates) this.updateOne(update);
@@ -30,8 +32,9 @@ export class Traces {
     const fresh: Trace = { point, name, colour, at: [], length: 0, missed: new Set(), version: 0 };
     const trace = this.list[update.trace] ?? fresh;
     this.list[update.trace] = trace;
-    if (2 * from < trace.at.length) cut(trace, from);
-    if (trace.colour !== colour) trace.version += 1;
+    const isCut = 2 * from < trace.at.length;
+    if (isCut) cut(trace, from);
+    if (trace === fresh || isCut || trace.colour !== colour) trace.version = ++this.nVersions;
     Object.assign(trace, { point, name, colour });
     const { at } = trace;
     for (let k = 0; k + 1 < update.at.length; k += 2) {
@@ -47,7 +50,6 @@ export class Traces {
 function cut(trace: Trace, nSamples: number): void {
   const { at, missed } = trace;
   at.length = 2 * nSamples;
-  trace.version += 1;
   for (const k of missed) if (k >= nSamples) missed.delete(k);
   trace.length = 0;
   for (let k = 2; k + 1 < at.length; k += 2) {

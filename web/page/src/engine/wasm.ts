@@ -7,7 +7,7 @@ interface Exports {
   room(length: number): number;
   tell(length: number): void;
   tick(now: number): void;
-  /** Whether time passes or a held point waits to be led. */
+  /** Whether time passes. */
   busy(): number;
   /** 0 nothing, 1 a text, 2 a frame. */
   next(): number;
@@ -43,7 +43,7 @@ export class Wasm {
     return this.exports.busy() !== 0;
   }
 
-  /** Lets held points be led, and time pass if it does. */
+  /** Lets time pass, if it does. */
   tick(now: number): void {
     this.guarded(() => this.exports.tick(now));
   }

@@ -31,7 +31,7 @@ function tick(): void {
   engine?.tick(performance.now());
 }
 
-/** A point that is held is led when the messages that wait have been taken. */
+/** Time that passes goes on when the messages that wait have been taken. */
 function tickSoon(): void {
   if (isTickDue || engine?.isBusy !== true) return;
   isTickDue = true;

@@ -90,7 +90,8 @@ export class Hand {
 
   /** What the engine has to answer it hears of early: the frame to come may then show it. */
   private early(event: PointerEvent): void {
-    if (!this.isUsing || this.isPanning || event.timeStamp - this.lastEarly < APART) return;
+    if (!this.isUsing || this.isPanning || !this.pressed.has(event.pointerId)) return;
+    if (event.timeStamp - this.lastEarly < APART) return;
     this.lastEarly = event.timeStamp;
     this.tool.move(this.page, this.touch(event), true);
   }
