@@ -15,7 +15,7 @@ GRID = ["--set", "b=3.2..5:0.02", "--set", "c=3,3.5,4"]
 PARTS = 12
 
 
-def kill_one(client, done):
+def kill_one(client, done, killed):
     """Kills a worker, and all that it started, once some parts are there and some are not."""
     while not done.is_set():
         begun = [path for path in Path("out").glob("part-*.csv") if path.stat().st_size > 0]
@@ -27,6 +27,7 @@ def kill_one(client, done):
             os.kill(pid, signal.SIGKILL)
             for child in children:
                 os.kill(int(child), signal.SIGKILL)
+            killed.append(pid)
             print("killed a worker after", len(begun), "parts were begun")
             return
         time.sleep(0.01)
@@ -38,12 +39,13 @@ if __name__ == "__main__":
     subprocess.run(whole, check=True)
     with LocalCluster(n_workers=2, threads_per_worker=1, processes=True) as cluster:
         with Client(cluster) as client:
-            done = threading.Event()
-            killer = threading.Thread(target=kill_one, args=(client, done))
+            done, killed = threading.Event(), []
+            killer = threading.Thread(target=kill_one, args=(client, done, killed))
             killer.start()
             heading, rows = sweep(client, "four-bar.link", GRID, "out", PARTS)
             done.set()
             killer.join()
+    assert killed, "the sweep was over before a worker was killed: GRID is too small"
     with open("whole.csv", newline="") as table:
         expected_heading, *expected = csv.reader(table)
     assert heading == expected_heading, heading

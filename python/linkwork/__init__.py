@@ -89,8 +89,10 @@ class Session:
             [_program(), "--json", "--out", str(out), *values, *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            encoding="utf-8",
+            bufsize=0,
         )
+        self._read_ahead = bytearray()
+        self._n_asked = 0
         version = self._read()["version"]
         if version != VERSION:
             self.close()
@@ -102,12 +104,13 @@ class Session:
 
     def evaluate(self, expression):
         """The value of an expression: a number, or a vector as [x, y]."""
-        return self.run(f"print {expression}").values[-1]
+        return _first(self.run(f"print {expression}").values, f"`{expression}` has no value")
 
     def ask(self, question):
         """The object that `list`, `show`, `check` or `limits` answers, as a dict."""
         kinds = ("list", "show", "check", "limits", "effects")
-        return next(it for it in self.run(question).objects if it["type"] in kinds)
+        found = (it for it in self.run(question).objects if it["type"] in kinds)
+        return _first(found, f"`{question}` is none of {', '.join(kinds)}")
 
     def traces(self):
         """The traced paths by name or point: columns x and y, as arrays if there is NumPy."""
@@ -144,25 +147,56 @@ class Session:
         self.close()
 
     def _get(self, what):
-        return next(it for it in self._ask({"get": what}).objects if it["type"] == what)[what]
+        found = (it for it in self._ask({"get": what}).objects if it["type"] == what)
+        return _first(found, f"there is no `{what}`")[what]
 
     def _ask(self, request):
-        self._process.stdin.write(json.dumps(request) + "\n")
-        self._process.stdin.flush()
+        number = self._send(request)
         answer, error = Answer(), None
-        while (it := self._read())["type"] != "done":
+        while True:
+            it = self._read()
+            if it["type"] == "done":
+                if it["id"] == number:
+                    break
+                # That was the answer to a question whose asker was interrupted.
+                answer, error = Answer(), None
+                continue
             if it["type"] == "error" and error is None:
                 error = it
             answer._take(it)
+        if error is None and not it["ok"]:
+            error = {"message": "it was stopped"}
         if error is not None:
             raise LinkworkError(error)
         return answer
 
+    def _send(self, request):
+        """Sends a request; gives the number that its answer will have."""
+        self._n_asked += 1
+        line = json.dumps({**request, "id": self._n_asked}) + "\n"
+        left = memoryview(line.encode())
+        while left:
+            left = left[self._process.stdin.write(left) :]
+        return self._n_asked
+
     def _read(self):
-        line = self._process.stdout.readline()
-        if not line:
-            raise EOFError(f"the program ended with status {self._process.wait()}")
+        """The next object. What was read of it stays read where the reader is interrupted."""
+        seen = 0
+        while (end := self._read_ahead.find(b"\n", seen)) < 0:
+            seen = len(self._read_ahead)
+            piece = self._process.stdout.read(1 << 16)
+            if not piece:
+                raise EOFError(f"the program ended with status {self._process.wait()}")
+            self._read_ahead += piece
+        line = self._read_ahead[:end]
+        del self._read_ahead[: end + 1]
         return json.loads(line)
+
+
+def _first(found, otherwise):
+    for it in found:
+        return it
+    raise LookupError(otherwise)
 
 
 def _array(column):

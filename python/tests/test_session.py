@@ -1,6 +1,7 @@
 """The module over a session of the program that LINKWORK names."""
 
 import math
+import signal
 import sys
 
 import pytest
@@ -60,6 +61,59 @@ def test_questions_are_answered_by_dicts(session):
     limits = session.ask("limits crank")
     assert limits["reach"] == "full" and limits["angle"]
     assert session.ask("show coupler")["constraints"][0]["points"] == ["B", "C"]
+
+
+def test_what_answers_nothing_is_a_lookup_error(session):
+    with pytest.raises(LookupError, match="`let r = 3` is none of list"):
+        session.ask("let r = 3")
+    with pytest.raises(LookupError, match="has no value"):
+        session.evaluate('"a text"')
+    with pytest.raises(LinkworkError, match="`get` knows"):
+        session._get("nothing")
+
+
+def test_the_answer_to_an_interrupted_question_is_skipped(session):
+    session.run(FOUR_BAR)
+    # Its asker hears nothing of it.
+    session._send({"run": "print 1; list; nonsense"})
+    session._send({"get": "svg"})
+    assert session.evaluate("2") == 2
+    assert session.ask("check")["degrees_of_freedom"] == 0
+
+
+def test_a_question_that_takes_long_can_be_interrupted(session):
+    session.run(FOUR_BAR)
+    read, is_read = session._read, []
+
+    def interrupted():
+        # Ctrl-C in the middle of an answer.
+        if len(is_read) == 3:
+            raise KeyboardInterrupt
+        is_read.append(read())
+        return is_read[-1]
+
+    session._read = interrupted
+    with pytest.raises(KeyboardInterrupt):
+        session.run("\n".join(f"print {k}" for k in range(100)))
+    session._read = read
+    assert session.evaluate("1 + 1") == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such signal")
+def test_the_program_outlives_ctrl_c(session):
+    # It goes to the whole group of processes: what waits for a question goes on waiting.
+    for _ in range(3):
+        session._process.send_signal(signal.SIGINT)
+        assert session.evaluate("1 + 1") == 2
+    # What runs is stopped, whenever that comes: here it says that it runs.
+    session.run(FOUR_BAR)
+    number = session._send({"run": "for i in 1..1e6 { step 1000; i }"})
+    assert session._read()["type"] == "print"
+    session._process.send_signal(signal.SIGINT)
+    while (it := session._read())["type"] != "done":
+        pass
+    assert it == {"type": "done", "id": number, "ok": False}
+    assert session.evaluate("1 + 1") == 2
 
 
 def test_traces_are_arrays(session):

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::Resettable;
 use clap::{ArgMatches, Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use super::environment;
 use super::graphics::Graphics;
 use super::output::MessageFormat;
 
@@ -36,7 +37,7 @@ pub struct Arguments {
         global = true,
         value_name = "HOW",
         default_value = "auto",
-        env = "LINKWORK_GRAPHICS"
+        env = environment::if_set("LINKWORK_GRAPHICS")
     )]
     pub graphics: Graphics,
 }

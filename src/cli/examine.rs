@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::args::{AccuracyArguments, ExamineArguments, HostArguments};
 use super::process_host::ProcessHost;
-use super::run::{ExitStatus, begin, script};
+use super::run::{ExitStatus, begin, refuse, script};
 use super::{files, output};
-use crate::session::{Flow, Host as _, Session, Silent, Telling};
+use crate::session::{Flow, Host as _, Session, Silent, Telling, Undeclared};
 
 /// Says what there is to know about the mechanism at a script's end.
 pub fn check(arguments: &ExamineArguments) -> ExitStatus {
@@ -64,8 +64,9 @@ pub fn accuracy(wish: &AccuracyArguments) -> ExitStatus {
 fn run_in_silence(file: &Path, host: &HostArguments) -> Result<(Session, ProcessHost), ExitStatus> {
     let mut session = begin(host);
     let mut process = ProcessHost::new(host, files::folder_of(file));
-    match script(file, &mut session, &mut Silent::new(&mut process)) {
-        ExitStatus::Fine => Ok((session, process)),
-        status => Err(status),
-    }
+    let status = match script(file, &mut session, &mut Silent::new(&mut process)) {
+        ExitStatus::Fine => refuse(&Undeclared::in_session(&session), &mut process),
+        status => status,
+    };
+    if status == ExitStatus::Fine { Ok((session, process)) } else { Err(status) }
 }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::environment;
+
 /// The folder of what goes on from session to session: history, journals.
 pub fn state() -> Option<PathBuf> {
     folder("XDG_STATE_HOME", ".local/state")
@@ -13,7 +15,8 @@ pub fn config() -> Option<PathBuf> {
 }
 
 fn folder(variable: &str, below_home: &str) -> Option<PathBuf> {
-    let given = std::env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute());
-    let home = || std::env::var_os("HOME").map(|home| PathBuf::from(home).join(below_home));
+    let given =
+        environment::variable(variable).map(PathBuf::from).filter(|path| path.is_absolute());
+    let home = || environment::variable("HOME").map(|home| PathBuf::from(home).join(below_home));
     Some(given.or_else(home)?.join("linkwork"))
 }

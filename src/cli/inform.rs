@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use super::args::{ExampleArguments, HelpArguments, help_on};
 use super::output;
 use super::process_host::{EXAMPLES_FOLDER, ProcessHost};
-use super::run::{ExitStatus, begin, play};
+use super::run::{ExitStatus, Talk, begin, play, refuse};
 use crate::diag::Diagnostic;
 use crate::errors;
-use crate::session::{Example, Host, Session};
+use crate::session::{Example, Host, Session, Undeclared};
 
 /// Says what there is to know about a command of the shell, of the language, or both.
 pub fn help(wish: &HelpArguments) -> ExitStatus {
@@ -68,5 +68,9 @@ pub fn examples(wish: &ExampleArguments) -> ExitStatus {
         Ok(vec![session.add_source(&file, example.text, Some(folder))])
     };
     let mut process = ProcessHost::new(&wish.host, Path::new("."));
-    play(read, &mut session, &mut process, &wish.host, wish.interactive)
+    let status = play(read, &mut session, &mut process, &wish.host, wish.interactive);
+    if status != ExitStatus::Fine || wish.interactive {
+        return status;
+    }
+    refuse(&Undeclared::in_session(&session), Talk::going_on(&mut process, &wish.host).host())
 }

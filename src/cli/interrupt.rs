@@ -13,6 +13,8 @@ use std::time::Duration;
 pub const STATUS: u8 = 130;
 
 static IS_ASKED: AtomicBool = AtomicBool::new(false);
+/// Whether Ctrl-C, where input is waited for, is no wish to end.
+static IS_PATIENT: AtomicBool = AtomicBool::new(false);
 /// Who waits for input, if anybody does: a [`Wait`] as a number, or 0.
 static WAIT: AtomicU8 = AtomicU8::new(0);
 /// The exit status of a program that was asked to end, or 0.
@@ -54,11 +56,21 @@ pub fn listen() {
             // It only woke who waited.
             return;
         }
+        let is_waiting = WAIT.load(Ordering::Relaxed) != 0;
+        if is_waiting && IS_PATIENT.load(Ordering::Relaxed) {
+            return;
+        }
         let was_asked = IS_ASKED.swap(true, Ordering::Relaxed);
-        if was_asked || WAIT.load(Ordering::Relaxed) != 0 {
+        if was_asked || is_waiting {
             std::process::exit(STATUS.into());
         }
     }));
+}
+
+/// From here on Ctrl-C ends nothing where input is waited for: it was meant for the program that gives
+/// the input, and goes to both.
+pub fn be_patient() {
+    IS_PATIENT.store(true, Ordering::Relaxed);
 }
 
 /// Whether Ctrl-C was pressed since it was last forgotten, or the program was asked to end.

@@ -1,17 +1,19 @@
 //! The command line: arguments, exit statuses, files, signals.
 
 mod args;
+pub(crate) mod environment;
 mod examine;
 mod files;
 pub(crate) mod folders;
 mod format;
-mod graphics;
+pub(crate) mod graphics;
 mod inform;
 mod init;
 pub(crate) mod interrupt;
 mod journal;
 mod language_server;
 mod lines;
+mod lone_word;
 mod manual;
 pub(crate) mod output;
 pub(crate) mod process_host;

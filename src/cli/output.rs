@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use terminal_size::{Height, Width, terminal_size_of};
 
 use super::wrap::wrapped;
-use super::{graphics, progress};
+use super::{environment, graphics, progress};
 use crate::diag::{Diagnostic, Paint, Sources, render_within, short, visible};
 use crate::render::{Cell, Drawable, Ink};
 
@@ -252,12 +252,12 @@ const fn colour(ink: Ink) -> u8 {
 /// Where there is none.
 fn show_pages(lines: &[&str]) -> io::Result<()> {
     flush();
-    let pager = std::env::var("PAGER").unwrap_or_else(|_| "less".to_owned());
+    let pager = environment::text("PAGER").unwrap_or_else(|| "less".to_owned());
     let mut words = pager.split_whitespace();
     let program = words.next().ok_or(io::ErrorKind::NotFound)?;
     let mut command = Command::new(program);
     command.args(words).stdin(Stdio::piped());
-    if std::env::var_os("LESS").is_none() {
+    if environment::variable("LESS").is_none() {
         // Ends at once where all fits, and leaves on the screen what was read.
         command.env("LESS", "FRX");
     }
@@ -271,7 +271,7 @@ fn show_pages(lines: &[&str]) -> io::Result<()> {
 
 /// Whether the terminal understands more than a printer would.
 pub fn is_capable() -> bool {
-    std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+    environment::variable("TERM").is_none_or(|term| term != "dumb")
 }
 
 fn complain(text: &str) {
@@ -287,6 +287,5 @@ fn paint() -> Paint {
 
 /// Whether the user has nothing against colours where there is a terminal.
 pub fn wants_colours() -> bool {
-    let is_unwanted = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-    !is_unwanted && is_capable()
+    environment::variable("NO_COLOR").is_none() && is_capable()
 }

@@ -1,20 +1,20 @@
 //! Running scripts in batch, and the session.
 
-use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::sync_channel;
 
-use super::args::{HostArguments, Scripts, ViewArguments, command_names};
+use super::args::{HostArguments, Scripts, ViewArguments};
 use super::lines::Lines;
 use super::process_host::ProcessHost;
-use super::{files, init, interrupt, journal, output};
-use crate::diag::{Diagnostic, Kind, SourceId, Sources, format_counted, nearest};
+use super::{files, init, interrupt, journal, lone_word, output};
+use crate::diag::{Diagnostic, Kind, SourceId, Sources, format_counted};
 use crate::errors;
 use crate::lang::Growing;
 use crate::session::{
-    Flow, Host, Objects, Outcome, Quota, Session, Transcript, answer_request, is_request, reason,
+    Flow, Host, Objects, Outcome, Quota, Session, Transcript, Undeclared, answer_request,
+    is_request, reason,
 };
 
 /// What the process says of how it went.
@@ -53,10 +53,13 @@ impl From<ExitStatus> for ExitCode {
 ///
 /// Texts and the prompt follow in the world of the last file.
 pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
-    let mut unused: Option<BTreeSet<String>> = None;
-    let mut take_unused = |session: &Session| {
-        let here: BTreeSet<String> = session.unused_overrides().map(str::to_owned).collect();
-        unused = Some(unused.take().map_or(here.clone(), |all| &all & &here));
+    let mut undeclared: Option<Undeclared> = None;
+    let mut take_undeclared = |session: &Session| {
+        let here = Undeclared::in_session(session);
+        undeclared = Some(match undeclared.take() {
+            Some(others) => others.and(here),
+            None => here,
+        });
     };
     let goes_on = !scripts.eval.is_empty() || scripts.interactive;
     let (last, others) = match scripts.files.split_last() {
@@ -71,7 +74,7 @@ pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
         if status != ExitStatus::Fine {
             return status;
         }
-        take_unused(&session);
+        take_undeclared(&session);
         if k + 1 == scripts.files.len() {
             // The process ends and its memory with it: taking a large scene apart piece by
             // piece first would take as long as solving it.
@@ -85,14 +88,23 @@ pub fn batch(scripts: &Scripts, host: &HostArguments) -> ExitStatus {
             return status;
         }
         if !scripts.interactive {
-            take_unused(&session);
+            take_undeclared(&session);
         }
     }
-    for name in unused.unwrap_or_default() {
-        let warning = Diagnostic::warning(format!("no `let` took `--set {name}=...`"));
-        ProcessHost::new(host, Path::new(".")).tell(&warning, &Sources::new());
+    let mut process = ProcessHost::new(host, Path::new("."));
+    undeclared.map_or(ExitStatus::Fine, |undeclared| {
+        refuse(&undeclared, Talk::going_on(&mut process, host).host())
+    })
+}
+
+/// Tells of parameters that were given values and that no script declares; the status of that.
+pub fn refuse(undeclared: &Undeclared, host: &mut dyn Host) -> ExitStatus {
+    let mut status = ExitStatus::Fine;
+    for problem in undeclared.problems() {
+        host.tell(&problem, &Sources::new());
+        status = ExitStatus::of(&problem);
     }
-    ExitStatus::Fine
+    status
 }
 
 /// Carries out a file, then texts of the command line, all in one world.
@@ -211,41 +223,11 @@ fn add(file: &Path, session: &mut Session, host: &mut dyn Host) -> Result<Source
             let message = format!("cannot read `{name}`: {why}");
             let mut problem = Diagnostic::error(errors::CANNOT_READ, message);
             if e.kind() == io::ErrorKind::NotFound {
-                problem = lone_word(file, problem);
+                problem = lone_word::explain(file, problem);
             }
             host.tell(&problem, session.sources());
             Err(ExitStatus::Unreadable)
         }
-    }
-}
-
-/// Adds what a word that names no file was probably meant to be: a file that is there, or a
-/// command.
-fn lone_word(file: &Path, problem: Diagnostic) -> Diagnostic {
-    let word = file.to_string_lossy();
-    let commands = command_names();
-    let near_command = nearest(&word, commands.iter().map(String::as_str));
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten();
-    let is_script = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "link");
-    let mut there: Vec<String> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()).filter(is_script))
-        .map(|path| path.strip_prefix(".").unwrap_or(&path).to_string_lossy().into_owned())
-        .collect();
-    there.sort_unstable();
-    let with_ending = format!("{word}.link");
-    let near_file = there
-        .iter()
-        .find(|name| **name == with_ending)
-        .map(String::as_str)
-        .or_else(|| nearest(&word, there.iter().map(String::as_str)));
-    let problem = match near_command {
-        Some(command) => problem.help(format!("did you mean the command `{command}`?")),
-        None => problem,
-    };
-    match near_file {
-        Some(name) => problem.help(format!("did you mean the file `{name}`?")),
-        None => problem,
     }
 }
 
@@ -285,6 +267,11 @@ impl<'a> Talk<'a> {
     /// As the user wishes.
     pub fn new(process: &'a mut ProcessHost, host: &HostArguments) -> Self {
         if host.json { Self::Json(Objects::new(process)) } else { Self::Plain(process) }
+    }
+
+    /// As the user wishes, after what was said already.
+    pub fn going_on(process: &'a mut ProcessHost, host: &HostArguments) -> Self {
+        if host.json { Self::Json(Objects::going_on(process)) } else { Self::Plain(process) }
     }
 
     /// Who is told.
@@ -363,13 +350,22 @@ fn converse_in_objects(
     output::flush();
     let answer =
         |piece: &str, transcript: &mut Transcript, session: &mut Session, objects: &mut _| {
-            if is_request(piece) {
+            let mut outcome = if is_request(piece) {
                 transcript.skip(piece);
                 answer_request(piece, session, objects)
             } else {
                 transcript.enter(piece, session, objects)
+            };
+            if outcome.flow == Flow::Stopped {
+                // Who stopped this may ask for something else.
+                interrupt::forget();
+                outcome.flow = Flow::On;
             }
+            outcome
         };
+    if !io::stdin().is_terminal() {
+        interrupt::be_patient();
+    }
     let status = typed_ahead(session, &mut objects, |lines, _, _| lines.next(), answer);
     match end(session, &mut objects) {
         ExitStatus::Fine => status,

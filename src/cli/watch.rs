@@ -10,6 +10,7 @@ use super::process_host::ProcessHost;
 use super::run::{self, ExitStatus};
 use super::seen::Seen;
 use super::{files, interrupt, output};
+use crate::session::Undeclared;
 
 /// How long a change goes unnoticed at most: short beside the time it takes to look up.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -24,7 +25,9 @@ pub fn watch(arguments: &WatchArguments) -> ExitStatus {
         seen.note(file);
         host.watch(seen);
         let mut session = run::begin(&arguments.host);
-        run::script(file, &mut session, &mut host);
+        if run::script(file, &mut session, &mut host) == ExitStatus::Fine {
+            run::refuse(&Undeclared::in_session(&session), &mut host);
+        }
         if output::is_terminal() && session.world().points().ids().next().is_some() {
             let look = session.add_source("<watch>", "show", None);
             session.run_text(look, &mut host);

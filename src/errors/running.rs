@@ -89,8 +89,10 @@ super::kinds! {
         title: "a table that is no path of a point",
         help: "It has a line of names, `C.x` and `C.y` among them and `time` if the rows are not the frames one\n\
              by one, and a row for each place, as `record` writes it.",
-        wrong: "",
-        right: "",
+        wrong: "let r = 1\npoint A = (0, 0) frozen, C = (1, 0)\nmotor A C radius r\nrecord \"c.csv\" of time\n\
+                step 3\nrecord stop\nfit r in 0.5..2 to \"c.csv\"",
+        right: "let r = 1\npoint A = (0, 0) frozen, C = (1, 0)\nmotor A C radius r\nrecord \"c.csv\" of time, C\n\
+                step 3\nrecord stop\nreset\nfit r in 0.5..2 to \"c.csv\"",
     }
     601 UNKNOWN_SETTING {
         title: "an unknown setting",

@@ -38,6 +38,7 @@ mod view;
 pub mod chart;
 
 // Figures that stand still, as a document.
+pub(crate) mod base64;
 mod document;
 mod drawable;
 #[cfg(any(feature = "terminal", feature = "pictures"))]

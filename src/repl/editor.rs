@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -15,7 +16,7 @@ use rustyline::{
 };
 
 use super::look::{coloured, faint};
-use crate::cli::output;
+use crate::cli::{environment, graphics, output};
 use crate::lang::{depth, is_incomplete};
 use crate::session::{CONTINUATION, Completion, Session};
 
@@ -147,6 +148,41 @@ impl ConditionalEventHandler for GoOn {
     }
 }
 
+/// Swallows the answer of a terminal that comes when nobody waits for it any more: what the editor takes for
+/// an unknown key, and the numbers behind it that it takes for typed.
+#[derive(Default)]
+struct Swallow {
+    /// Whether an answer has begun.
+    is_begun: AtomicBool,
+}
+
+impl ConditionalEventHandler for Swallow {
+    fn handle(&self, event: &Event, _: RepeatCount, _: bool, _: &EventContext) -> Option<Cmd> {
+        let Event::KeySeq(keys) = event else { return None };
+        let [KeyEvent(key, Modifiers::NONE)] = keys[..] else { return None };
+        if !graphics::is_answer_due() {
+            return None;
+        }
+        let is_begun = self.is_begun.load(Ordering::Relaxed);
+        let goes_on = match key {
+            KeyCode::UnknownEscSeq => true,
+            KeyCode::Char('0'..='9' | ';') if is_begun => true,
+            // The size of a letter, and what the terminal is: that ends it.
+            KeyCode::Char('t') if is_begun => false,
+            KeyCode::Char('c') if is_begun => {
+                graphics::forget_answer();
+                false
+            }
+            _ => {
+                self.is_begun.store(false, Ordering::Relaxed);
+                return None;
+            }
+        };
+        self.is_begun.store(goes_on, Ordering::Relaxed);
+        Some(Cmd::Noop)
+    }
+}
+
 /// An editor on the terminal of the process.
 ///
 /// # Errors
@@ -173,6 +209,7 @@ pub fn open() -> rustyline::Result<LineEditor> {
     for key in [KeyEvent(KeyCode::Enter, Modifiers::NONE), KeyEvent::ctrl('J')] {
         editor.bind_sequence(key, EventHandler::Conditional(Box::new(GoOn)));
     }
+    editor.bind_sequence(Event::Any, EventHandler::Conditional(Box::new(Swallow::default())));
     Ok(editor)
 }
 
@@ -191,8 +228,8 @@ pub fn prepare(editor: &mut LineEditor, session: &Session) {
 
 /// Keys as the user has them elsewhere: `set editing-mode vi` of readline's own file.
 fn edit_mode() -> EditMode {
-    let home = || std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".inputrc"));
-    let file = std::env::var_os("INPUTRC").map(PathBuf::from).or_else(home);
+    let home = || environment::variable("HOME").map(|home| PathBuf::from(home).join(".inputrc"));
+    let file = environment::variable("INPUTRC").map(PathBuf::from).or_else(home);
     let text = file.and_then(|file| std::fs::read_to_string(file).ok()).unwrap_or_default();
     let is_vi = |line: &str| line.split_whitespace().eq(["set", "editing-mode", "vi"]);
     if text.lines().any(is_vi) { EditMode::Vi } else { EditMode::Emacs }

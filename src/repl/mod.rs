@@ -1,5 +1,6 @@
 //! The prompt: reads statements line by line, with history, completion and continuation lines.
 
+mod ahead;
 mod editor;
 mod history;
 mod look;
@@ -7,10 +8,10 @@ mod look;
 use rustyline::ExternalPrinter as _;
 use rustyline::error::ReadlineError;
 
-use crate::cli::interrupt;
-use crate::cli::output;
 use crate::cli::process_host::ProcessHost;
+use crate::cli::{graphics, interrupt, output};
 use crate::session::{Flow, PROMPT, Session, Transcript, without_prompts};
+use ahead::Ahead;
 
 /// Says who is there, and what to type first.
 pub fn greet() {
@@ -35,7 +36,9 @@ pub fn converse(session: &mut Session, host: &mut ProcessHost) {
     history::recall(&mut editor, history.as_deref());
     let mut transcript = Transcript::conversation("<prompt>");
     let mut printer = None;
+    let mut ahead = Ahead::default();
     loop {
+        ahead.push(&graphics::take_typed());
         editor::prepare(&mut editor, session);
         if printer.is_none() && host.is_viewed() {
             printer = editor.create_external_printer().ok();
@@ -46,7 +49,15 @@ pub fn converse(session: &mut Session, host: &mut ProcessHost) {
                 drop(printer.print(look::of_page(statement)));
             }
         };
-        let line = || interrupt::at_prompt(|| editor.readline(PROMPT));
+        let line = || match ahead.next_entered() {
+            Some(entered) => {
+                output::answer(&format!("{PROMPT}{entered}"));
+                Ok(entered)
+            }
+            None => interrupt::at_prompt(|| {
+                editor.readline_with_initial(PROMPT, (&ahead.take_begun(), ""))
+            }),
+        };
         match host.meanwhile(session, &mut told, line) {
             _ if interrupt::is_ending() => return,
             Ok(line) => {

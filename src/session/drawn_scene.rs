@@ -4,8 +4,12 @@ use std::sync::Arc;
 
 use super::settled::miss;
 use super::state::State;
+use crate::interrupt::tick;
 use crate::render::{Scene, Unmet};
 use crate::solve::{present, verdict};
+
+/// What the writing of an amount takes, in ticks.
+const AMOUNT: usize = 500;
 
 impl State {
     /// What is drawn of the present pose.
@@ -22,6 +26,7 @@ impl State {
         let (world, _) = present(&self.world);
         let off = verdict.judged.iter().filter(|judged| !judged.is_met());
         let amount = |id| {
+            tick(AMOUNT);
             let record = world.constraint(id)?;
             let text = format!("{} off by {}", record.name, miss(&world, &record.constraint));
             Some((id, Arc::from(text)))

@@ -71,7 +71,9 @@ pub struct Swept {
     pub n_rows: u64,
     /// How many it is to have.
     pub n_wanted: u64,
-    /// Variants that ended in an error, of those that were run now.
+    /// How many of these were run now, not by a sweep that was gone on with.
+    pub n_run: u64,
+    /// Of those, how many ended in an error.
     pub n_failed: u64,
     /// Those that missed their tolerance.
     pub n_missed: u64,

@@ -14,6 +14,7 @@ mod attempt;
 mod check;
 mod commands;
 mod completion;
+mod csv;
 mod culprits;
 mod curve;
 mod deadline;
@@ -32,6 +33,7 @@ mod output_file;
 mod overview;
 mod parcel;
 mod preferences;
+mod quiet;
 mod quotas;
 mod report;
 mod resolve;
@@ -46,6 +48,7 @@ mod state;
 mod summary;
 pub(crate) mod sweep;
 mod transcript;
+mod undeclared;
 mod undo;
 mod value_text;
 
@@ -75,9 +78,11 @@ pub use silent::Silent;
 pub use spool::Spool;
 pub use summary::{Summary, Way};
 pub use sweep::{
-    Axis, Columns, Failure, Grid, Shard, SweepScript, Variant, parse_axis, picture_sheet,
+    Axis, Columns, Failure, Grid, Refusal, Shard, Sweep, SweepScript, Variant, parse_axis,
+    picture_sheet,
 };
 pub use transcript::{CONTINUATION, Outcome, PROMPT, Transcript, without_prompts};
+pub use undeclared::Undeclared;
 
 pub use crate::interrupt::Wish;
 pub use crate::mobility::{DriverRange, PoseClass, RangeEnd, Reach};

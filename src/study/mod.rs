@@ -17,7 +17,6 @@ mod report;
 mod sample;
 mod setting_ladder;
 mod table;
-mod trial;
 
 pub use advice::{Advice, Wish};
 pub use hand::{Hand, move_by};
@@ -29,4 +28,3 @@ pub use repeatable_motion::{Leg, RepeatableMotion};
 pub use report::{RungResult, Study};
 pub use setting_ladder::ladder;
 pub use table::{CSV_HEADING, csv, json, table};
-pub use trial::Trial;

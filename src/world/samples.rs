@@ -396,7 +396,7 @@ mod tests {
         let longest = samples.windows(2).map(|s| s[0].at.distance(s[1].at)).fold(0.0, f64::max);
         for n in [0, 1, 359, 720, 1081, 3699, 3700, 3701, 8700] {
             let seen = list.seen(n);
-            assert_eq!(seen.len() > 0, n > 0);
+            assert_eq!(seen.is_empty(), n == 0);
             assert!(seen.windows(2).all(|s| s[0].at.distance(s[1].at) <= longest), "{n}");
             if n > 0 {
                 assert!(is_same(&seen[seen.len() - 1], &samples[n - 1]), "{n}");

@@ -194,6 +194,15 @@ fn the_library_builds_on_these_crates_alone() {
 }
 
 #[test]
+fn the_environment_is_read_in_one_place() {
+    // There a variable that is empty is none.
+    for source in sources() {
+        let reads = ["env::var", "env::vars"].iter().any(|it| source.code().contains(it));
+        assert!(!reads || source.path == "cli/environment.rs", "{} reads variables", source.path);
+    }
+}
+
+#[test]
 fn no_file_is_two() {
     for Source { path, text } in sources() {
         let n_lines = text.split("#[cfg(test)]").next().map_or(0, |code| code.lines().count());

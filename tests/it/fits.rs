@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use linkwork::Session;
-use linkwork::session::Answer;
+use linkwork::session::{Answer, Flow, Quota};
+use linkwork::{Session, errors};
 
 use crate::support::compare::check_same;
 use crate::support::talk::Talking;
@@ -157,6 +157,117 @@ fn it_is_told_how_good_it_is_and_where_a_range_ends() {
     assert_eq!(number(&mut talking, "r").to_bits(), again);
 }
 
+/// A crank that is stopped and turned back by its rod, which is `l`; how far the slider goes.
+const STOPPED: &str = "
+    let l = 1.4
+    point O = (0, 0) frozen, P = (2, 0), S = (3.4, 0), E = (20, 0) frozen
+    crank: motor O P radius 2 speed 1rev
+    length P S = l
+    glider S on O E unbounded
+    set dt 1/60
+    measure x = S.x
+    measure y = P.y";
+
+#[test]
+fn a_trial_is_a_run() {
+    // Whatever a run heeds: motors that turn back, extremes of frames alone, what is exposed or traced.
+    for settings in [
+        "set dead-points reverse",
+        "set dead-points reverse; set measures sampled",
+        "set dead-points reverse; trace S; expose every 7; trace P every 5",
+        "set dead-points reverse; set method relaxation; set iterations 3000",
+        "set measures sampled; change crank speed 1/50 * 1rev",
+        "change crank speed 1/50 * 1rev",
+    ] {
+        let mut talking = Talking::after(&format!("{STOPPED}\n{settings}"));
+        talking.talk.told.clear();
+        talking.run("fit l in 1.2..1.6 to maximise x.span over 90");
+        let told = talking.talk.told();
+        let best = told.iter().find_map(|it| it.strip_prefix("l = ")).expect("the best");
+        let best: f64 = best.parse().expect("a number");
+        assert_eq!(number(&mut talking, "l").to_bits(), best.to_bits());
+        let how =
+            told.iter().find(|it| it.starts_with("x.span = ")).expect("how good it is").clone();
+        talking.run("measure x = S.x; step 90");
+        let found = number(&mut talking, "x.span");
+        let said = how["x.span = ".len()..].split(',').next().expect("a value").to_owned();
+        let said: f64 = said.parse().expect("a number");
+        assert!((found - said).abs() < 0.01 * said, "{settings}: {found}, but {how}");
+    }
+    // Where the run ends before its frames, nothing is found.
+    let mut talking = Talking::after(&format!("{STOPPED}\nset dead-points stop"));
+    let problem =
+        talking.execute("fit l in 1.2..1.6 to maximise x.span over 90").expect_err("stopped");
+    assert!(talking.drawn(&problem).contains("none of these numbers gives a motion"));
+}
+
+#[test]
+fn a_trial_is_left_between_two_frames() {
+    let crank = "let r = 1.5; point A = (0, 0) frozen, B = (1.5, 0)
+         motor A B radius r speed 1rev; measure d = B.x";
+    let mut talking = Talking::after(crank);
+    talking.talk.n_polls.set(0);
+    talking.run("fit r in 1..2 to minimise d.span over 2000");
+    let told = talking.talk.told();
+    let (runs, _) = told.iter().find_map(|it| it.split_once(" runs")).expect("how many");
+    let runs: u64 = runs.rsplit(' ').next().and_then(|n| n.parse().ok()).expect("a number");
+    let n_polls = talking.talk.n_polls.get();
+    assert!(n_polls > 20 * runs, "asked {n_polls} times in {runs} trials");
+    // In the first as in any other: then nothing has changed.
+    for most in [0, 30, n_polls / 2, n_polls - 30] {
+        let mut talking = Talking::after(crank);
+        let before = talking.script();
+        talking.talk.n_polls.set(0);
+        talking.talk.most_polls = Some(most);
+        let flow = talking.execute("fit r in 1..2 to minimise d.span over 2000");
+        assert_eq!(flow.expect("it is stopped"), Flow::Stopped, "after {most}");
+        check_same(&talking.script(), &before, "stopped");
+    }
+    let mut talking = Talking::after(crank);
+    talking.talk.tick = 0.01;
+    talking.session.limit(Quota::Seconds, 1);
+    let problem =
+        talking.execute("fit r in 1..2 to minimise d.span over 1e6").expect_err("too long");
+    assert!(talking.drawn(&problem).contains("`seconds`"));
+}
+
+#[test]
+fn a_trial_keeps_no_more_than_a_run_may() {
+    let check = |limit: (Quota, u64), script: &str, table: &str, wanted: &str| {
+        let mut talking = Talking::after(
+            "let r = 1.5; point A = (0, 0) frozen, B = (1.5, 0)
+             motor A B radius r speed 1rev; set dt 1/60; measure d = B.x; measure e = B.y",
+        );
+        talking.talk.files.insert(PathBuf::from("c.csv"), table.to_owned());
+        talking.session.limit(limit.0, limit.1);
+        let problem = talking.execute(script).expect_err(script);
+        let drawn = talking.drawn(&problem);
+        assert!(drawn.contains(wanted), "{script}: {drawn}");
+    };
+    let span = "fit r in 1..2 to minimise d.span over";
+    check((Quota::Frames, 99), &format!("{span} 100"), "", "expected 0 to 99 frames");
+    check((Quota::MeasureSamples, 199), &format!("{span} 99"), "", "`measure-samples` is exceeded");
+    let path = "fit r in 1..2 to \"c.csv\"";
+    let table = "time,B.x,B.y\n0,1,0\n1,1,0\n";
+    check((Quota::Frames, 59), path, table, "`frames` is exceeded");
+    check((Quota::TraceSamples, 60), path, table, "`trace-samples` is exceeded");
+    let endless = "time,B.x,B.y\n0,1,0\n1e14,1,0\n";
+    check((Quota::Points, 9), path, endless, "`frames` is exceeded");
+}
+
+#[test]
+fn what_is_over_the_columns_of_a_path_is_read_as_it_is_written() {
+    // A unit, and an expression with a comma in it: they come before the point.
+    let mut talking = Talking::after(
+        "let r = 1.25; point A = (0, 0) frozen, C = (1.25, 0)
+         crank: motor A C radius r speed 1rev; set dt 1/60
+         record \"c.csv\" of angle(A, C) in deg, time in ms, distance(A, C), C
+         step 30; record stop; reset; let r = 1",
+    );
+    talking.run("fit r in 0.5..2 to \"c.csv\"");
+    assert!((number(&mut talking, "r") - 1.25).abs() < 1e-9);
+}
+
 #[test]
 fn a_table_that_is_no_path_says_what_is_wrong() {
     let check = |table: &str, wanted: &str| {
@@ -164,6 +275,7 @@ fn a_table_that_is_no_path_says_what_is_wrong() {
         talking.run("length A C = r");
         talking.talk.files.insert(PathBuf::from("c.csv"), table.to_owned());
         let problem = talking.execute("fit r in 0.5..2 to \"c.csv\"").expect_err(table);
+        assert_eq!(problem.code, Some(errors::NOT_A_PATH), "{table:?}");
         let drawn = talking.drawn(&problem);
         assert!(drawn.contains(wanted), "{table:?}: {drawn}");
     };
@@ -173,4 +285,8 @@ fn a_table_that_is_no_path_says_what_is_wrong() {
     check("time,C.x,C.y\n0,1\n", "row 1 has no number under `C.y`");
     check("time,C.x,C.y\n0,1,1\n0.01,1,1\n", "row 2 is between two frames");
     check("C.x,C.y\n1,one\n", "row 1 has no number under `C.y`");
+    check("\"C.x\",\"C.y\"\n1,\"one\"\n", "row 1 has no number under `C.y`");
+    check("time in ms,C.x,C.y\n0,1,1\n1,1,1\n", "row 2 is between two frames");
+    check("time in weeks,C.x,C.y\n0,1,1\n", "`time in weeks`: no unit `weeks`");
+    check("C.x,\"C.y\n", "no columns `P.x` and `P.y`");
 }

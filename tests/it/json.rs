@@ -195,8 +195,11 @@ fn a_script_that_fails_is_an_object_to_those_who_examine_it() {
         assert_eq!((&error["type"], &error["version"]), (&json!("error"), &json!(1)));
         assert_eq!((&error["code"], &place["line"]), (&json!("E0101"), &json!(2)));
     }
-    let (_, found) = objects(&["run", "--json", "four-bar.link", "--set", "nobody=1"], "");
-    assert_eq!(found.last().expect("objects")["type"], "warning");
+    let (status, found) = objects(&["run", "--json", "four-bar.link", "--set", "nobody=1"], "");
+    let last = found.last().expect("objects");
+    assert_eq!((status, &last["type"], &last["code"]), (Some(2), &json!("error"), &json!("E0201")));
+    let openings = found.iter().filter(|object| object["type"] == "linkwork");
+    assert_eq!(openings.count(), 1);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use linkwork::diag::{Diagnostic, Sources};
 use linkwork::live::{Live, Message};
 use linkwork::render::{Drawable, Options, svg};
-use linkwork::session::{Grid, Host, SweepScript, parse_axis};
+use linkwork::session::{Grid, Host, Sweep, SweepScript, parse_axis};
 use linkwork::{Answer, Session};
 
 use crate::support::program::{folder, run, text};
@@ -132,7 +132,9 @@ fn what_is_off_is_red_wherever_a_pose_is_drawn() {
 
     let script = SweepScript::read("s", &script, "".into(), Vec::new()).expect("no mistake");
     let grid = Grid { axes: vec![parse_axis("r=9").expect("an axis")] };
-    let swept = script.picture(&grid, 0, &Options::default(), &mut Answer::default());
+    let mut host = Answer::default();
+    let sweep = Sweep::begin(script, grid, &mut host).expect("it runs");
+    let swept = sweep.picture(0, &Options::default(), &mut host);
     check("a sweep", &swept.expect("a picture"));
 }
 

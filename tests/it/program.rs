@@ -175,29 +175,63 @@ fn a_value_from_outside_is_unused_only_where_no_file_takes_it() {
         ("c.link", "print 1"),
     ]);
     let set = ["--set", "r=5", "--set", "s=6", "--set", "t=7"];
-    let warned = |files: &[&str]| -> Vec<String> {
+    let refused = |files: &[&str]| -> Vec<String> {
         let out = run(folder.path(), &[&["run"], files, &set[..]].concat(), "");
-        assert_eq!(out.status.code(), Some(0));
+        assert_eq!(out.status.code(), Some(2));
         let is_named = |name: &&str| {
-            text(&out.stderr).matches(&format!("no `let` took `--set {name}=...`")).count() == 1
+            text(&out.stderr).matches(&format!("no `let` declares `{name}`")).count() == 1
         };
         ["r", "s", "t"].iter().filter(|name| is_named(name)).map(ToString::to_string).collect()
     };
-    assert_eq!(warned(&["a.link"]), ["s", "t"]);
-    assert_eq!(warned(&["a.link", "b.link"]), ["t"]);
-    assert_eq!(warned(&["b.link", "a.link", "c.link"]), ["t"]);
-    assert_eq!(warned(&["c.link", "b.link", "b.link"]), ["r", "t"]);
-    assert_eq!(warned(&["c.link", "c.link"]), ["r", "s", "t"]);
+    assert_eq!(refused(&["a.link"]), ["s", "t"]);
+    assert_eq!(refused(&["a.link", "b.link"]), ["t"]);
+    assert_eq!(refused(&["b.link", "a.link", "c.link"]), ["t"]);
+    assert_eq!(refused(&["c.link", "b.link", "b.link"]), ["r", "t"]);
+    assert_eq!(refused(&["c.link", "c.link"]), ["r", "s", "t"]);
+}
+
+#[test]
+fn a_value_from_outside_that_no_script_declares_is_a_mistake() {
+    let folder = folder(&[
+        ("a.link", "let width = 3\npoint A = (0, 0)\nprint width"),
+        ("b.link", "include \"a.link\""),
+    ]);
+    let with = |args: &[&str], input: &str| {
+        let out = run(folder.path(), args, input);
+        let said = text(&out.stderr) + &text(&out.stdout);
+        (out.status.code().expect("it ends"), said)
+    };
+    let refuses = |args: &[&str], wanted: &str| {
+        let (status, said) = with(args, "");
+        assert_eq!(status, 2, "{args:?}: {said}");
+        assert!(said.contains(wanted), "{args:?}: {said}");
+    };
+    for command in ["run", "check", "effects"] {
+        refuses(&[command, "a.link", "--set", "widht=5"], "did you mean `width`?");
+        refuses(&[command, "a.link", "--json", "--set", "q=5"], "the script declares width");
+        assert_eq!(with(&[command, "b.link", "--set", "width=5"], "").0, 0);
+    }
+    refuses(&["-e", "print 1", "--set", "q=5"], "`let q = 1` in the script declares it");
+    refuses(&["run", "-q", "a.link", "--set", "q=5"], "no `let` declares `q`");
+    refuses(
+        &["examples", "four-bar", "--run", "--set", "nothing=1"],
+        "no `let` declares `nothing`",
+    );
+    // What the script did before stays, and what it printed.
+    assert!(with(&["a.link", "--set", "q=1"], "").1.contains("3\n"));
+    // A session may declare it yet.
+    for args in [&["--set", "q=1"][..], &["-i", "a.link", "--set", "q=1"]] {
+        let (status, said) = with(args, "let q = 2\nprint q\n");
+        assert_eq!(status, 0, "{said}");
+        assert!(said.ends_with("1\n") && !said.contains("declares"), "{said}");
+    }
 }
 
 #[test]
 fn values_from_outside_win_over_a_let() {
     let folder = folder(&[("a.link", "let r = 3, s = 2 * r\nprint r, s\nlet r = 4\nprint r")]);
-    let out = run(folder.path(), &["run", "a.link", "--set", "r=90deg / 2", "--set", "q=1"], "");
+    let out = run(folder.path(), &["run", "a.link", "--set", "r=90deg / 2"], "");
     assert_eq!(text(&out.stdout), "0.7853981633974483 1.5707963267948966\n0.7853981633974483\n");
-    assert!(text(&out.stderr).contains("no `let` took `--set q=...`"));
-    let quiet = run(folder.path(), &["run", "-q", "a.link", "--set", "q=1"], "");
-    assert_eq!(text(&quiet.stderr), "");
     for wrong in ["r", "r=", "=3", "r=s", "r=1; print 2", "r=1, s=2", "1=2", "r=(1, 2)"] {
         let out = run(folder.path(), &["run", "a.link", "--set", wrong], "");
         assert_eq!(out.status.code(), Some(2), "for {wrong:?}");

@@ -1,12 +1,14 @@
 //! `linkwork sweep`: every variant has its row, whoever runs it and however often it was stopped.
 
-use std::fs;
-use std::path::Path;
-use std::process::Output;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::{fs, io};
 
+use linkwork::diag::{Diagnostic, Sources};
+use linkwork::session::{Grid, Host, Sweep, SweepScript, parse_axis};
 use serde_json::Value;
 
-use crate::support::program::{folder, run, text};
+use crate::support::program::{PROGRAM, folder, run, text};
 
 /// The largest height of a slider's crank is its radius; a rod that is too short stops it.
 const SLIDER: &str = "let r = 1, l = 3
@@ -23,6 +25,11 @@ result height = y.max, stroke = x.span
 
 fn sweep(folder: &Path, args: &[&str]) -> Output {
     run(folder, &[&["sweep", "slider.link"], args].concat(), "")
+}
+
+/// All that was said.
+fn text_of(out: &Output) -> String {
+    text(&out.stdout) + &text(&out.stderr)
 }
 
 #[track_caller]
@@ -66,8 +73,12 @@ fn what_goes_wrong_is_in_its_row() {
     let out = sweep(folder.path(), &["--set", "l=0.5,1.25,2"]);
     fine(&out);
     let told = text(&out.stderr);
-    assert!(told.contains("3 rows in sweep.csv") && told.contains("2 ended in an error"), "{told}");
-    assert!(told.contains("1 met dead points"), "{told}");
+    assert!(
+        told.contains(
+            "3 rows in sweep.csv: 2 ended in an error, 1 missed the tolerance, 1 met dead points"
+        ),
+        "{told}"
+    );
     let table = table(folder.path(), "sweep.csv");
     let rows = rows(&table);
     assert_eq!(rows[0][4], "error");
@@ -129,7 +140,12 @@ fn a_sweep_goes_on_to_the_byte_wherever_it_was_cut() {
 
 #[test]
 fn a_table_that_is_there_is_not_lost() {
-    let folder = folder(&[("slider.link", SLIDER), ("mine.csv", "a,b\n1,2\n")]);
+    let folder = folder(&[
+        ("slider.link", SLIDER),
+        ("mine.csv", "a,b\n1,2\n"),
+        ("notes.txt", "not a line"),
+        ("lines.txt", "some lines\nof text\n"),
+    ]);
     let refused = |args: &[&str], wanted: &str| {
         let out = sweep(folder.path(), args);
         assert_eq!(out.status.code(), Some(2));
@@ -142,9 +158,126 @@ fn a_table_that_is_there_is_not_lost() {
     refused(&["--set", "l=3,4", "--resume"], "of another sweep");
     refused(&["--set", "r=1,2", "--shard", "2/2", "--resume"], "of another sweep");
     refused(&["--set", "r=1,2", "--resume", "--to", "mine.csv"], "of another sweep");
+    for json in [&[][..], &["--json"]] {
+        for (name, text) in [
+            ("mine.csv", "a,b\n1,2\n"),
+            ("notes.txt", "not a line"),
+            ("lines.txt", "some lines\nof text\n"),
+        ] {
+            let out = sweep(
+                folder.path(),
+                &[&["--set", "r=1,2", "--resume", "--to", name], json].concat(),
+            );
+            let said = text_of(&out);
+            assert!(out.status.code() == Some(2) && said.contains("of another sweep"), "{said}");
+            assert_eq!(table(folder.path(), name), text);
+        }
+    }
+    let (second_row, _) = before.match_indices('\n').nth(1).expect("two lines");
+    let heading_and_row = &before[..=second_row];
+    // A row that was begun is cut off only where it is the next one.
+    for (name, behind) in [("whole", "3"), ("begun", "1,7"), ("other", "my notes")] {
+        let rows = if name == "begun" { heading_and_row } else { &before };
+        let mine = format!("{rows}{behind}");
+        fs::write(folder.path().join(name), &mine).expect("a file");
+        refused(&["--set", "r=1,2", "--resume", "--to", name], "of another sweep");
+        assert_eq!(table(folder.path(), name), mine);
+    }
+    refused(&["--set", "r=1,2", "--resume", "--to", "-"], "a table in a file");
     assert_eq!(table(folder.path(), "sweep.csv"), before);
-    assert_eq!(table(folder.path(), "mine.csv"), "a,b\n1,2\n");
     fine(&sweep(folder.path(), &["--set", "r=1,2", "--force"]));
+}
+
+#[test]
+fn what_was_there_before_is_not_counted_as_run() {
+    let script = SLIDER.replace("step 36", "step 36; assert l > 1.5");
+    let folder = folder(&[("slider.link", &script)]);
+    let grid = ["--set", "l=0.5,1.25,2,1.3"];
+    let note = |args: &[&str]| {
+        let out = sweep(folder.path(), &[&grid, args].concat());
+        fine(&out);
+        text(&out.stderr)
+    };
+    let told = note(&[]);
+    assert!(
+        told.contains(
+            "4 rows in sweep.csv: 3 ended in an error, 1 missed the tolerance, 1 met dead points"
+        ),
+        "{told}"
+    );
+    let whole = table(folder.path(), "sweep.csv");
+    let (third, _) = whole.match_indices('\n').nth(2).expect("three lines");
+    fs::write(folder.path().join("sweep.csv"), &whole[..=third]).expect("a table");
+    let told = note(&["--resume"]);
+    assert!(
+        told.contains("4 rows in sweep.csv, 2 of them run now: 1 ended in an error\n"),
+        "{told}"
+    );
+    let told = note(&["--resume"]);
+    assert!(told.contains("4 rows in sweep.csv, 0 of them run now\n"), "{told}");
+    assert_eq!(table(folder.path(), "sweep.csv"), whole);
+}
+
+/// A host that counts what is read.
+#[derive(Default)]
+struct Counting {
+    n_reads: u64,
+}
+
+impl Host for Counting {
+    fn print(&mut self, _line: &str) {}
+
+    fn tell(&mut self, _what: &Diagnostic, _sources: &Sources) {}
+
+    fn read(&mut self, _path: &Path) -> io::Result<String> {
+        self.n_reads += 1;
+        Ok("let size = 3".to_owned())
+    }
+
+    fn write(&mut self, _path: &Path, _bytes: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn each_variant_is_run_once() {
+    let text = "include \"size.link\"\nassert size > 2\nresult twice = 2 * size\n";
+    let script = SweepScript::read("sweep", text, PathBuf::new(), Vec::new()).expect("a script");
+    let axes = vec![parse_axis("size=1..9").expect("values")];
+    let mut host = Counting::default();
+    let sweep = Sweep::begin(script, Grid { axes }, &mut host).expect("it begins");
+    // The first that comes to its end shows the columns.
+    assert_eq!(host.n_reads, 3);
+    for number in 0..sweep.n_variants() {
+        let variant = sweep.variant(number, &mut host).expect("it is run");
+        let twice = (number >= 2).then_some(2.0 * (number + 1) as f64);
+        assert_eq!((variant.number, variant.results.get("twice")), (number, twice));
+    }
+    assert_eq!(host.n_reads, 9);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_table_that_cannot_be_written_ends_the_sweep() {
+    let folder = folder(&[("slider.link", SLIDER)]);
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("it takes nothing");
+    let out = Command::new(PROGRAM)
+        .current_dir(folder.path())
+        .args(["sweep", "slider.link", "--set", "r=1,2", "--to", "-"])
+        .stdout(full)
+        .output()
+        .expect("it ends");
+    assert_eq!(out.status.code(), Some(3));
+    assert!(text(&out.stderr).contains("cannot write `standard output`"), "{}", text(&out.stderr));
+    // Who reads no further has read enough.
+    let mut child = Command::new(PROGRAM)
+        .current_dir(folder.path())
+        .args(["sweep", "slider.link", "--set", "r=1..2:0.001", "--to", "-", "--quiet"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("it ends").code(), Some(0));
 }
 
 #[test]

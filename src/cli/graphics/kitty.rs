@@ -1,7 +1,7 @@
 //! The graphics protocol of kitty: <https://sw.kovidgoyal.net/kitty/graphics-protocol/>.
 
-use super::{base64, png};
-use crate::render::Pixels;
+use super::png;
+use crate::render::{Pixels, base64};
 
 /// Letters in one piece, at most.
 const PIECE: usize = 4096;
@@ -9,6 +9,7 @@ const PIECE: usize = 4096;
 /// A picture that is shown where the cursor is, so many columns wide.
 pub fn picture(pixels: &Pixels, n_columns: usize) -> Vec<u8> {
     let text = base64::encode(&png::encode(pixels));
+    let text = text.as_bytes();
     let n_pieces = text.len().div_ceil(PIECE);
     let mut bytes = Vec::with_capacity(text.len() + 16 * n_pieces);
     for (k, piece) in text.chunks(PIECE).enumerate() {

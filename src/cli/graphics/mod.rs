@@ -1,6 +1,5 @@
 //! Pictures in terminals that can show more than letters, and which of them can.
 
-mod base64;
 mod iterm;
 mod kitty;
 mod png;
@@ -8,12 +7,20 @@ mod png;
 mod question;
 mod sixel;
 
-use std::io::{self, IsTerminal, Write};
+#[cfg(unix)]
+use std::io::Write as _;
+use std::io::{self, IsTerminal};
+#[cfg(unix)]
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::ValueEnum;
 
+use super::environment;
 use crate::render::{Drawable, Pixels};
+#[cfg(unix)]
+use question::Asked;
+pub use question::{forget as forget_answer, is_due as is_answer_due, take_typed};
 
 /// How pictures are shown in a terminal.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
@@ -96,7 +103,7 @@ fn screen(wants_colours: bool) -> Screen {
             if let Some(screen) = *known {
                 return screen;
             }
-            match by_environment(&|name| std::env::var(name).ok()) {
+            match by_environment(&environment::text) {
                 Told::Protocol(protocol) => *known.insert(fine(protocol)),
                 Told::Letters => *known.insert(letters),
                 // Who types already is not to lose a letter: the next picture asks.
@@ -117,7 +124,7 @@ enum Told {
 fn by_environment(variable: &dyn Fn(&str) -> Option<String>) -> Told {
     let is = |name: &str, value: &str| variable(name).is_some_and(|it| it == value);
     let term = variable("TERM").unwrap_or_default();
-    let is_there = |name: &str| variable(name).is_some_and(|it| !it.is_empty());
+    let is_there = |name: &str| variable(name).is_some();
     if term.is_empty() || term == "linux" || term.starts_with("eterm") || is_there("INSIDE_EMACS") {
         return Told::Letters;
     }
@@ -138,18 +145,45 @@ fn by_environment(variable: &dyn Fn(&str) -> Option<String>) -> Told {
     Told::Nothing
 }
 
-/// Asks the terminal; none where that cannot be done now.
+/// A terminal that says nothing is asked so often.
+#[cfg(unix)]
+const MOST_SILENT: u32 = 2;
+
+/// Asks the terminal; none where that cannot be done now, or may be worth another try.
 #[cfg(unix)]
 fn ask() -> Option<Screen> {
+    static N_SILENT: AtomicU32 = AtomicU32::new(0);
     drop(io::stdout().flush());
-    let answer = question::ask()?;
-    let protocol = answer.has_sixel.then_some(Protocol::Sixel);
-    Some(Screen { protocol, cell: answer.cell.unwrap_or(CELL) })
+    match question::ask() {
+        Asked::Answered(answer) => {
+            let protocol = answer.has_sixel.then_some(Protocol::Sixel);
+            Some(Screen { protocol, cell: answer.cell.unwrap_or(CELL) })
+        }
+        Asked::Silent if N_SILENT.fetch_add(1, Ordering::Relaxed) + 1 >= MOST_SILENT => {
+            Some(Screen { protocol: None, cell: CELL })
+        }
+        Asked::Silent | Asked::NotNow => None,
+    }
 }
 
 #[cfg(not(unix))]
 fn ask() -> Option<Screen> {
     Some(Screen { protocol: None, cell: CELL })
+}
+
+#[cfg(not(unix))]
+mod question {
+    //! Nothing is asked.
+
+    pub fn is_due() -> bool {
+        false
+    }
+
+    pub fn forget() {}
+
+    pub fn take_typed() -> String {
+        String::new()
+    }
 }
 
 #[cfg(test)]

@@ -245,9 +245,8 @@ impl Document<'_> {
                     groups.push(Group { class: tag.attribute("class"), look });
                 }
                 "/g" if groups.len() > 1 => {
-                    if groups.pop().is_some_and(|group| group.look.opacity < 1.0) {
-                        give(Part::End);
-                    }
+                    let is_faded = groups.pop().is_some_and(|group| group.look.opacity < 1.0);
+                    is_faded.then(|| give(Part::End));
                 }
                 "rect" => {
                     let [width, height] =

@@ -257,15 +257,26 @@ impl Execution<'_> {
         result
     }
 
+    /// Reads what may have been written here: from where it would be, or from beside the text that
+    /// names it.
+    pub(super) fn read_back(&mut self, path: &Text) -> Result<(PathBuf, String), Diagnostic> {
+        if let Some(found) = self.saved(Path::new(&*path.value)) {
+            return Ok(found);
+        }
+        let file = self.find(path)?;
+        let text = self.read(&file, path)?;
+        Ok((file, text))
+    }
+
     /// What lies where `save` would put a file of this name.
-    pub(super) fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
+    fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
         let file = self.host.resolve(path).ok()?;
         let text = self.host.read(&file).ok()?;
         Some((file, text))
     }
 
     /// Where a file lies that is to be read.
-    pub(super) fn find(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
+    fn find(&self, path: &Text) -> Result<PathBuf, Diagnostic> {
         let folder = self.input.folder(path.span.source);
         self.host.find(&folder, Path::new(&*path.value)).map_err(|e| match e.kind() {
             io::ErrorKind::PermissionDenied => elsewhere(path),
@@ -273,7 +284,7 @@ impl Execution<'_> {
         })
     }
 
-    pub(super) fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
+    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
         self.host.read(file).map_err(|e| unreadable(path, &e))
     }
 
@@ -316,13 +327,7 @@ impl Execution<'_> {
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
         self.input.is_unrepeatable = true;
-        let (file, text) = if let Some(found) = self.saved(Path::new(&*path.value)) {
-            found
-        } else {
-            let file = self.find(path)?;
-            let text = self.read(&file, path)?;
-            (file, text)
-        };
+        let (file, text) = self.read_back(path)?;
         self.clear();
         self.perform_text(&file, &text, span, As::Typed)
     }

@@ -4,14 +4,12 @@ use super::run::Limits;
 use crate::constraint::Point;
 use crate::diag::{Diagnostic, Span, format_count, format_number, format_rounded, format_seconds};
 use crate::errors;
-use crate::interrupt;
 use crate::lang::ast::{Expr, FitRange, Goal, Text};
 use crate::optimise::{Best, least_squares, minimum};
-use crate::session::curve::{Curve, read_curve};
+use crate::session::curve::{WRITES_ONE, read_curve};
 use crate::session::execution::Execution;
 use crate::session::finding::{Finding, Fit};
 use crate::session::quotas::Quota;
-use crate::study::Trial;
 use crate::terms::Shape;
 use crate::world::{Entity, Formula, NameText, ParameterId};
 
@@ -47,8 +45,6 @@ struct Found {
     differs: bool,
 }
 
-/// Work of a trial, in ticks, for each frame.
-const FRAME: usize = 1000;
 /// The most parameters: a search among more takes longer than anyone waits.
 const MOST: usize = 12;
 
@@ -88,7 +84,13 @@ impl Execution<'_> {
         }
         let mut all: Vec<Fitted> = Vec::new();
         for FitRange { name, range } in ranges {
-            let Entity::Parameter(id) = self.resolve().entity(name)? else {
+            let entity = self.resolve().entity(name).map_err(|problem| match &problem.helps[..] {
+                [] => {
+                    problem.help(format!("`let {name} = 1` declares it; then something follows it"))
+                }
+                _ => problem,
+            });
+            let Entity::Parameter(id) = entity? else {
                 return Err(Diagnostic::error(errors::WRONG_SORT, "`fit` looks for parameters")
                     .at(name.span, "expected the name of a parameter")
                     .help("`let a = 3`, and `length A B = a` follows it"));
@@ -111,20 +113,18 @@ impl Execution<'_> {
             }
             let (lo, hi) = (self.resolve().number(&range.from)?, self.resolve().number(&range.to)?);
             if lo >= hi {
-                return Err(Diagnostic::error(errors::OUT_OF_RANGE, "this range has no inside")
-                    .at(range.from.span.to(range.to.span), "expected the least number first"));
+                let problem = Diagnostic::error(errors::OUT_OF_RANGE, "this range has no inside")
+                    .at(range.from.span.to(range.to.span), "expected the least number first");
+                return Err(if lo > hi {
+                    problem.help(format!("`{name} in {}..{}`", range.to, range.from))
+                } else {
+                    problem
+                });
             }
             let now = parameter.value.map_or(lo, crate::world::Value::number);
             all.push(Fitted { id, name: parameter.name, lo, hi, now });
         }
         Ok(all)
-    }
-
-    /// A trial of so many frames from here.
-    fn trial(&self, n_frames: u64, path_of: Option<&Curve>) -> Trial {
-        let state = &self.state;
-        let (memory, settings) = (state.solver.memory(), state.preferences.solve);
-        Trial::new(&state.world, memory, settings, n_frames, path_of.map(|curve| curve.point))
     }
 
     /// The least value, or with the other sign the greatest.
@@ -138,17 +138,15 @@ impl Execution<'_> {
         let formula: Formula = self.resolve().live(value)?.into_formula(value.span);
         if formula.shape() != Shape::Number {
             return Err(Diagnostic::error(errors::MIXED_SORTS, "expected a number")
-                .at(value.span, "this is a vector"));
+                .at(value.span, "this is a vector")
+                .help(format!("its length, `norm({value})`, or a part of it, `.x`")));
         }
-        let n_frames = n_frames.unwrap_or(0);
-        let trial = self.trial(n_frames, None);
+        let trial = self.trial(n_frames.unwrap_or(0), None, value.span)?;
+        let mut run = |numbers: &[_]| self.run_trial(&trial, numbers)?.value(&formula);
         let mut values = Values::default();
-        let now: Vec<(ParameterId, f64)> = fitted.iter().map(|it| (it.id, it.now)).collect();
-        let before = trial.run(&now).and_then(|mut tried| tried.value(&formula));
+        let before = run(&now(fitted));
         let mut ask = |at: &[f64]| {
-            interrupt::tick(FRAME * (n_frames as usize + 10));
-            let mut tried = trial.run(&numbers(fitted, at))?;
-            let value = sign * tried.value(&formula)?;
+            let value = sign * run(&numbers(fitted, at))?;
             values.note(value);
             Some(value)
         };
@@ -165,41 +163,30 @@ impl Execution<'_> {
         file: &Text,
         n_frames: Option<u64>,
     ) -> Result<Found, Diagnostic> {
-        let saved = self.saved(std::path::Path::new(&*file.value)).map(|(_, text)| text);
-        let text = if let Some(text) = saved {
-            text
-        } else {
-            let path = self.find(file)?;
-            self.read(&path, file)?
-        };
+        let (_, text) = self.read_back(file).map_err(|problem| problem.help(WRITES_ONE))?;
         self.input.is_unrepeatable = true;
         let curve = read_curve(&self.state.world, &text, file.span)?;
-        let n_needed = curve.places.iter().map(|(frame, _)| *frame).max().unwrap_or(0) as u64;
+        let n_needed = curve.places.iter().map(|(frame, _)| *frame).max().unwrap_or(0);
         if n_frames.is_some_and(|n| n < n_needed) {
             return Err(Diagnostic::error(errors::NOT_A_PATH, "the path is longer than the run")
                 .at(file.span, format!("its last place is that of frame {n_needed}"))
                 .help(format!("`over {n_needed}`, or none, follows all of it")));
         }
-        let trial = self.trial(n_needed, Some(&curve));
+        let trial = self.trial(n_needed, Some(curve.point), file.span)?;
         let off = |places: &[Point]| -> Option<Vec<f64>> {
             let mut off = Vec::with_capacity(2 * curve.places.len());
             for (frame, wanted) in &curve.places {
-                let v = *places.get(*frame)? - *wanted;
+                let v = *places.get(*frame as usize)? - *wanted;
                 off.extend([v.x, v.y]);
             }
             Some(off)
         };
         let n_places = curve.places.len().max(1) as f64;
         let rms = |square: f64| (square / n_places).sqrt();
-        let run = |numbers: &[(ParameterId, f64)]| {
-            let tried = trial.run(numbers)?;
-            off(&tried.path().collect::<Vec<_>>())
-        };
-        let now: Vec<(ParameterId, f64)> = fitted.iter().map(|it| (it.id, it.now)).collect();
-        let before = run(&now).map(|off| rms(off.iter().map(|it| it * it).sum()));
+        let mut run = |numbers: &[_]| off(&self.run_trial(&trial, numbers)?.path());
+        let before = run(&now(fitted)).map(|off| rms(off.iter().map(|it| it * it).sum()));
         let mut values = Values::default();
         let mut ask = |at: &[f64]| {
-            interrupt::tick(FRAME * (n_needed as usize + 10));
             let off = run(&numbers(fitted, at))?;
             values.note(off.iter().map(|it| it * it).sum());
             Some(off)
@@ -275,6 +262,11 @@ impl Fit {
         let n_runs = format_count(self.n_runs as f64);
         [numbers.join(", "), format!("{what} = {value}, {before}; {n_runs} runs{time}")]
     }
+}
+
+/// The numbers that the parameters have now.
+fn now(fitted: &[Fitted]) -> Vec<(ParameterId, f64)> {
+    fitted.iter().map(|it| (it.id, it.now)).collect()
 }
 
 /// The numbers that places from 0 to 1 stand for.

@@ -35,4 +35,5 @@ mod stretch;
 mod table;
 pub mod touch;
 mod trace_record;
+mod trial;
 mod view;

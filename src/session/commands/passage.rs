@@ -59,21 +59,15 @@ impl Execution<'_> {
             if is_told {
                 self.host.progress(passage.n_passed as f64 / n as f64);
             }
-            if self.is_to_stop() {
-                flow = Flow::Stopped;
-            } else if pace.is_due() && n - passage.n_passed > 1 {
-                let n_at_once = self.pass_at_once(&mut passage, n)?;
-                pace.note(n_at_once);
-                if n_at_once > 0 {
-                    continue;
-                }
-            }
-            if flow == Flow::On {
-                match self.pass_one(&mut passage, Frames { n, hands })? {
-                    Passed::On => continue,
-                    Passed::Over => break,
-                    Passed::Stopped => flow = Flow::Stopped,
-                }
+            let passed = if self.is_to_stop() {
+                Passed::Stopped
+            } else {
+                self.pass_some(&mut passage, &mut pace, Frames { n, hands })?
+            };
+            match passed {
+                Passed::On => continue,
+                Passed::Over => break,
+                Passed::Stopped => flow = Flow::Stopped,
             }
             self.input.n_done = Some(passage.n_passed);
             self.note_stop(format!(
@@ -122,6 +116,23 @@ impl Execution<'_> {
             n_evaluations: (summary.n_frames > 0).then_some(0),
             summary,
         })
+    }
+
+    /// Lets as many frames pass as pass at once, or the next one.
+    pub(super) fn pass_some(
+        &mut self,
+        passage: &mut Passage,
+        pace: &mut Pace,
+        frames: Frames,
+    ) -> Result<Passed, Diagnostic> {
+        if pace.is_due() && frames.n - passage.n_passed > 1 {
+            let n_at_once = self.pass_at_once(passage, frames.n)?;
+            pace.note(n_at_once);
+            if n_at_once > 0 {
+                return Ok(Passed::On);
+            }
+        }
+        self.pass_one(passage, frames)
     }
 
     /// Lets frames pass at once up to the `n`th, as far as that goes; gives how many did.

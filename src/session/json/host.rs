@@ -21,6 +21,11 @@ impl<'a> Objects<'a> {
     /// Begins a stream of objects.
     pub fn new(host: &'a mut dyn Host) -> Self {
         host.print(&objects::opening().to_string());
+        Self::going_on(host)
+    }
+
+    /// Goes on with a stream that was begun.
+    pub fn going_on(host: &'a mut dyn Host) -> Self {
         Self { host, n_statements: 0 }
     }
 

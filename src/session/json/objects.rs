@@ -140,6 +140,7 @@ fn swept_object(swept: &Swept) -> Value {
         "columns": swept.columns,
         "rows": swept.n_rows,
         "of": swept.n_wanted,
+        "run": swept.n_run,
         "failed": swept.n_failed,
         "missed": swept.n_missed,
         "dead_points": swept.n_dead,

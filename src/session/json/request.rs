@@ -49,7 +49,8 @@ pub fn answer_request(line: &str, session: &mut Session, host: &mut Objects) -> 
             return refuse(message.to_owned(), id, session, host);
         }
     };
-    host.put(&objects::done(id, outcome.failure.is_none()));
+    let is_done = outcome.failure.is_none() && outcome.flow != Flow::Stopped;
+    host.put(&objects::done(id, is_done));
     outcome
 }
 

@@ -1,12 +1,13 @@
 //! What a sweep writes: rows of a table, objects, a sheet of pictures.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use super::grid::Grid;
 use super::variant::Variant;
 use crate::diag::{format_decimals, format_number, format_rounded};
-use crate::render::FIRST_WORDS;
-use crate::session::json;
+use crate::render::{FIRST_WORDS, base64};
+use crate::session::{csv, json};
 
 /// The columns of a table: the same in every row, and in every part of a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +37,7 @@ impl Columns {
 
     /// The heading of the table, with its line end.
     pub fn heading(&self) -> String {
-        let names: Vec<String> = self.names().map(quoted).collect();
+        let names: Vec<_> = self.names().map(csv::cell).collect();
         format!("{}\n", names.join(","))
     }
 
@@ -61,7 +62,7 @@ impl Columns {
             format_number(variant.residual),
             variant.n_missed,
             variant.n_dead_points,
-            variant.failure.as_ref().map_or_else(String::new, |failure| quoted(&failure.text))
+            variant.failure.as_ref().map_or(Cow::Borrowed(""), |failure| csv::cell(&failure.text))
         );
         row
     }
@@ -69,15 +70,6 @@ impl Columns {
     /// The object of a variant, with its line end.
     pub fn object(&self, variant: &Variant) -> String {
         format!("{}\n", json::variant(&self.parameters, variant))
-    }
-}
-
-/// A cell as RFC 4180 has it.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 
@@ -113,52 +105,11 @@ pub fn picture_sheet(grid: &Grid, pictures: &[(u64, String)]) -> String {
              <text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"#273542\">{told}</text>\n",
             number(x),
             number(y),
-            base_64(picture.as_bytes()),
+            base64::encode(picture.as_bytes()),
             number(x + 0.5 * side),
             number(y + side + 0.5 * caption),
         );
     }
     sheet.push_str("</svg>\n");
     sheet
-}
-
-/// Bytes in letters (RFC 4648).
-fn base_64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let at = |k: usize| u32::from(three.get(k).copied().unwrap_or(0));
-        let all = (at(0) << 16) | (at(1) << 8) | at(2);
-        for k in 0..4 {
-            let letter = LETTERS[(all >> (18 - 6 * k) & 63) as usize];
-            text.push(if k <= three.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn letters_are_those_of_the_standard() {
-        let vectors = [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("foobar", "Zm9vYmFy"),
-        ];
-        for (text, wanted) in vectors {
-            assert_eq!(base_64(text.as_bytes()), wanted);
-        }
-    }
-
-    #[test]
-    fn cells_are_quoted_where_they_have_to_be() {
-        assert_eq!(quoted("a b"), "a b");
-        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
-    }
 }

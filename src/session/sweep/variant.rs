@@ -4,16 +4,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::grid::Grid;
-use super::quiet::Quiet;
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
 use crate::lang::parse;
 use crate::render::{Options, svg};
 use crate::session::host::Host;
+use crate::session::quiet::Quiet;
 use crate::session::results::Results;
 use crate::session::{Quota, Session};
 use crate::solve::{Status, verdict};
-use crate::world::Entity;
 
 /// A script, read once.
 #[derive(Debug, Clone)]
@@ -64,6 +63,21 @@ impl Variant {
     }
 }
 
+/// A variant that was run.
+pub(super) struct Ran {
+    /// As it was left.
+    pub session: Session,
+    /// What came of it.
+    pub variant: Variant,
+}
+
+impl Ran {
+    /// A picture of the pose that it ended in.
+    pub fn picture(&self, options: &Options) -> String {
+        svg(&self.session.scene(), options)
+    }
+}
+
 impl SweepScript {
     /// Reads a script.
     ///
@@ -93,21 +107,6 @@ impl SweepScript {
         }
     }
 
-    /// The parameters of a grid that no `let` takes when the first variant runs, and those that there
-    /// are then. A run that fails says nothing of what comes after.
-    pub fn unused(&self, grid: &Grid, host: &mut dyn Host) -> (Vec<String>, Vec<String>) {
-        let Some((session, variant)) = self.run_to_its_end(grid, 0, host) else {
-            return Default::default();
-        };
-        if variant.failure.is_some() {
-            return Default::default();
-        }
-        let names = session.world().names().iter();
-        let parameters = names.filter(|(_, entity)| matches!(entity, Entity::Parameter(_)));
-        let known = parameters.map(|(name, _)| name.to_owned()).collect();
-        (session.unused_overrides().map(str::to_owned).collect(), known)
-    }
-
     fn begin(&self, grid: &Grid, values: &[f64]) -> Session {
         let mut session = Session::new();
         // What is done once is never taken back.
@@ -123,28 +122,12 @@ impl SweepScript {
     }
 
     /// Runs a variant; none where the user stops it.
-    pub fn run(&self, grid: &Grid, number: u64, host: &mut dyn Host) -> Option<Variant> {
-        self.run_to_its_end(grid, number, host).map(|(_, variant)| variant)
-    }
-
-    /// A picture of the pose that a variant ends in.
-    pub fn picture(
-        &self,
-        grid: &Grid,
-        number: u64,
-        options: &Options,
-        host: &mut dyn Host,
-    ) -> Option<String> {
-        let (session, _) = self.run_to_its_end(grid, number, host)?;
-        Some(svg(&session.scene(), options))
-    }
-
-    fn run_to_its_end(
+    pub(super) fn run_to_its_end(
         &self,
         grid: &Grid,
         number: u64,
         host: &mut dyn Host,
-    ) -> Option<(Session, Variant)> {
+    ) -> Option<Ran> {
         let values = grid.values(number);
         let mut session = self.begin(grid, &values);
         let mut quiet = Quiet::new(host);
@@ -160,6 +143,8 @@ impl SweepScript {
                     Some(place) => format!("line {}: {problem}", place.line),
                     None => problem.to_string(),
                 };
+                // A row of the table is a line of it.
+                let text = text.replace(['\n', '\r'], " ");
                 failure = Some(Failure { text, problem, sources: session.sources().clone() });
                 break;
             }
@@ -172,6 +157,6 @@ impl SweepScript {
         let results = session.results().clone();
         let variant =
             Variant { number, values, results, status, residual, n_missed, n_dead_points, failure };
-        Some((session, variant))
+        Some(Ran { session, variant })
     }
 }

@@ -12,6 +12,7 @@ use crate::constraint::Point;
 use crate::diag::{Span, format_number};
 use crate::render::raster::{Motion, SHORTEST_FRAME};
 use crate::render::{Animation, Options, Scene, View, is_shown, shown_for, svg_with_view};
+use crate::session::csv;
 use crate::session::file_kind::FileKind;
 use crate::session::spool::Tape;
 use crate::world::{Formula, World};
@@ -401,19 +402,10 @@ impl Recorder {
     }
 }
 
-/// A cell of a table that is text: in quotes where it would be taken for several.
-fn quoted(words: &str) -> String {
-    if words.contains([',', '"']) {
-        format!("\"{}\"", words.replace('"', "\"\""))
-    } else {
-        words.to_owned()
-    }
-}
-
 /// The words over some columns.
 fn heading(columns: &[TableColumn]) -> String {
     let words = columns.iter().flat_map(|column| &column.headings);
-    words.map(|words| quoted(words)).collect::<Vec<_>>().join(",")
+    words.map(|words| csv::cell(words)).collect::<Vec<_>>().join(",")
 }
 
 /// What a table with these columns is.

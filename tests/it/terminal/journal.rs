@@ -79,8 +79,14 @@ fn what_a_stopped_command_did_is_there_too() {
     let home = tempdir().expect("a folder");
     let terminal = Terminal::session(home.path());
     LINES.iter().for_each(|line| terminal.enter(line));
-    terminal.begin("for i in 1..1e6 { step 20; let q = i }");
-    std::thread::sleep(std::time::Duration::from_millis(300));
+    terminal.enter("untrace all");
+    terminal.begin("for i in 1..1000 { let q = i; for j in 1..1000 { step 500 } }");
+    // Some rounds are done, however fast it is.
+    terminal.wait("progress", |it| {
+        let share =
+            it.line().split_once(" %").and_then(|(bar, _)| bar.rsplit(' ').next()?.parse().ok());
+        share.is_some_and(|percent: u32| percent > 0)
+    });
     terminal.press("\x03");
     terminal.wait_for("stopped");
     terminal.wait_for_prompt();

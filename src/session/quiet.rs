@@ -1,9 +1,9 @@
-//! What a variant talks to: nobody hears it, and what it finds is counted.
+//! What runs that nobody hears talk to: variants of a sweep, trials of a fit. What they find is counted.
 
+use super::finding::Finding;
+use super::host::Host;
+use super::silent::Silent;
 use crate::diag::{Diagnostic, Sources};
-use crate::session::finding::Finding;
-use crate::session::host::Host;
-use crate::session::silent::Silent;
 use crate::solve::Status;
 
 /// A host that counts what a run finds. Files are read where `outside` finds them; what is written is

@@ -1,0 +1,19 @@
+//! Variables of the environment. One that is empty is as if it were not there: a shell has no other way
+//! to take one back for a single command.
+
+use std::ffi::OsString;
+
+/// What a variable says.
+pub fn variable(name: &str) -> Option<OsString> {
+    std::env::var_os(name).filter(|value| !value.is_empty())
+}
+
+/// What a variable says, where that is text.
+pub fn text(name: &str) -> Option<String> {
+    variable(name)?.into_string().ok()
+}
+
+/// The name of a variable that says something.
+pub fn if_set(name: &'static str) -> Option<&'static str> {
+    variable(name).map(|_| name)
+}
