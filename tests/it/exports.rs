@@ -77,6 +77,20 @@ fn paths(svg: &str) -> Vec<(String, Vec<Contour>)> {
         .collect()
 }
 
+/// The chains of straight lines among the paths of a document.
+fn chains(svg: &str) -> Vec<Vec<[f64; 2]>> {
+    let point = |text: &str| {
+        let (x, y) = text.split_once(' ').expect("two numbers");
+        [x, y].map(|text| text.parse().expect("a number"))
+    };
+    let data = svg.split("d=\"M").skip(1).map(|data| data.split_once('"').expect("its end").0);
+    data.map(|data| data.split('L').map(point).collect()).collect()
+}
+
+fn length(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum()
+}
+
 #[track_caller]
 fn assert_near(found: f64, wanted: f64, what: &str) {
     assert!((found - wanted).abs() < 2e-4 * wanted.abs(), "{what}: {found}, not {wanted}");
@@ -208,20 +222,11 @@ fn strokes_are_in_true_size_a_layer_a_path() {
     assert!(svg.contains(&format!("width=\"{width}mm\" height=\"{height}mm\"")));
     let layers: Vec<&str> = svg.split("<g ").collect();
     for (layer, radius) in [(layers[2], 20.0), (layers[3], 10.0)] {
-        let (_, data) = layer.split_once("d=\"M").expect("a path");
-        let (data, _) = data.split_once('"').expect("its end");
-        let points: Vec<[f64; 2]> = data
-            .split('L')
-            .map(|point| {
-                let (x, y) = point.split_once(' ').expect("two numbers");
-                [x, y].map(|text| text.parse().expect("a number"))
-            })
-            .collect();
+        let points = chains(layer).remove(0);
         for [x, y] in &points {
             assert!((f64::hypot(x - 30.0, y - 30.0) - radius).abs() < 0.02, "{x} {y}");
         }
-        let length: f64 =
-            points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum();
+        let length = length(&points);
         // A chord may pass the circle by a hundredth of a mm.
         assert!((length / (2.0 * PI * radius) - 1.0).abs() < 1e-3, "{length} once around");
     }
@@ -307,21 +312,7 @@ fn a_pen_passes_each_place_once() {
          export \"p.svg\" scale 10",
         "p.svg",
     );
-    let length: f64 = svg
-        .split("d=\"M")
-        .skip(1)
-        .map(|data| {
-            let (data, _) = data.split_once('"').expect("its end");
-            let points: Vec<[f64; 2]> = data
-                .split('L')
-                .map(|point| {
-                    let (x, y) = point.split_once(' ').expect("two numbers");
-                    [x, y].map(|text| text.parse().expect("a number"))
-                })
-                .collect();
-            points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum::<f64>()
-        })
-        .sum();
+    let length: f64 = chains(&svg).iter().map(|points| length(points)).sum();
     assert_near(length, 120.0, "a triangle of 30, 40 and 50");
     assert_eq!(svg.matches("<path").count(), 1, "the pen is put down once: {svg}");
     assert_eq!(svg.matches("<circle").count(), 4, "a joint at each place: {svg}");
