@@ -1,6 +1,6 @@
 //! Straight strokes, so that a pen passes each place once and is seldom lifted.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::f64::consts::PI;
 
 use crate::constraint::{Point, Vector};
@@ -109,6 +109,12 @@ fn joined(lines: &[[Point; 2]]) -> Vec<Vec<Point>> {
     for (k, ends) in lines.iter().enumerate().rev() {
         ends.iter().for_each(|&end| at.entry(place(end)).or_default().push(k));
     }
+    // Where an odd number of lines meets a chain has to begin or to end.
+    let odd: HashSet<[i64; 2]> =
+        at.iter().filter(|(_, here)| here.len() % 2 == 1).map(|(place, _)| *place).collect();
+    let is_odd = |end: &Point| odd.contains(&place(*end));
+    let mut starts: Vec<usize> = (0..lines.len()).collect();
+    starts.sort_by_key(|&k| !lines[k].iter().any(is_odd));
     let mut is_drawn = vec![false; lines.len()];
     let mut go_on = |is_drawn: &mut [bool], end: Point| {
         let here = at.get_mut(&place(end))?;
@@ -122,10 +128,12 @@ fn joined(lines: &[[Point; 2]]) -> Vec<Vec<Point>> {
         None
     };
     let mut chains = Vec::new();
-    for (k, &[a, b]) in lines.iter().enumerate() {
+    for k in starts {
         if std::mem::replace(&mut is_drawn[k], true) {
             continue;
         }
+        let [a, b] = lines[k];
+        let [a, b] = if is_odd(&a) || !is_odd(&b) { [a, b] } else { [b, a] };
         let mut chain = VecDeque::from([a, b]);
         while let Some(next) = go_on(&mut is_drawn, chain[chain.len() - 1]) {
             chain.push_back(next);
@@ -175,7 +183,7 @@ mod tests {
             &[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 1.0, 1.0], [0.0, 2.0, 0.0, 3.0]],
             &[&[(0.0, 0.0), (0.0, 1.0)], &[(1.0, 0.0), (1.0, 1.0)], &[(0.0, 2.0), (0.0, 3.0)]],
         );
-        // Two triangles with an edge in common: five lines, one of which must be begun anew.
+        // Two triangles with an edge in common: five lines, from one end of that edge to the other.
         let [a, b, c, d] = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0), (4.0, 3.0)];
         let edge = |(a, b): (f64, f64), (c, d): (f64, f64)| [a, b, c, d];
         let all = [edge(a, b), edge(b, c), edge(c, a), edge(c, b), edge(b, d), edge(d, c)];
