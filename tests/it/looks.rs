@@ -122,7 +122,7 @@ fn what_is_off_is_red_wherever_a_pose_is_drawn() {
     live.receive(0, r#"{"do": "file", "kind": "svg", "id": 1}"#, &mut session, &mut files);
     let told = live.take(&mut session).into_iter();
     let texts = told.filter_map(|(_, message)| match message {
-        Message::Text(text) => Some(text.to_string()),
+        Message::Text(text) => Some(text.clone()),
         Message::Frame(_) => None,
     });
     check("a page", &texts.collect::<String>().replace("\\\"", "\""));
