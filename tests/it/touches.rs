@@ -43,7 +43,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Hinge,
         &[
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "session/commands/touch.rs",
             "solve/closed_form/body.rs",
             "solve/closed_form/cluster.rs",
@@ -53,7 +53,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (
         Kind::Rigid,
         // A body is placed as one.
-        &["render/export/parts.rs", "solve/closed_form/body.rs", "solve/closed_form/cluster.rs"],
+        &["render/export/members.rs", "solve/closed_form/body.rs", "solve/closed_form/cluster.rs"],
     ),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
@@ -97,7 +97,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Length,
         &[
             "lang/lower/errors/refusal.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
@@ -127,7 +127,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "render/style.rs",
             "solve/closed_form/compile.rs",
             "solve/closed_form/run.rs",

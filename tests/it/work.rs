@@ -180,6 +180,27 @@ fn dragging_one_of_many_is_the_work_of_one() {
     assert_eq!(drag(1), drag(1000));
 }
 
+/// The work of a hand that moves one end of a triangle by this much while time stands still.
+fn nudge(apex: &str, by: f64) -> Counters {
+    let mut world = world(&format!(
+        "point A = (0, 0) frozen, D = (4, 0) frozen, C = {apex}\nlength A C\nlength C D"
+    ));
+    let mut solver = Solver::new();
+    let mut settle =
+        |world: &mut World| solver.settle(world, &Settings::default(), &Budget::default()).counters;
+    settle(&mut world);
+    let Some(Entity::Point(d)) = world.names().get("D") else { panic!("no point") };
+    world.apply(Edit::Move(d, Point::new(4.0 + by, 0.0)));
+    settle(&mut world)
+}
+
+#[test]
+fn what_moves_farther_than_the_hand_is_not_solved_again_from_around() {
+    // The apex of the flat one moves ten times as far as the hand does, and both go straight.
+    let [steep, flat] = ["(2, 2)", "(2, 0.2)"].map(|apex| nudge(apex, 1e-4));
+    assert!(flat.factorisations <= 2 * steep.factorisations, "{flat:?}, {steep:?}");
+}
+
 /// Scenes that call for one effect more than a four-bar does.
 const EFFECTS: [(&str, &str); 6] = [
     ("wheel angles", "point E = (2, 0) frozen, F = (3, 0)\ncog A B, E F ratio 1"),

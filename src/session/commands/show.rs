@@ -9,7 +9,7 @@ use crate::interrupt::tick;
 use crate::lang::ast::{Expr, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Trade};
 use crate::lang::nearest_command;
-use crate::render::{Drawable, Scene};
+use crate::render::Drawable;
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::resolve::scope::Meaning;
@@ -217,7 +217,7 @@ impl Execution<'_> {
                 format!("define {}({})", definition.name.text, names.join(", "))
             }));
         }
-        self.host.print_all(&lines);
+        self.print_all(&lines);
         if lines.is_empty() {
             let nothing = match what {
                 None => "nothing here yet",
@@ -307,14 +307,13 @@ impl Execution<'_> {
         if self.state.world.points().ids().next().is_none() {
             return self.note("nothing here yet");
         }
-        let scene = Scene::new(&self.state.world);
-        self.host.draw(Drawable::Scene(&scene));
+        self.host.draw(Drawable::Scene(&self.state.scene()));
     }
 
     pub(crate) fn tell_history(&mut self) {
         let typed = self.input.typed();
         let lines: Vec<String> = typed.flat_map(str::lines).map(str::to_owned).collect();
-        self.host.print_all(&lines);
+        self.print_all(&lines);
     }
 }
 

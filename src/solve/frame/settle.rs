@@ -46,7 +46,8 @@ const MUCH_LESS: f64 = 1e-2;
 /// solutions are refined beyond the tolerance.
 const SMALL_PART: f64 = 1e-3;
 /// A way of more than this many times what the start was off is looked at again, in steps that are
-/// this part as long, and so many times as many.
+/// this part as long, and so many times as many; unless it is as long as what the rows ask for where it
+/// begins: a way that they do not turn on leads past nothing.
 const DETOUR: f64 = 1.25;
 const SMALL_STEPS: f64 = 0.1;
 const MORE_STEPS: u32 = 4;
@@ -183,7 +184,8 @@ fn by_small_steps(
     let off = (2.0 * workspace.rows.energy).sqrt();
     // Only what is clearly nearer counts: what is symmetric is to stay so.
     let mut nearest = Nearest(Some(((1.0 - CLEARLY) * way, found, here)));
-    if way > DETOUR * off {
+    let is_straight = |way: f64, direct: f64| (way - direct).abs() <= CLEARLY * direct;
+    if way > DETOUR * off && !is_straight(way, newton::shortest_step(workspace, work)) {
         let small = Limits { size: SMALL_STEPS * limits.size, ..*limits };
         nearest.look_around(island, workspace, start, &[0.0], &small, work);
         if island.constraints.len() <= MOST_PUSHED {
@@ -407,10 +409,18 @@ impl Nearest {
             push(&mut island.x[..start.len()], far * limits.size);
             let mut pose = Pose { constraints: &island.constraints, x: &mut island.x };
             let after = newton::solve(workspace, &mut pose, &many, work);
-            if after.is_converged() {
+            if after.is_converged() && !self.is_at(workspace, &island.x) {
                 self.add(island, workspace, start, after, &many, work);
             }
         }
+    }
+
+    /// Whether a solution is so near to the one that is known that it comes to the same.
+    fn is_at(&self, workspace: &Workspace, x: &[Point]) -> bool {
+        let is_near = |(way, _, known): &(f64, Outcome, Box<[Point]>)| {
+            nearest::distance(workspace, known, x) <= CLEARLY * way
+        };
+        self.0.as_ref().is_some_and(is_near)
     }
 
     /// Takes in the solution that is the present pose.

@@ -128,6 +128,16 @@ pub(crate) fn refine(
     }
 }
 
+/// How long the shortest step is that meets the rows, if these go on as they are at a pose; `workspace` holds
+/// them there.
+pub(crate) fn shortest_step(workspace: &mut Workspace, work: &mut Counters) -> f64 {
+    workspace.assemble(Stiffness::None);
+    workspace.update_slope();
+    // Rows that ask for nothing are met by no step at all.
+    solve_step(workspace, FLOOR, work);
+    workspace.step.iter().map(|s| s * s).sum::<f64>().sqrt()
+}
+
 /// How far a solve has come.
 struct Way {
     stiffness: Stiffness,

@@ -12,9 +12,19 @@ export interface Box {
   readonly hi: Vec;
 }
 
-/** Free space around what is fitted, px: for marks, which have a size on the canvas and none in the
- * plane, and for the tools that lie over the canvas. */
-const MARGIN = { left: 84, right: 64, top: 52, bottom: 92 };
+/** Free space around what is fitted, px. */
+export interface Margin {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
+/** What marks take, which have a size on the canvas and none in the plane. */
+export const MARKS = 32;
+const ALL_MARKS: Margin = { left: MARKS, right: MARKS, top: MARKS, bottom: MARKS };
+/** The part of a canvas that is left free at most. */
+const MOST_FREE = 0.55;
 
 /** A map from the plane, y up, to the canvas, y down, the same scale on both axes. */
 export class Camera {
@@ -72,13 +82,17 @@ export class Camera {
   }
 
   /** Shows all of a box. */
-  fitted(box: Box): Camera {
+  fitted(box: Box, margin = ALL_MARKS): Camera {
     const half = { x: (box.hi.x - box.lo.x) / 2, y: (box.hi.y - box.lo.y) / 2 };
     const centre = { x: box.lo.x + half.x, y: box.lo.y + half.y };
     // On a small canvas there is less to spare.
-    const share = Math.min(1, this.width / 640, this.height / 480);
-    const [left, right, top, bottom] = [MARGIN.left, MARGIN.right, MARGIN.top, MARGIN.bottom].map(
-      (margin) => margin * share,
+    const share = Math.min(
+      1,
+      (MOST_FREE * this.width) / (margin.left + margin.right),
+      (MOST_FREE * this.height) / (margin.top + margin.bottom),
+    );
+    const [left, right, top, bottom] = [margin.left, margin.right, margin.top, margin.bottom].map(
+      (free) => free * share,
     ) as [number, number, number, number];
     const room = { x: (this.width - left - right) / 2, y: (this.height - top - bottom) / 2 };
     const fitted = Math.min(room.x / half.x, room.y / half.y);

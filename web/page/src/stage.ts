@@ -1,6 +1,7 @@
 //! The canvas: what of the mechanism it shows, and when it is painted.
 
-import { type Box, boxOf, Camera, type Vec } from "./camera.ts";
+import { type Box, boxOf, Camera, MARKS, type Margin, type Vec } from "./camera.ts";
+import { byId } from "./dom.ts";
 import { GhostLayer } from "./draw/ghost_layer.ts";
 import { drawOverlay, type Overlay } from "./draw/overlay.ts";
 import { Painter } from "./draw/painter.ts";
@@ -15,6 +16,9 @@ const SETTLED = 90;
 
 /** A picture younger than this, ms, need not be replaced before the display shows it. */
 const YOUNG = 6;
+
+/** What a frame to come will show is painted without it if none has come after so long, ms. */
+const PATIENT = 30;
 
 export class Stage {
   camera = new Camera();
@@ -33,6 +37,8 @@ export class Stage {
   private readonly traces = new TraceLayer();
   private readonly ghosts = new GhostLayer();
   private isStale = true;
+  /** When the picture is to be painted anew, at the latest. */
+  private due = Infinity;
   private isFitted = false;
   private lastPainted = 0;
   private settling = 0;
@@ -65,7 +71,7 @@ export class Stage {
     });
     const show = (now: number): void => {
       this.beat.tell(now);
-      if (this.isStale) this.paint();
+      if (this.isStale || now >= this.due) this.paint();
       requestAnimationFrame(show);
     };
     requestAnimationFrame(show);
@@ -77,10 +83,15 @@ export class Stage {
     this.isStale = true;
   }
 
+  /** Something has changed that the engine answers with a frame: both are painted at once. */
+  refreshWithFrame(): void {
+    this.due = Math.min(this.due, performance.now() + PATIENT);
+  }
+
   /** Shows all that there is. */
   fit(): void {
     const box = this.box();
-    this.look(box === undefined ? this.camera : this.camera.fitted(box));
+    this.look(box === undefined ? this.camera : this.camera.fitted(box, this.margin()));
   }
 
   /** What is drawn by hand stays where the hand is: the view is not fitted to it. */
@@ -124,6 +135,19 @@ export class Stage {
       for (let k = 0; k + 1 < at.length; k += 2) corners.push({ x: at[k] ?? 0, y: at[k + 1] ?? 0 });
     }
     return boxOf(corners);
+  }
+
+  /** What the tools lie over is left free. */
+  private margin(): Margin {
+    const rect = (id: string): DOMRect => byId(id).getBoundingClientRect();
+    const [all, tools, transport] = [rect("canvas"), rect("tools"), rect("transport")];
+    const isRow = tools.width > tools.height;
+    return {
+      left: isRow ? MARKS : tools.right - all.left + MARKS,
+      right: all.right - rect("zoom").left + MARKS,
+      top: isRow ? tools.bottom - all.top + MARKS : MARKS,
+      bottom: all.bottom - transport.top + MARKS,
+    };
   }
 
   private resize(): void {
@@ -177,6 +201,7 @@ export class Stage {
     context.fillStyle = this.theme.paper;
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
     this.isStale = false;
+    this.due = Infinity;
     this.lastPainted = performance.now();
     if (painter !== undefined && frame !== undefined) {
       context.lineCap = "round";

@@ -62,6 +62,16 @@ test("a link holds the mechanism, gestures included", { skip }, async (t) => {
   assert.equal((await s.download(other, "script")).bytes.toString(), script);
 });
 
+test("what a statement wrote can be taken home", { skip }, async (t) => {
+  const page = await s.open(t, linkTo("point A = (0, 0) frozen, B = (2, 0)\nlength A B = 2"));
+  await carriedOut(page);
+  await s.tell(page, 'svg "now.svg"; save "all.link"');
+  const { name, bytes } = await s.download(page, "now.svg");
+  assert.equal(name, "now.svg");
+  assert.match(bytes.toString(), /^<svg /);
+  assert.match((await s.download(page, "all.link")).bytes.toString(), /^point A/m);
+});
+
 test("examples have pictures, and one of them is opened by a click", { skip }, async (t) => {
   const page = await s.open(t, address);
   await carriedOut(page);

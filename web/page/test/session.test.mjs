@@ -410,6 +410,33 @@ test("fingers drag a point, two of them move the view", async (t) => {
   }, "fingers twice as far apart make it twice as large");
 });
 
+test("nothing lies over a button, or over the mechanism", async (t) => {
+  const session = await s.session(t, ARM);
+  for (const [width, height] of [
+    [1200, 800],
+    [400, 800],
+    [360, 640],
+    [800, 400],
+  ]) {
+    const page = await s.openAt(t, session.address, { width, height, touch: true });
+    const hidden = await page.$$eval("#stage :is(button, select)", (buttons) => {
+      const isSeen = (button, share) => {
+        const { left, top, width, height } = button.getBoundingClientRect();
+        const found = document.elementFromPoint(left + share * width, top + height / 2);
+        return button.contains(found);
+      };
+      const hidden = buttons.filter((it) => ![0.1, 0.9].every((share) => isSeen(it, share)));
+      return hidden.map((button) => button.getAttribute("aria-label"));
+    });
+    assert.deepEqual(hidden, [], `${width} x ${height}`);
+    for (const handle of [0, 1, 2]) {
+      const { x, y } = await s.screen(page, await s.place(page, handle));
+      const id = await page.evaluate(([x, y]) => document.elementFromPoint(x, y)?.id, [x, y]);
+      assert.equal(id, "canvas", `point ${handle} on ${width} x ${height}`);
+    }
+  }
+});
+
 test("a pointer that only passes by leads nothing", async (t) => {
   const session = await s.session(t, ARM);
   const page = await s.openAt(t, session.address);

@@ -107,10 +107,15 @@ export async function closeBrowser() {
 }
 
 /** A page at an address; what goes wrong in it fails the test. */
-export async function open(t, address, { width = 1200, height = 800, dark = false, before } = {}) {
+export async function open(
+  t,
+  address,
+  { width = 1200, height = 800, dark = false, touch = false, before } = {},
+) {
   const context = await (await browser()).newContext({
     viewport: { width, height },
     colorScheme: dark ? "dark" : "light",
+    hasTouch: touch,
     acceptDownloads: true,
   });
   t.after(() => context.close());

@@ -59,6 +59,8 @@ export class Client {
   readonly moved = new Signal<Frame>();
   readonly wrote = new Signal<readonly Entry[]>();
   readonly said = new Signal<readonly Said[]>();
+  /** Files that statements of this page wrote. */
+  readonly filed = new Signal<readonly string[]>();
 
   hello: Hello | undefined;
   state: State | undefined;
@@ -98,11 +100,13 @@ export class Client {
   }
 
   /** Carries out statements. */
-  exec(text: string): Promise<Answer> {
+  async exec(text: string): Promise<Answer> {
     const parts = pieces(text);
     const last = parts.pop() ?? "";
     for (const part of parts) this.tell({ do: "exec", text: part, more: true });
-    return this.ask({ do: "exec", text: last });
+    const answer = await this.ask<Answer>({ do: "exec", text: last });
+    if (answer.wrote?.length) this.filed.tell(answer.wrote);
+    return answer;
   }
 
   /** Carries out a statement in the place of the last that was tried. */

@@ -96,7 +96,8 @@ export class Select implements Tool {
       : overlay.near === undefined
         ? ""
         : "grab";
-    page.stage.refresh();
+    if (overlay.held === undefined) page.stage.refresh();
+    else page.stage.refreshWithFrame();
   }
 
   private take(page: Page, point: PointState): void {

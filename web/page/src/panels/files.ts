@@ -1,8 +1,11 @@
 //! What can be taken home: script, pictures, numbers.
 
-import { h, put } from "../dom.ts";
+import { h, put, replace } from "../dom.ts";
 import type { FileAnswer } from "../engine/protocol.ts";
 import type { Page } from "../page.ts";
+
+/** Of files that statements wrote so many are offered. */
+const MOST_WRITTEN = 12;
 
 /** Hands a text to the browser as a file. */
 export function download(name: string, mime: string, text: string): void {
@@ -63,11 +66,34 @@ export function filesPanel(page: Page): HTMLElement {
     ),
   );
   const written = h("p", { class: "quiet" });
-  put(panel, written);
+  put(panel, written, writtenFiles(page));
   page.client.greeted.listen(({ engine }) => {
-    if (engine === "socket") {
-      written.textContent = "What a statement writes is in the output folder of the session.";
-    }
+    written.textContent =
+      engine === "socket"
+        ? "What a statement writes is in the output folder of the session, and here."
+        : "What a statement writes is here.";
   });
   return panel;
+}
+
+/** Files that statements wrote, the last of them. */
+function writtenFiles(page: Page): HTMLElement {
+  const element = h("div", { class: "buttons" });
+  let names: string[] = [];
+  const show = (): void => replace(element, ...names.map((name) => button(name)));
+  const button = (name: string): HTMLElement => {
+    const ask = (): Promise<void> =>
+      page.client.file("written", { name }).then((answer) => take(page, answer));
+    const label = name.slice(name.lastIndexOf("/") + 1);
+    return h("button", { type: "button", title: name, "data-file": label, onclick: ask }, label);
+  };
+  page.client.filed.listen((wrote) => {
+    names = [...new Set([...names, ...wrote].reverse())].slice(0, MOST_WRITTEN).reverse();
+    show();
+  });
+  page.client.greeted.listen(() => {
+    names = [];
+    show();
+  });
+  return element;
 }

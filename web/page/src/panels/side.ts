@@ -10,6 +10,9 @@ import { ValueRow } from "./value_row.ts";
 /** Settings that are in sight; the others are below them. */
 const FIRST: ReadonlySet<string> = new Set(["rho", "iterations", "method", "tolerance", "dt"]);
 
+/** Lines of an analysis that say what stands beside them already. */
+const ELSEWHERE = /^(degrees of freedom|status): /;
+
 function panel(tab: string, title: string, ...children: (Node | string)[]): HTMLElement {
   return h("section", { class: "panel", "data-tab": tab }, h("h2", {}, title), ...children);
 }
@@ -142,7 +145,7 @@ function pose(page: Page): HTMLElement {
     showFacts();
     const texts = [state.verdict, ...(state.check ?? []), ...(state.receipt ?? [])];
     const isNews = (text: string | null): boolean =>
-      text !== null && text !== "" && !text.startsWith("degrees of freedom: ");
+      text !== null && text !== "" && !ELSEWHERE.test(text);
     const seen = new Set(texts.filter(isNews));
     replace(lines, ...[...seen].map((text) => h("p", { class: "quiet" }, text)));
   };
