@@ -69,6 +69,8 @@ CASES = [
     ("`svg` of a chain of 300,000", [CHAIN % 300000], 'svg "chain.svg"'),
     ("`svg` of a trace of 5 million", [CRANK, "trace B; step 5e6"], 'svg "trace.svg"'),
     ("`show` of a chain of 300,000", [CHAIN % 300000], "show"),
+    ("`export` of a chain of 100,000 as strokes", [CHAIN % 100000], 'export "s.svg"'),
+    ("`export` of a chain of 100,000 as parts", [CHAIN % 100000], 'export "p.dxf" scale 9 width 2 hole 1'),
     ("`save` of a chain of 300,000", [CHAIN % 300000], 'save "chain.link"'),
     ("`list` of a chain of 300,000", [CHAIN % 300000], "list"),
     ("`record` to a table", [CRANK, 'record "t.csv"'], "step 9e6"),

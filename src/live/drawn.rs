@@ -153,8 +153,8 @@ pub fn traces(world: &World, told: &mut Vec<Told>) -> Option<Value> {
             continue;
         }
         let n_same = told.get(k).map_or(0, |told| told.n_same(trace));
-        let new = &trace.samples[n_same..];
-        let missed = new.iter().enumerate().filter(|(_, sample)| sample.missed);
+        let new = || trace.samples.iter().skip(n_same);
+        let missed = new().enumerate().filter(|(_, sample)| sample.missed);
         let (class, colour) = trace_colour(k);
         changed.push(json!({
             "trace": k,
@@ -163,7 +163,7 @@ pub fn traces(world: &World, told: &mut Vec<Told>) -> Option<Value> {
             "class": class,
             "colour": colour,
             "from": n_same,
-            "at": new.iter().flat_map(|sample| [sample.at.x, sample.at.y]).collect::<Vec<_>>(),
+            "at": new().flat_map(|sample| [sample.at.x, sample.at.y]).collect::<Vec<_>>(),
             "missed": missed.map(|(i, _)| n_same + i).collect::<Vec<_>>(),
         }));
     }

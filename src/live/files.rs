@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::request::FileWish;
 use crate::diag::Diagnostic;
-use crate::render::{Options, Scene, svg};
+use crate::render::{Options, svg};
 use crate::session::{Answer, Clock, Flow, Host, Session};
 use crate::world::{Entity, World};
 
@@ -18,7 +18,7 @@ const MOST_TRACED: usize = 200;
 pub fn file(wish: &FileWish, session: &Session, host: &mut dyn Host) -> Result<Value, String> {
     Ok(match wish {
         FileWish::Still => {
-            let picture = svg(&Scene::new(session.world()), &Options::default());
+            let picture = svg(&session.scene(), &Options::default());
             text_file("mechanism.svg", "image/svg+xml", &picture)
         }
         FileWish::Script => text_file("mechanism.link", "text/plain", &session.to_script()),

@@ -9,6 +9,7 @@ use super::scene::{DrawnPose, Scene};
 use super::trace::Curve;
 use super::view::View;
 use super::{legend, trace_animation};
+use crate::interrupt::tick;
 use std::sync::Arc;
 
 /// A picture holds at most so many frames times symbols: some ten megabytes. Beyond it frames
@@ -19,6 +20,9 @@ pub fn is_shown(k: usize, n: usize, n_symbols: usize) -> bool {
     let stride = (n * n_symbols).div_ceil(MOST_POSES).max(1);
     k.is_multiple_of(stride) || k + 1 == n
 }
+
+/// What a look whether two things are the same takes, in ticks.
+const LOOK: usize = 20;
 
 /// The shortest motion shown, seconds: a shorter one is a flicker.
 const SHORTEST: f64 = 1.0;
@@ -118,7 +122,9 @@ impl Animation {
         let mut is_there: Vec<Vec<bool>> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for ghost in &scene.ghosts {
-                let k = all.iter().position(|other| other == ghost).unwrap_or_else(|| {
+                tick(LOOK * all.len());
+                let is_same = |other: &Arc<DrawnPose>| Arc::ptr_eq(other, ghost) || other == ghost;
+                let k = all.iter().position(is_same).unwrap_or_else(|| {
                     all.push(ghost.clone());
                     is_there.push(vec![false; times.len()]);
                     all.len() - 1
@@ -140,6 +146,7 @@ impl Animation {
         let mut all: Vec<(Curve, Vec<usize>)> = Vec::new();
         for (frame, (scene, _)) in self.frames.iter().enumerate() {
             for curve in &scene.curves {
+                tick(LOOK * all.len());
                 let is_same = |(other, _): &(Curve, _)| other.is_continued_by(curve);
                 let k = all.iter().position(is_same).unwrap_or_else(|| {
                     all.push((curve.clone(), vec![0; times.len()]));

@@ -5,11 +5,15 @@ use std::collections::BTreeMap;
 use super::figure::{Figure, FigureShape, Key, Layer, Outline, Placement};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes, track, visibility};
 use crate::diag::push_decimals;
+use crate::interrupt::tick;
 
 /// How far anything may be drawn from where it is, px: less than can be seen in motion.
 const TOLERANCE: f64 = 0.06;
 /// Digits after the point of px and of degrees.
 const PLACES: usize = 2;
+/// What following a figure takes, in ticks.
+const FIGURE: usize = 200;
+
 /// Who a figure is, from frame to frame: one that changes its make is another figure.
 type Identity = (Layer, Key, u16, usize);
 
@@ -35,6 +39,7 @@ impl FigureTracks {
     pub fn add(&mut self, figures: Vec<Figure>) {
         let frame = self.n_frames;
         for figure in figures {
+            tick(FIGURE);
             let (layer, key, part) = figure.order();
             let mut make = 0;
             while let Some(tracked) = self.figures.get(&(layer, key, part, make))

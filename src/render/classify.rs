@@ -14,12 +14,16 @@ use crate::constraint::{
     PointIdx, Touch,
 };
 use crate::diag::format_rounded;
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::world::{ConstraintId, Record, World};
 
 /// Triangles of rods are looked for among at most so many rods: a net of a thousand is a net
 /// without a filling too.
 const MOST_RODS: usize = 400;
+
+/// What a look at a constraint or a pair of points takes, in ticks.
+const LOOK: usize = 50;
 
 /// The symbols of a world, in order of creation, points last.
 pub fn symbols(world: &World) -> Vec<Symbol> {
@@ -62,8 +66,8 @@ struct Classifier<'a> {
 struct Marks {
     number_of: BTreeMap<[PointIdx; 2], usize>,
     groups: DisjointSets,
-    /// The classes, by their least member, in order of appearance.
-    classes: Vec<usize>,
+    /// The classes, by their least member, each with its place in the order of appearance.
+    classes: BTreeMap<usize, usize>,
 }
 
 impl Marks {
@@ -78,10 +82,8 @@ impl Marks {
     /// One to three strokes: more cannot be told apart at a glance.
     fn n_strokes(&mut self, ends: [PointIdx; 2]) -> u8 {
         let class = self.groups.least(self.number_of[&sorted(ends)]);
-        let idx = self.classes.iter().position(|&c| c == class).unwrap_or_else(|| {
-            self.classes.push(class);
-            self.classes.len() - 1
-        });
+        let n = self.classes.len();
+        let idx = *self.classes.entry(class).or_insert(n);
         (idx % 3) as u8 + 1
     }
 }
@@ -126,6 +128,7 @@ impl<'a> Classifier<'a> {
 
     /// Notes what a constraint connects.
     fn bars(&mut self, record: &Record) {
+        tick(LOOK);
         let mut connect = |a, b| _ = self.connected.insert(sorted([a, b]));
         let stated = record.constraint.stated();
         match (stated, stated.points()) {
@@ -146,6 +149,7 @@ impl<'a> Classifier<'a> {
             }
             (Constraint::Rigid(_), points) => {
                 for (k, &b) in points.iter().enumerate() {
+                    tick(LOOK * k);
                     points[..k].iter().for_each(|&a| connect(a, b));
                 }
             }
@@ -166,6 +170,7 @@ impl<'a> Classifier<'a> {
     }
 
     fn constraint(&mut self, id: ConstraintId, record: &Record) {
+        tick(LOOK);
         let stated = record.constraint.at(self.at);
         match &*stated {
             Constraint::Coordinate(c) => {
@@ -314,6 +319,7 @@ impl<'a> Classifier<'a> {
         let mut segments: Vec<[PointIdx; 2]> = Vec::new();
         for (_, formula) in record.drivers() {
             formula.segments(&mut |ends| {
+                tick(segments.len());
                 let ends = sorted(ends.map(|p| p.0));
                 if !segments.contains(&ends) {
                     segments.push(ends);
@@ -397,6 +403,7 @@ impl<'a> Classifier<'a> {
     fn joints(&mut self) {
         let points = self.world.points();
         for id in points.ids() {
+            tick(LOOK);
             let is_driven = self.driven.contains_key(&id.0);
             let support = match (points.is_frozen(id), is_driven) {
                 (false, _) => Support::Free,

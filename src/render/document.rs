@@ -9,8 +9,9 @@ use svg::node::element::{Element, Style};
 
 use super::figure::{Figure, FigureShape, Outline};
 use super::keyframes::{AnimatedAttribute, AttributeTrack, Keyframes};
+use super::labels::wrapped;
 use super::page::{LEGEND_HEIGHT, Page};
-use super::style::{self, Class, PAPER, Theme};
+use super::style::{self, Class, HEADLINE, PAPER, Theme};
 use super::text::printable;
 use crate::diag::format_decimals;
 use crate::interrupt::tick;
@@ -28,8 +29,11 @@ const OFF: f64 = 0.3;
 /// What the writing of a figure takes, in ticks.
 const FIGURE: usize = 2000;
 
-/// Room for a title above the drawing, px.
+/// Room for a title above the drawing, and for each further line of it, px.
 const TITLE_HEIGHT: f64 = 34.0;
+const TITLE_LINE: f64 = 22.0;
+/// From the sides of the page to the title, px.
+const TITLE_EDGE: f64 = 12.0;
 
 /// What a picture says besides the drawing, and how it looks.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -70,7 +74,10 @@ impl Group {
 /// The document of a page.
 pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     let (width, height) = page.size();
-    let head = if options.title.is_some() { TITLE_HEIGHT } else { 0.0 };
+    let title = options.title.as_deref().unwrap_or_default();
+    let headline = wrapped(title, (width - 2.0 * TITLE_EDGE) / HEADLINE);
+    let n_more = headline.len().saturating_sub(1) as f64;
+    let head = if headline.is_empty() { 0.0 } else { TITLE_HEIGHT + n_more * TITLE_LINE };
     let height = height + head + if page.is_empty() { 0.0 } else { LEGEND_HEIGHT };
     let size = options.width.map_or(1.0, |shown| f64::from(shown) / width);
     let [shown_width, shown_height, width_text, height, top] =
@@ -83,7 +90,7 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
     root.assign("viewBox", format!("0 {top} {width_text} {height}"));
     root.assign("width", shown_width);
     root.assign("height", shown_height);
-    if let Some(title) = &options.title {
+    if !headline.is_empty() {
         root.append(with_text("title", title));
     }
     if !options.receipt.is_empty() {
@@ -107,12 +114,13 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
         }
         root.append(paper);
     }
-    if let Some(title) = &options.title {
-        let mut headline = with_text("text", title);
-        headline.assign("class", Class::Headline.name());
-        headline.assign("x", format_decimals(0.5 * width, PLACES));
-        headline.assign("y", format_decimals(-0.3 * TITLE_HEIGHT, PLACES));
-        root.append(headline);
+    for (k, line) in headline.iter().enumerate() {
+        let mut text = with_text("text", line);
+        text.assign("class", Class::Headline.name());
+        text.assign("x", format_decimals(0.5 * width, PLACES));
+        let up = 0.3 * TITLE_HEIGHT + (n_more - k as f64) * TITLE_LINE;
+        text.assign("y", format_decimals(-up, PLACES));
+        root.append(text);
     }
     for group in groups {
         let mut element = Element::new("g");
@@ -127,9 +135,21 @@ pub fn write(page: &Page, groups: &[Group], options: &Options) -> String {
         }
         root.append(element);
     }
-    let mut text = root.to_string();
-    text.push('\n');
-    text
+    let mut text = Ticking(String::new());
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{root}");
+    text.0
+}
+
+/// A text that may be left half written.
+struct Ticking(String);
+
+impl Write for Ticking {
+    fn write_str(&mut self, piece: &str) -> std::fmt::Result {
+        tick(piece.len());
+        self.0.push_str(piece);
+        Ok(())
+    }
 }
 
 /// The style sheet of a page.

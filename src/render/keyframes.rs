@@ -1,5 +1,10 @@
 //! How a figure moves: values over time, as few as a straight line between them allows.
 
+use crate::interrupt::tick;
+
+/// What a look at a number of a frame takes, in ticks.
+const NUMBER: usize = 10;
+
 /// How a figure moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keyframes {
@@ -65,6 +70,7 @@ pub fn track(
     tolerance: f64,
     write: impl Fn(&[f64]) -> String,
 ) -> Option<AttributeTrack> {
+    tick(NUMBER * rows.len());
     let still = |(k, value): (usize, &f64)| (value - rows[k % n]).abs() <= tolerance;
     if rows.iter().enumerate().all(still) {
         return None;

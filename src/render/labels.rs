@@ -14,6 +14,9 @@ const EQUAL: f64 = 1e-9;
 /// The width of a letter in sizes of letters, a generous average.
 const LETTER: f64 = 0.58;
 
+/// How much wider bold letters are than others.
+pub const BOLD: f64 = 1.1;
+
 /// A rectangle of the page, px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
@@ -89,6 +92,44 @@ pub fn text_width(text: &str) -> f64 {
         .sum()
 }
 
+/// A text in lines no wider than this many sizes of its letters, broken between words; a word that is
+/// wider ends in dots.
+pub fn wrapped(text: &str, most: f64) -> Vec<String> {
+    let space = text_width(" ");
+    let mut lines: Vec<String> = Vec::new();
+    let mut width = 0.0;
+    for word in text.split_whitespace() {
+        let word = shortened(word, most);
+        let more = text_width(&word);
+        match lines.last_mut() {
+            Some(line) if width + space + more <= most => {
+                line.push(' ');
+                line.push_str(&word);
+                width += space + more;
+            }
+            _ => {
+                lines.push(word);
+                width = more;
+            }
+        }
+    }
+    lines
+}
+
+/// As much of a word as is no wider than this, with dots where something is left out.
+fn shortened(word: &str, most: f64) -> String {
+    const DOTS: &str = "\u{2026}";
+    if text_width(word) <= most {
+        return word.to_owned();
+    }
+    let mut room = most - text_width(DOTS);
+    let fits = |c: &char| {
+        room -= text_width(c.encode_utf8(&mut [0; 4]));
+        room >= 0.0
+    };
+    word.chars().take_while(fits).chain(DOTS.chars()).collect()
+}
+
 /// How wide a text of letters of this size is, px, all letters taken to be alike.
 ///
 /// Charts write numbers, whose digits are, and stand where they always stood: with the widths
@@ -105,6 +146,18 @@ mod tests {
     fn the_first_of_equals_is_taken() {
         assert_eq!(cheapest([(3.0, 'a'), (1.0, 'b'), (1.0 - 1e-12, 'c')]), Some((1.0, 'b')));
         assert_eq!(cheapest::<char>([]), None);
+    }
+
+    #[test]
+    fn texts_are_broken_between_words() {
+        assert_eq!(wrapped("a four-bar", 20.0), ["a four-bar"]);
+        assert_eq!(wrapped("one  two three", 5.0), ["one two", "three"]);
+        assert_eq!(wrapped("abcdefghij", 3.0), ["abcd\u{2026}"]);
+        assert!(wrapped("  ", 9.0).is_empty());
+        for most in [1.0, 3.0, 10.0] {
+            let lines = wrapped("the Quick brown fox jumps over iiiiiiiiiii WWWWWWWW", most);
+            assert!(lines.iter().all(|line| text_width(line) <= most), "{lines:?}");
+        }
     }
 
     #[test]

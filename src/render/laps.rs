@@ -100,6 +100,7 @@ fn is_lap(samples: &[Sample], same: f64) -> bool {
 fn extent(samples: &[Sample]) -> f64 {
     let far = Point::new(f64::INFINITY, f64::INFINITY);
     let (mut lo, mut hi) = (far, Point::new(-far.x, -far.y));
+    tick(samples.len());
     for Sample { at, .. } in samples {
         (lo.x, lo.y) = (lo.x.min(at.x), lo.y.min(at.y));
         (hi.x, hi.y) = (hi.x.max(at.x), hi.y.max(at.y));

@@ -69,15 +69,14 @@ fn round_length(most: f64) -> Option<f64> {
 fn draw_legend(canvas: &mut Canvas, curves: &[Curve], middle: f64, free: f64) {
     let entry = |name: &str| SAMPLE + GAP + text_width(name) * CAPTION + 2.0 * GAP;
     let more = |n: usize| format!("+{n}");
-    let mut n_shown = curves.len();
     let total = |n: usize| -> f64 {
         let rest =
             if n < curves.len() { text_width(&more(curves.len() - n)) * CAPTION } else { 0.0 };
         curves[..n].iter().map(|curve| entry(&curve.name)).sum::<f64>() + rest
     };
-    while n_shown > 0 && total(n_shown) > free {
-        n_shown -= 1;
-    }
+    // No entry is shorter than a nameless one: beyond so many there is no room.
+    let most = curves.len().min((free / entry("")) as usize);
+    let n_shown = (0..=most).rev().find(|&n| total(n) <= free).unwrap_or(0);
     let mut x = canvas.page.size().0 - EDGE - total(n_shown) + 2.0 * GAP;
     let base_line = BASE_LINE * CAPTION;
     for curve in &curves[..n_shown] {

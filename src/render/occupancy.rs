@@ -73,6 +73,7 @@ impl Occupancy {
         if lo.x < 0.0 || lo.y < 0.0 || hi.x > width || hi.y > height {
             return None;
         }
+        tick(LINE);
         let mut cost = 0;
         self.each_cell(area, |idx| cost += u32::from(self.cells[idx]));
         Some(cost)

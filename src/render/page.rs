@@ -63,20 +63,36 @@ pub struct Page {
 impl Page {
     /// The page that shows all of `bounds`, as large as the page allows.
     pub fn fit(bounds: &BoundingBox) -> Self {
+        Self::fit_within(bounds, LONG_SIDE)
+    }
+
+    /// The same for a page that is shown so wide, px: where that is less than usual all is drawn
+    /// closer together, so that letters and marks can be seen.
+    pub fn fit_width(bounds: &BoundingBox, shown: Option<u32>) -> Self {
+        let usual = Self::fit(bounds);
+        match shown.map(f64::from) {
+            Some(shown) if shown < usual.width => Self::fit_within(bounds, shown.max(SHORT_SIDE)),
+            _ => usual,
+        }
+    }
+
+    /// The page no wider than that, and no higher than pages are.
+    fn fit_within(bounds: &BoundingBox, most_wide: f64) -> Self {
         let (lo, hi) = bounds.corners.unwrap_or((Point::ORIGIN, Point::ORIGIN));
         // Halved before they are combined: the corners may be as far apart as f64 reaches.
         let centre = Point::new(0.5 * lo.x + 0.5 * hi.x, 0.5 * lo.y + 0.5 * hi.y);
         let (half_x, half_y) = (0.5 * hi.x - 0.5 * lo.x, 0.5 * hi.y - 0.5 * lo.y);
-        let free = 0.5 * LONG_SIDE - MARGIN;
-        let fitted = free / half_x.max(half_y);
+        let free = |side: f64| 0.5 * side - MARGIN;
+        let fitted = (free(most_wide) / half_x).min(free(LONG_SIDE) / half_y);
         // All in one place, or closer together than a scale can express.
         let scale = if fitted.is_finite() && fitted > 0.0 { fitted } else { 1.0 };
-        let side = |half: f64| (2.0 * (half * scale + MARGIN)).clamp(SHORT_SIDE, LONG_SIDE).round();
+        let side =
+            |half: f64, most: f64| (2.0 * (half * scale + MARGIN)).clamp(SHORT_SIDE, most).round();
         Self {
             scale,
             centre,
-            width: side(half_x),
-            height: side(half_y),
+            width: side(half_x, most_wide),
+            height: side(half_y, LONG_SIDE),
             mark: 1.0,
             is_empty: bounds.corners.is_none(),
         }
@@ -184,6 +200,19 @@ mod tests {
                 assert!(page.px(Point::new(x, y)).is_finite());
             }
         }
+    }
+
+    #[test]
+    fn a_narrow_page_is_as_wide_as_it_is_shown() {
+        let mut bounds = BoundingBox::default();
+        bounds.include(Point::new(-3.0, 0.0));
+        bounds.include(Point::new(3.0, 6.0));
+        let sizes = [None, Some(2000), Some(400), Some(90)]
+            .map(|shown| Page::fit_width(&bounds, shown).size());
+        assert_eq!(sizes, [(800.0, 800.0), (800.0, 800.0), (400.0, 400.0), (200.0, 200.0)]);
+        bounds.include(Point::new(0.0, 60.0));
+        let tall = Page::fit_width(&bounds, Some(300));
+        assert_eq!(tall, Page::fit(&bounds), "its height says how large it can be");
     }
 
     #[test]

@@ -2,25 +2,25 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::world::Sample;
+use crate::world::{Sample, SampleList};
 
 /// The first `n` samples of a list that only ever grows, so that a thousand frames of a path
 /// take the room of one.
 #[derive(Debug, Clone)]
 pub struct Samples {
-    list: Arc<Mutex<Vec<Sample>>>,
+    list: Arc<Mutex<SampleList>>,
     n: usize,
 }
 
 impl Samples {
     /// A list of its own.
-    pub fn new(samples: &[Sample]) -> Self {
-        Self { n: samples.len(), list: Arc::new(Mutex::new(samples.to_vec())) }
+    pub fn new(samples: &SampleList) -> Self {
+        Self { n: samples.len(), list: Arc::new(Mutex::new(samples.clone())) }
     }
 
     /// These samples and what `samples` has beyond them; none unless it begins with these.
     /// Paths are cut short or grow, so that the last sample answers for those before.
-    pub fn grown(&self, samples: &[Sample]) -> Option<Self> {
+    pub fn grown(&self, samples: &SampleList) -> Option<Self> {
         if samples.len() < self.n {
             return None;
         }
@@ -30,10 +30,10 @@ impl Samples {
         }
         // Another scene may have grown the same list in another way.
         let n_known = list.len().min(samples.len());
-        if list[self.n..n_known] != samples[self.n..n_known] {
+        if (self.n..n_known).any(|k| list[k] != samples[k]) {
             return None;
         }
-        list.extend_from_slice(&samples[n_known..]);
+        list.extend((n_known..samples.len()).map(|k| samples[k]));
         Some(Self { list: self.list.clone(), n: samples.len() })
     }
 
@@ -47,13 +47,18 @@ impl Samples {
         self.list()[k]
     }
 
-    /// Looks at all of them, in order of time. Nothing else may be asked of samples meanwhile:
-    /// the list may be theirs, too.
+    /// Looks at what there is to see of them, in order of time: laps that repeat come twice at most. Nothing
+    /// else may be asked of samples meanwhile: the list may be theirs, too.
     pub fn read<T>(&self, look: impl FnOnce(&[Sample]) -> T) -> T {
-        look(&self.list()[..self.n])
+        look(&self.list().seen(self.n))
     }
 
-    fn list(&self) -> MutexGuard<'_, Vec<Sample>> {
+    /// How many of those that are seen of all are among the first `n`.
+    pub fn n_seen(&self, n: usize) -> usize {
+        self.list().n_seen(n, self.n)
+    }
+
+    fn list(&self) -> MutexGuard<'_, SampleList> {
         // A list only ever grows: whoever panicked, it is whole.
         self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -64,7 +69,7 @@ mod tests {
     use super::*;
     use crate::constraint::Point;
 
-    fn samples(xs: &[f64]) -> Vec<Sample> {
+    fn samples(xs: &[f64]) -> SampleList {
         xs.iter().map(|&x| Sample { at: Point::new(x, 0.0), missed: false }).collect()
     }
 
@@ -78,6 +83,6 @@ mod tests {
         assert!(one.grown(&samples(&[1.0])).is_none());
         // The list went on with 3 already: a path that went on otherwise needs its own.
         assert!(one.grown(&samples(&[1.0, 2.0, 9.0])).is_none());
-        one.read(|one| assert_eq!(*one, samples(&[1.0, 2.0])[..]));
+        one.read(|one| assert_eq!(one.iter().map(|s| s.at.x).collect::<Vec<_>>(), [1.0, 2.0]));
     }
 }

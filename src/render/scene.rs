@@ -8,7 +8,11 @@ use super::page::BoundingBox;
 use super::symbols::{Symbol, SymbolForm};
 use super::trace::Curve;
 use crate::constraint::Point;
+use crate::interrupt::tick;
 use crate::world::{ConstraintId, Ghost, World};
+
+/// What a look at a symbol takes, in ticks.
+const LOOK: usize = 20;
 
 /// Constraints that do not hold, each with by how much it is off, in words.
 pub type Unmet = BTreeMap<ConstraintId, Arc<str>>;
@@ -134,6 +138,7 @@ impl DrawnPose {
     /// The same symbols where they were, without those that had not all their points then, and
     /// without those that cannot have been elsewhere.
     fn exposed(&self, ghost: &Ghost, world: &World) -> Arc<Self> {
+        tick(LOOK * (self.at.len() + self.symbols.len()));
         let mut at = vec![None; self.at.len()];
         for (id, place) in &ghost.at {
             if let Some(slot) = at.get_mut(id.idx()) {
@@ -153,6 +158,7 @@ impl DrawnPose {
 
     /// Grows the box to hold it.
     pub fn extend(&self, bounds: &mut BoundingBox) {
+        tick(LOOK * self.symbols.len());
         self.symbols.iter().for_each(|symbol| symbol.extend(&self.at, bounds));
     }
 

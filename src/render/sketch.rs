@@ -6,6 +6,7 @@ use super::scene::Scene;
 use super::view::View;
 use crate::constraint::Point;
 use crate::diag::format_rounded;
+use crate::interrupt::tick;
 
 /// What a pixel belongs to; a terminal may give each a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,12 +47,18 @@ impl Cell {
     }
 }
 
+/// The least rows of a chart above the names of its lines.
+const LEAST_ROWS: usize = 6;
+
 /// A picture in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sketch {
     n_columns: usize,
     cells: Vec<Cell>,
 }
+
+/// What drawing a dot takes, in ticks.
+const DOT: usize = 5;
 
 /// Left of a chart, for the numbers of its axis.
 const GUTTER: usize = 11;
@@ -85,13 +92,15 @@ impl Sketch {
 
     /// The lines of a chart in so many columns and rows.
     pub fn of_chart(chart: &Chart, n_columns: usize, n_rows: usize) -> Self {
-        let mut sketch = Self::blank(n_columns.max(2 * GUTTER), n_rows.max(6));
+        let n_rows = n_rows.max(chart.series.len() + LEAST_ROWS);
+        let mut sketch = Self::blank(n_columns.max(2 * GUTTER), n_rows);
         let data = || chart.series.iter().flat_map(|series| &series.data);
         let x = Range::of(&chart.x, data().map(|datum| datum.x));
         let y = Range::of(&chart.y, data().map(|datum| datum.y));
         // Below are the numbers of the axis and the names of the lines.
         let (right, bottom) = (sketch.n_columns - 1, sketch.n_rows() - 2 - chart.series.len());
         for series in &chart.series {
+            tick(DOT * series.data.len());
             let places: Vec<Option<Point>> = series
                 .data
                 .iter()
@@ -211,6 +220,7 @@ impl Sketch {
     /// Draws a line between two places, in pixels.
     fn line(&mut self, a: Point, b: Point, ink: Ink) {
         let n = (2.0 * a.distance(b)).ceil().clamp(1.0, 4.0 * (self.cells.len() as f64)) as u32;
+        tick(DOT * n as usize);
         for k in 0..=n {
             let p = a + (b - a) * (f64::from(k) / f64::from(n));
             self.dot(p, ink);

@@ -9,7 +9,7 @@ use super::view::View;
 
 /// A scene as an SVG document, fitted to the page.
 pub fn svg(scene: &Scene, options: &Options) -> String {
-    svg_with_view(scene, &View::of([scene]), options)
+    svg_with_view(scene, &View::shown([scene], options.width), options)
 }
 
 /// A scene as an SVG document, one of several with a view in common.
@@ -23,9 +23,9 @@ pub fn svg_with_view(scene: &Scene, view: &View, options: &Options) -> String {
         curve.draw(&mut canvas);
     }
     legend::draw(&mut canvas, &scene.curves);
-    unmet::label(&mut canvas, scene);
     let mut figures = canvas.finish();
     unmet::mark(&mut figures, scene);
+    figures.extend(unmet::amounts(&figures, scene, view, lettering));
     groups.push(Group::of(figures));
     document::write(view.page(), &groups, options)
 }

@@ -81,6 +81,8 @@ pub const MOTOR: f64 = 8.5;
 const LETTER: f64 = 14.0;
 /// Size of the letters below the drawing, px.
 pub const CAPTION: f64 = 12.0;
+/// Size of the letters of the title, px.
+pub const HEADLINE: f64 = 17.0;
 /// The size of the letters of an amount, px.
 pub const AMOUNT: f64 = 13.0;
 /// From the middle of a letter down to its base line, in sizes of letters.
@@ -329,7 +331,11 @@ impl Class {
                 push_decimals(&mut text, AMOUNT, 1);
                 text.push_str("px");
             }
-            Self::Headline => text.push_str(";font-size:17px"),
+            Self::Headline => {
+                text.push_str(";font-size:");
+                push_decimals(&mut text, HEADLINE, 1);
+                text.push_str("px");
+            }
             Self::RingWheel => text.push_str(";fill-rule:evenodd"),
             Self::Caption => text.push_str(";font-size:12px;text-anchor:start"),
             _ => {}

@@ -10,6 +10,7 @@ use super::path::Path;
 use super::samples::Samples;
 use super::style::{Class, colour_number};
 use crate::constraint::{Point, Vector};
+use crate::interrupt::tick;
 use crate::world::{Entity, PointId, Sample, Trace, World};
 
 /// How far a drawn line may pass a sample, px: a tenth of what a screen can show.
@@ -17,6 +18,10 @@ const TOLERANCE: f64 = 0.1;
 
 /// A path longer than this crosses itself many times over and is drawn finer, px.
 const LONG: f64 = 6000.0;
+
+/// What a look at a sample takes, and what passing it takes, in ticks.
+const LOOK: usize = 1;
+const PASS: usize = 20;
 
 /// The path of one point.
 #[derive(Debug, Clone)]
@@ -62,7 +67,10 @@ impl Curve {
 
     /// Grows the box to hold it.
     pub fn extend(&self, bounds: &mut BoundingBox) {
-        self.samples.read(|all| all.iter().for_each(|sample| bounds.include(sample.at)));
+        self.samples.read(|all| {
+            tick(LOOK * all.len());
+            all.iter().for_each(|sample| bounds.include(sample.at));
+        });
     }
 
     /// The class it has in a legend.
@@ -137,6 +145,7 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<Point> {
     let mut before = first;
     let mut sector = Sector::default();
     for &p in &points[1..] {
+        tick(PASS);
         if !sector.admits(p - anchor, tolerance) {
             kept.push(before);
             anchor = before;

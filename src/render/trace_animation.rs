@@ -8,6 +8,10 @@ use super::page::Page;
 use super::style::{Class, colour_number};
 use super::trace::Curve;
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
+
+/// What measuring the way to a sample takes, in ticks.
+const WAY: usize = 10;
 
 /// How far the end of the path may be from its point, px.
 const TOLERANCE: f64 = 0.3;
@@ -32,8 +36,11 @@ pub fn follow(
     let Outline::Path(path) = &shape.outline else {
         return vec![(whole, None)];
     };
-    let left: Vec<f64> =
-        n_samples.iter().map(|&n| length - n.checked_sub(1).map_or(0.0, |k| lengths[k])).collect();
+    let way_to = |n: usize| match curve.samples.n_seen(n).checked_sub(1) {
+        Some(k) => lengths.get(k).copied().unwrap_or(length),
+        None => 0.0,
+    };
+    let left: Vec<f64> = n_samples.iter().map(|&n| length - way_to(n)).collect();
     let change = AnimatedAttribute::Shape(0, "stroke-dashoffset");
     let write = |row: &[f64]| format_decimals(row[0], 2);
     let Some(track) = track(change, times, &left, 1, TOLERANCE, write) else {
@@ -46,7 +53,8 @@ pub fn follow(
     vec![(faint, None), (drawn, Some(Keyframes { duration, tracks: vec![track] }))]
 }
 
-/// How long the path is up to each of its samples, px.
+/// How long the path is up to each of its samples, and altogether at the end, px. Later laps add nothing,
+/// and a lap that is closed is longer than the way to its last sample.
 fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
     let mut length = 0.0;
     let mut last = None;
@@ -56,10 +64,8 @@ fn lengths(curve: &Curve, page: &Page) -> Vec<f64> {
         length
     };
     curve.samples.read(|samples| {
+        tick(WAY * samples.len());
         let lap = once(samples).of(samples);
-        let mut lengths: Vec<f64> = lap.map(|sample| sample.at).map(up_to).collect();
-        // Later laps add nothing.
-        lengths.resize(samples.len(), lengths.last().copied().unwrap_or(0.0));
-        lengths
+        lap.map(|sample| sample.at).map(up_to).collect()
     })
 }

@@ -10,9 +10,13 @@ use super::figure::Figure;
 use super::lettering;
 use super::page::{BoundingBox, Page};
 use super::scene::{DrawnPose, Scene};
+use crate::interrupt::tick;
 
 /// Names are placed to suit so many scenes of a motion.
 const N_PROBES: usize = 16;
+
+/// What a look at a bar takes, in ticks.
+const LOOK: usize = 20;
 
 /// A part of the plane, and where on it each name stands.
 #[derive(Debug, Clone)]
@@ -24,19 +28,25 @@ pub struct View {
 impl View {
     /// The view that shows all of these scenes.
     pub fn of<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> Self {
+        Self::shown(scenes, None)
+    }
+
+    /// The same for pictures that are shown so wide, px.
+    pub fn shown<'a>(scenes: impl IntoIterator<Item = &'a Scene>, width: Option<u32>) -> Self {
         let scenes: Vec<&Scene> = scenes.into_iter().collect();
-        match Self::through(scenes.len(), |k| Ok::<_, Infallible>(scenes[k])) {
+        match Self::through(scenes.len(), width, |k| Ok::<_, Infallible>(scenes[k])) {
             Ok(view) => view,
             Err(never) => match never {},
         }
     }
 
-    /// The view that shows so many scenes, which are fetched one after the other.
+    /// The view that shows so many scenes, which are fetched one after the other, so wide, px.
     ///
     /// # Errors
     /// That of a scene that cannot be fetched.
     pub fn through<S: Borrow<Scene>, E>(
         n_scenes: usize,
+        width: Option<u32>,
         mut fetch: impl FnMut(usize) -> Result<S, E>,
     ) -> Result<Self, E> {
         let mut bounds = BoundingBox::default();
@@ -54,7 +64,7 @@ impl View {
         if let Some(last) = &last {
             last.borrow().extend_by_past(None, &mut bounds);
         }
-        let page = Page::fit(&bounds);
+        let page = Page::fit_width(&bounds, width);
         let page = if bars > 0.0 { page.with_bars(bars) } else { page };
         let n_probes = n_scenes.min(N_PROBES);
         let probe = |k: usize| fetch(k * (n_scenes - 1) / (n_probes - 1).max(1));
@@ -121,6 +131,7 @@ impl View {
 
 /// The length of a bar that a quarter of all bars fall short of; 0 if there is none.
 pub(super) fn typical_bar(pose: &DrawnPose) -> f64 {
+    tick(LOOK * pose.symbols.len());
     let mut lengths: Vec<f64> = pose.bar_lengths().collect();
     lengths.sort_by(f64::total_cmp);
     lengths.get(lengths.len() / 4).copied().unwrap_or(0.0)

@@ -174,4 +174,6 @@ pub struct TraceRow {
     pub every: u64,
     /// How many places it has.
     pub n_places: usize,
+    /// Whether it is as long as it will be.
+    pub is_ended: bool,
 }

@@ -19,6 +19,7 @@ mod culprits;
 mod curve;
 mod deadline;
 mod dispatch;
+mod drawn_scene;
 mod effects;
 mod examples;
 mod execution;
@@ -326,6 +327,21 @@ impl Session {
     /// Tells the host that a statement has ended.
     fn tell_done(&self, span: Span, is_ok: bool, host: &mut dyn Host) {
         host.done(&Done { span, is_ok, sources: self.sources(), world: self.world() });
+    }
+
+    /// What is drawn of the present pose, with what does not hold in it.
+    ///
+    /// ```
+    /// use linkwork::Session;
+    /// use linkwork::render::{Options, svg};
+    ///
+    /// let mut session = Session::new();
+    /// session.run("point A = (0, 0) frozen, B = (4, 0) frozen; bar: length A B = 5; solve")?;
+    /// assert!(svg(&session.scene(), &Options::default()).contains(">bar off by 1<"));
+    /// # Ok::<(), linkwork::Diagnostic>(())
+    /// ```
+    pub fn scene(&self) -> crate::render::Scene {
+        self.state.scene()
     }
 
     /// What pictures of the present scene say besides the drawing.

@@ -197,7 +197,7 @@ impl Execution<'_> {
                     .map_err(|problem| if is_stopped() { stopped() } else { problem })
             }
             Format::Frames => {
-                let view = recorder.view().map_err(failed)?;
+                let view = recorder.view(options.width).map_err(failed)?;
                 for frame in 0..recorder.n_frames() {
                     if self.is_asked_to_stop() && !was_stopped {
                         return Err(stopped());

@@ -8,7 +8,13 @@ use super::resolve::unbind::Unbind;
 use super::state::State;
 use super::summary::Summary;
 use crate::diag::{format_number, format_rounded};
+use crate::interrupt::tick;
 use crate::render::Options;
+
+/// What the writing of a line takes, in ticks.
+const LINE: usize = 500;
+/// What a look at a constraint takes.
+const LOOK: usize = 20;
 
 impl State {
     /// A hash of the scene: the same for the same settings, points at the start, parameters
@@ -21,6 +27,7 @@ impl State {
         }
         let points = self.world.points();
         for id in points.ids() {
+            tick(LINE);
             let has_begun = self.world.clock().frame > 0;
             let at = if has_begun { points.start(id) } else { points.at(id) };
             let _ = writeln!(
@@ -34,9 +41,11 @@ impl State {
             );
         }
         for id in self.parameters_in_order() {
+            tick(LINE);
             let _ = writeln!(text, "{}", Unbind::of(&self.world).parameter_text(id));
         }
         for (_, record) in self.world.constraints() {
+            tick(LINE);
             let rho = record.rho().map(format_number).unwrap_or_default();
             let _ = writeln!(
                 text,
@@ -51,7 +60,10 @@ impl State {
     /// The largest distance to satisfaction of a constraint, relative to the scene's size.
     fn residual_now(&self) -> f64 {
         let ids = self.world.constraints().filter(|(_, r)| r.is_on).map(|(id, _)| id);
-        let violations = ids.map(|id| self.solver.violation(&self.world, id));
+        let violations = ids.map(|id| {
+            tick(LOOK);
+            self.solver.violation(&self.world, id)
+        });
         violations.fold(0.0, f64::max) / self.solver.size()
     }
 

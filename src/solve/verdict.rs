@@ -6,6 +6,7 @@ use super::island::rounding;
 use super::report::Status;
 use super::settings::Settings;
 use crate::constraint::{ConstraintKind as _, Point};
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::world::{ConstraintId, PointId, World};
 
@@ -100,6 +101,7 @@ pub fn verdict(world: &World, settings: &Settings) -> Verdict {
     let x = world.points().column();
     let w = world.points().inverse_masses();
     let judge = |&(id, part): &(ConstraintId, usize)| {
+        tick(LOOK);
         let extent = &parts.extents[part];
         let (size, farthest) = (extent.size(), extent.farthest());
         let violation = world.constraint(id).map_or(0.0, |r| r.constraint.violation(x, &w));
@@ -143,6 +145,9 @@ pub fn present(world: &World) -> (Cow<'_, World>, bool) {
     (Cow::Owned(now), has_values)
 }
 
+/// What a look at a constraint takes, in ticks.
+const LOOK: usize = 50;
+
 /// What hangs together through points that are not frozen.
 struct Parts {
     /// The constraints that are switched on, each with its part.
@@ -165,6 +170,7 @@ impl Parts {
         let mut parts = Self { constraints: Vec::new(), extents: Vec::new() };
         let mut part_of = vec![usize::MAX; points.column().len()];
         for (id, record) in on() {
+            tick(LOOK);
             let held = record.constraint.points();
             let root = held.iter().find(moves).map(|&p| sets.least(p as usize));
             let part = match root {

@@ -106,7 +106,7 @@ impl Edit {
             Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),
             Self::Measure(_, Some(measure)) => measure.n_bytes(),
             Self::Clock(clock) => size_of_val(&**clock),
-            Self::Trace(_, Some(trace)) => size_of_val(&**trace) + size_of_val(&*trace.samples),
+            Self::Trace(_, Some(trace)) => size_of_val(&**trace) + trace.samples.n_bytes(),
             Self::Ghost(Some(ghost)) => ghost.n_bytes(),
             Self::StartState(_, Some(state)) => size_of_val(&**state),
             Self::StartStates(states) => 80 * states.len(),

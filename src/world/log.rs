@@ -6,7 +6,7 @@ use super::same::States;
 use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::TurnCounts;
-use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, Sample};
+use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, SampleList};
 use crate::constraint::{Constraint, Heading, Point};
 
 /// What takes back all that running changed since a moment, and does it again: of points, motors
@@ -25,9 +25,9 @@ pub struct Motion {
     pub(super) clock: Clock,
     /// None if nothing was counted.
     pub(super) turn_counts: Option<TurnCounts>,
-    pub(super) traces: Vec<Tail<Sample>>,
+    pub(super) traces: Vec<Tail<SampleList>>,
     pub(super) tallies: Vec<(MeasureId, TallyMark)>,
-    pub(super) ghosts: Tail<Ghost>,
+    pub(super) ghosts: Tail<Vec<Ghost>>,
 }
 
 /// What `reset` brings back.
@@ -41,7 +41,7 @@ impl Motion {
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
         let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
-        let traces: usize = self.traces.iter().map(Tail::n_bytes).sum();
+        let traces: usize = self.traces.iter().map(|tail| tail.then().n_bytes()).sum();
         let measured = self.tallies.iter().map(|(_, mark)| mark.n_bytes()).sum::<usize>();
         let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
         size_of::<Self>()

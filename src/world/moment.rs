@@ -7,7 +7,7 @@ use super::same::{States, bits, is_same_constraint, same_place};
 use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead};
-use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, Sample, World};
+use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, SampleList, World};
 use crate::constraint::{Constraint, Field, Point};
 
 /// All that running changes: positions, clock, motors and wheels, traces, ghosts.
@@ -22,9 +22,9 @@ pub struct Moment {
     constraints: Vec<(ConstraintId, Constraint)>,
     /// States that these are to have instead.
     states: States,
-    traces: Vec<Tail<Sample>>,
+    traces: Vec<Tail<SampleList>>,
     tallies: Vec<(MeasureId, TallyMark)>,
-    ghosts: Tail<Ghost>,
+    ghosts: Tail<Vec<Ghost>>,
 }
 
 impl World {

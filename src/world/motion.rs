@@ -10,13 +10,13 @@ use super::same::{are_same_places, are_same_states, is_same_constraint, same_pla
 use super::tally::TallyMark;
 use super::trace::Tail;
 use super::turning::{TurnCounts, TurnsAhead, are_same_counts};
-use super::{Clock, ConstraintId, Ghost, MeasureId, Sample, World};
+use super::{Clock, ConstraintId, Ghost, MeasureId, Sample, SampleList, World};
 use crate::constraint::{Constraint, ConstraintKind, Field, Heading, Point};
 use crate::diag::Diagnostic;
 
 impl World {
     /// The traces and ghosts as they are, to go back to.
-    pub(super) fn tails(&self) -> (Vec<Tail<Sample>>, Tail<Ghost>) {
+    pub(super) fn tails(&self) -> (Vec<Tail<SampleList>>, Tail<Vec<Ghost>>) {
         (self.traces.iter().map(|t| Tail::mark(&t.samples)).collect(), Tail::mark(&self.ghosts))
     }
 

@@ -79,7 +79,7 @@ impl Totals {
 #[derive(Debug, Clone)]
 pub(super) struct TallyMark {
     totals: Totals,
-    readings: Tail<Reading>,
+    readings: Tail<Vec<Reading>>,
 }
 
 /// Two steps that differ by so much of their size, or more, may have an extremum next to them: the
@@ -207,7 +207,7 @@ impl TallyMark {
 
     /// Roughly how many bytes it holds, but for itself.
     pub fn n_bytes(&self) -> usize {
-        self.readings.n_bytes()
+        size_of_val(&**self.readings.then())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::PointId;
+use super::{PointId, SampleList};
 use crate::constraint::Point;
 
 /// The path of one point.
@@ -17,7 +17,7 @@ pub struct Trace {
     /// Whether it is as long as it will be.
     pub is_ended: bool,
     /// The places, in order of time.
-    pub samples: Vec<Sample>,
+    pub samples: SampleList,
 }
 
 /// One place of a path.
@@ -43,44 +43,75 @@ impl Ghost {
     }
 }
 
-/// The end of a list that grows while running: how much of it to keep and what follows.
-#[derive(Debug, Clone)]
-pub(super) struct Tail<T> {
-    keep: usize,
-    then: Vec<T>,
+/// A list that grows at its end while running.
+pub(super) trait Growing: Default {
+    fn len(&self) -> usize;
+    /// Leaves so many, and gives the others.
+    fn split_off(&mut self, n: usize) -> Self;
+    fn append(&mut self, others: Self);
 }
 
-impl<T> Tail<T> {
+impl<T> Growing for Vec<T> {
+    fn len(&self) -> usize {
+        self.len()
+    }
+
+    fn split_off(&mut self, n: usize) -> Self {
+        self.split_off(n)
+    }
+
+    fn append(&mut self, others: Self) {
+        self.extend(others);
+    }
+}
+
+impl Growing for SampleList {
+    fn len(&self) -> usize {
+        self.len()
+    }
+
+    fn split_off(&mut self, n: usize) -> Self {
+        self.split_off(n)
+    }
+
+    fn append(&mut self, others: Self) {
+        self.extend(others.iter().copied());
+    }
+}
+
+/// The end of a list that grows while running: how much of it to keep and what follows.
+#[derive(Debug, Clone)]
+pub(super) struct Tail<L> {
+    keep: usize,
+    then: L,
+}
+
+impl<L: Growing> Tail<L> {
     /// The list as it is.
-    pub fn mark(list: &[T]) -> Self {
-        Self { keep: list.len(), then: Vec::new() }
+    pub fn mark(list: &L) -> Self {
+        Self { keep: list.len(), then: L::default() }
     }
 
     /// Whether this is how the list is.
-    pub fn is_all_of(&self, list: &[T]) -> bool {
-        self.keep == list.len() && self.then.is_empty()
+    pub fn is_all_of(&self, list: &L) -> bool {
+        self.keep == list.len() && self.then.len() == 0
     }
 
     /// Nothing left of the list.
-    pub const fn cleared() -> Self {
-        Self { keep: 0, then: Vec::new() }
+    pub fn cleared() -> Self {
+        Self { keep: 0, then: L::default() }
     }
 
     /// What follows what is kept.
-    pub fn then(&self) -> &[T] {
+    pub const fn then(&self) -> &L {
         &self.then
     }
 
-    /// Roughly how many bytes it holds, but for what its items point to.
-    pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.then)
-    }
-
     /// Puts the list in this state; gives the state it was in.
-    pub fn swap(self, list: &mut Vec<T>) -> Self {
+    pub fn swap(self, list: &mut L) -> Self {
         let keep = self.keep.min(list.len());
         let old = list.split_off(keep);
-        list.extend(self.then);
+        list.append(self.then);
         Self { keep, then: old }
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use linkwork::{Answer, Session};
 
 use crate::support::compare::{check_golden, golden};
+use crate::support::talk::Talking;
 
 /// A four-bar with a plate: rods of 10, 40 and 30, a right triangle of 30 and 40.
 const PARTS: &str = include_str!("../parts.link");
@@ -74,6 +75,20 @@ fn paths(svg: &str) -> Vec<(String, Vec<Contour>)> {
             (name.expect("a title").0.to_owned(), contours(data))
         })
         .collect()
+}
+
+/// The chains of straight lines among the paths of a document.
+fn chains(svg: &str) -> Vec<Vec<[f64; 2]>> {
+    let point = |text: &str| {
+        let (x, y) = text.split_once(' ').expect("two numbers");
+        [x, y].map(|text| text.parse().expect("a number"))
+    };
+    let data = svg.split("d=\"M").skip(1).map(|data| data.split_once('"').expect("its end").0);
+    data.map(|data| data.split('L').map(point).collect()).collect()
+}
+
+fn length(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum()
 }
 
 #[track_caller]
@@ -207,23 +222,100 @@ fn strokes_are_in_true_size_a_layer_a_path() {
     assert!(svg.contains(&format!("width=\"{width}mm\" height=\"{height}mm\"")));
     let layers: Vec<&str> = svg.split("<g ").collect();
     for (layer, radius) in [(layers[2], 20.0), (layers[3], 10.0)] {
-        let (_, data) = layer.split_once("d=\"M").expect("a path");
-        let (data, _) = data.split_once('"').expect("its end");
-        let points: Vec<[f64; 2]> = data
-            .split('L')
-            .map(|point| {
-                let (x, y) = point.split_once(' ').expect("two numbers");
-                [x, y].map(|text| text.parse().expect("a number"))
-            })
-            .collect();
+        let points = chains(layer).remove(0);
         for [x, y] in &points {
             assert!((f64::hypot(x - 30.0, y - 30.0) - radius).abs() < 0.02, "{x} {y}");
         }
-        let length: f64 =
-            points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum();
+        let length = length(&points);
         // A chord may pass the circle by a hundredth of a mm.
         assert!((length / (2.0 * PI * radius) - 1.0).abs() < 1e-3, "{length} once around");
     }
+}
+
+/// How often an `export` asks whether it is to stop: what it has to do, as a number.
+fn work(scene: &str, export: &str) -> u64 {
+    let mut talking = Talking::after(scene);
+    talking.talk.n_polls.set(0);
+    talking.execute(export).expect("it does not fail");
+    talking.talk.n_polls.get()
+}
+
+#[test]
+fn what_is_twice_as_large_takes_twice_as_long() {
+    let chain = |n: u32| {
+        format!(
+            "point p[0] = (0, 0) frozen
+             for i in 1..{n} {{ point p[i] = (i, 0); length p[i - 1] p[i]; point q[i] = (i - 0.5, 0)
+             hinge q[i] on p[i - 1] p[i] at 1/2 }}"
+        )
+    };
+    let star = |n: u32| {
+        format!(
+            "point o = (0, 0) frozen; for i in 1..{n} {{ point p[i] = polar(9, i); length o p[i]
+             point q[i] = polar(4.5, i); hinge q[i] on o p[i] at 1/2 }}"
+        )
+    };
+    for scene in [&chain as &dyn Fn(u32) -> String, &star] {
+        for export in ["export \"p.dxf\" scale 9 width 2 hole 1", "export \"p.svg\""] {
+            let [once, twice] = [2000, 4000].map(|n| work(&scene(n), export));
+            assert!(once >= 3 && twice <= 3 * once, "{export}: {once}, {twice} of twice the size");
+        }
+    }
+}
+
+#[test]
+fn parts_are_the_same_in_whatever_order_they_were_said() {
+    let points = "point A = (0, 0), B = (4, 0), C = (0, 3), P = (1, 0), Q = (0.5, 0)\n";
+    let said = [
+        "plate: rigid A B C",
+        "edge: length A B = 4",
+        "other: length P A = 1",
+        "hinge P on A B at 1/4",
+        "hinge Q on A P at 1/2",
+    ];
+    let sizes = |order: &[&str]| {
+        let text =
+            format!("{points}{}\nexport \"p.svg\" scale 10 width 3 hole 1", order.join("\n"));
+        let parts = paths(&written(&text, "p.svg"));
+        let all: Vec<(String, usize)> =
+            parts.into_iter().map(|(name, contours)| (name, contours.len())).collect();
+        all
+    };
+    let backwards: Vec<&str> = said.iter().rev().copied().collect();
+    // The plate, with a hole at each corner and at both pins; what lies within it is no other part.
+    for order in [&said[..], &backwards] {
+        assert_eq!(sizes(order), [("plate".to_owned(), 6)], "{order:?}");
+    }
+    // Of two that are the same the first gives its name.
+    assert_eq!(sizes(&["one: length A B", "two: length B A"]), [("one".to_owned(), 3)]);
+}
+
+#[test]
+fn what_changes_its_length_is_no_part() {
+    let scene = "point A = (0, 0) frozen, B = (1, 0), C = (3, 0), P = (1.5, 0)
+        crank: motor A B radius 1 + time / 9 speed 1rev
+        jack: length B C = 2 + time / 9
+        hinge P on B C at 1/4 + time / 9
+        whole: length A C\n";
+    let parts = paths(&written(&format!("{scene}export \"p.svg\" width 0.2 hole 0.1"), "p.svg"));
+    let found: Vec<_> = parts.iter().map(|(name, contours)| (&**name, contours.len())).collect();
+    assert_eq!(found, [("whole", 3)]);
+}
+
+#[test]
+fn a_pen_passes_each_place_once() {
+    // A bar that is a crank, a rail's bar and an edge of a body at once; two points at one place.
+    let svg = written(
+        "point A = (0, 0) frozen, B = (4, 0), C = (0, 3), P = (1, 0), D = (0, 3)
+         length A B = 4; crank: motor A B radius 4 speed 1rev; hinge P on A B at 1/4; length A P
+         rigid A B C; length C A; coincidence C D
+         export \"p.svg\" scale 10",
+        "p.svg",
+    );
+    let length: f64 = chains(&svg).iter().map(|points| length(points)).sum();
+    assert_near(length, 120.0, "a triangle of 30, 40 and 50");
+    assert_eq!(svg.matches("<path").count(), 1, "the pen is put down once: {svg}");
+    assert_eq!(svg.matches("<circle").count(), 4, "a joint at each place: {svg}");
 }
 
 /// With `UPDATE_GOLDEN=1` they are written anew; read the difference before you keep it.

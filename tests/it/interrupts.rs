@@ -45,7 +45,7 @@ fn net(n: usize) -> String {
     )
 }
 
-const CASES: [Case; 11] = [
+const CASES: [Case; 15] = [
     Case {
         what: "a loop without statements",
         size: 1000,
@@ -84,6 +84,37 @@ const CASES: [Case; 11] = [
                 .to_owned()
         },
         statement: |n| format!("fit r in 1..2 to minimise d.span over {n}"),
+    },
+    Case {
+        what: "strokes",
+        size: 3000,
+        before: rods,
+        statement: |_| "export \"a.svg\"".to_owned(),
+    },
+    Case {
+        what: "parts",
+        size: 1500,
+        before: rods,
+        statement: |_| "export \"a.dxf\" scale 9 width 2 hole 1".to_owned(),
+    },
+    Case {
+        what: "a path",
+        size: 40_000,
+        before: |n| {
+            format!(
+                "point A = (0, 0) frozen, B = (1, 0); motor A B speed sqrt(2)
+                 trace B; step {n}"
+            )
+        },
+        statement: |_| "svg \"a.svg\"".to_owned(),
+    },
+    Case {
+        what: "what is off",
+        size: 1500,
+        before: |n| {
+            format!("{}; freeze all; for i in 1..{n} {{ move p[i] to (2 * i, 0) }}", rods(n))
+        },
+        statement: |_| "svg \"a.svg\"".to_owned(),
     },
     Case { what: "a list", size: 2000, before: rods, statement: |_| "list".to_owned() },
 ];

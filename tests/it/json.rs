@@ -233,6 +233,7 @@ fn requests_are_answered_up_to_done() {
     ];
     assert_eq!(done, wanted);
     let trace = &find(&found, "traces")["traces"][0];
+    assert_eq!(trace["ended"], false);
     assert_eq!((&trace["point"], trace["x"].as_array().map(Vec::len)), (&json!("B"), Some(4)));
     assert_eq!(found.iter().filter(|object| object["code"] == "E0120").count(), 3);
     // Up to the mistake, and no farther.
@@ -279,4 +280,20 @@ fn the_example_of_the_page_is_what_is_said() {
     let (_, mut found) = objects(&args, "");
     found[0]["release"] = wanted[0]["release"].clone();
     assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_path_says_whether_it_grows() {
+    let requests = format!(
+        "{FOUR_BAR}trace C as \"before\"; step 2; trace C as \"after\"; step 2; list traces\n\
+         {{\"get\": \"traces\"}}\n"
+    );
+    let (_, found) = objects(&["--json"], &requests);
+    for kind in ["list", "traces"] {
+        let traces = find(&found, kind)["traces"].as_array().expect("traces").clone();
+        let told: Vec<_> =
+            traces.iter().map(|it| (it["label"].clone(), it["ended"].clone())).collect();
+        let wanted = [(json!("before"), json!(true)), (json!("after"), json!(false))];
+        assert_eq!(told, wanted, "of {kind}");
+    }
 }

@@ -2,7 +2,13 @@
 
 use std::path::Path;
 
+use linkwork::diag::{Diagnostic, Sources};
+use linkwork::live::{Live, Message};
+use linkwork::render::{Drawable, Options, svg};
+use linkwork::session::{Grid, Host, Sweep, SweepScript, parse_axis};
 use linkwork::{Answer, Session};
+
+use crate::support::program::{folder, run, text};
 
 const SCENE: &str = "
     point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
@@ -29,13 +35,25 @@ fn attribute(svg: &str, name: &str) -> f64 {
 }
 
 #[test]
-fn a_width_scales_the_whole() {
-    let (as_drawn, narrow) = (picture("svg \"p.svg\""), picture("svg \"p.svg\" width 400"));
-    assert_eq!([attribute(&as_drawn, "width"), attribute(&narrow, "width")], [800.0, 400.0]);
-    let heights = [attribute(&as_drawn, "height"), attribute(&narrow, "height")];
-    assert!((heights[0] - 2.0 * heights[1]).abs() < 0.1, "{heights:?}");
-    let of_box = |svg: &str| svg.split_once("viewBox=").map(|(_, rest)| rest[..20].to_owned());
-    assert_eq!(of_box(&as_drawn), of_box(&narrow));
+fn a_large_width_scales_the_whole_and_letters_of_a_small_one_can_be_read() {
+    let shown = |width: &str| picture(&format!("svg \"p.svg\" {width}"));
+    let (as_drawn, wide, narrow) = (shown(""), shown("width 1200"), shown("width 300"));
+    let widths = [&as_drawn, &wide, &narrow].map(|svg| attribute(svg, "width"));
+    assert_eq!(widths, [800.0, 1200.0, 300.0]);
+    let of_box = |svg: &str| {
+        let (_, rest) = svg.split_once("viewBox=\"0 0 ").expect("a box");
+        let (width, rest) = rest.split_once(' ').expect("its height");
+        let height = rest.split_once('"').expect("its end").0;
+        [width, height].map(|text| text.parse::<f64>().expect("a number"))
+    };
+    assert_eq!(of_box(&wide), of_box(&as_drawn));
+    let heights = [&as_drawn, &wide].map(|svg| attribute(svg, "height"));
+    assert!((1.5 * heights[0] - heights[1]).abs() < 0.1, "{heights:?}");
+    // A px of the drawing is one of the page, so letters have the size that the sheet says.
+    assert_eq!(of_box(&narrow), ["width", "height"].map(|side| attribute(&narrow, side)));
+    let size = narrow.split_once("font-style:italic;font-size:").expect("a name").1;
+    let size: f64 = size.split_once("px").expect("px").0.parse().expect("a number");
+    assert!(size > 10.0, "{size}");
 }
 
 #[test]
@@ -71,6 +89,76 @@ fn what_is_off_is_red_and_says_by_how_much() {
     assert!(turned.contains(".unmet path,.unmet circle{stroke:#ff5c6c}"));
 }
 
+/// Keeps the last picture that was to be shown on the spot.
+#[derive(Default)]
+struct Shown(String);
+
+impl Host for Shown {
+    fn print(&mut self, _: &str) {}
+    fn tell(&mut self, _: &Diagnostic, _: &Sources) {}
+    fn draw(&mut self, what: Drawable) {
+        self.0 = what.svg();
+    }
+}
+
+#[test]
+fn what_is_off_is_red_wherever_a_pose_is_drawn() {
+    let script = format!("{SCENE}let r = 9\nsolve\noff crank\nchange coupler = r\n");
+    let check = |way: &str, drawn: &str| {
+        assert!(drawn.contains(">coupler off by 5.5</text>"), "{way}: {drawn}");
+    };
+    let mut session = Session::new();
+    session.run(&script).expect("no mistake");
+    check("the library", &svg(&session.scene(), &Options::default()));
+
+    let mut shown = Shown::default();
+    let source = session.add_source("test", "show", None);
+    session.execute_all(source, &mut shown).expect("no mistake");
+    check("show", &shown.0);
+
+    let (mut live, mut files) = (Live::new("test"), Answer::default());
+    live.join(0);
+    live.receive(0, r#"{"do": "hello"}"#, &mut session, &mut files);
+    live.receive(0, r#"{"do": "file", "kind": "svg", "id": 1}"#, &mut session, &mut files);
+    let told = live.take(&mut session).into_iter();
+    let texts = told.filter_map(|(_, message)| match message {
+        Message::Text(text) => Some(text.clone()),
+        Message::Frame(_) => None,
+    });
+    check("a page", &texts.collect::<String>().replace("\\\"", "\""));
+
+    let out = run(folder(&[]).path(), &["--json"], &format!("{script}{{\"get\": \"svg\"}}\n"));
+    check("json", &text(&out.stdout).replace("\\\"", "\""));
+
+    let script = SweepScript::read("s", &script, "".into(), Vec::new()).expect("no mistake");
+    let grid = Grid { axes: vec![parse_axis("r=9").expect("an axis")] };
+    let mut host = Answer::default();
+    let sweep = Sweep::begin(script, grid, &mut host).expect("it runs");
+    let swept = sweep.picture(0, &Options::default(), &mut host);
+    check("a sweep", &swept.expect("a picture"));
+}
+
+/// The middles and halves of the boxes around the amounts of a picture, px.
+fn amounts(drawn: &str) -> Vec<(String, [f64; 2], [f64; 2])> {
+    let document = roxmltree::Document::parse(drawn).expect("it is well formed");
+    let amounts = document.descendants().filter(|node| node.attribute("class") == Some("amount"));
+    amounts
+        .map(|node| {
+            let number = |name: &str| -> f64 {
+                node.attribute(name).map_or(0.0, |text| text.parse().expect("a number"))
+            };
+            let place = node.parent().and_then(|group| group.attribute("transform"));
+            let place = place.and_then(|it| it.strip_prefix("translate(")?.strip_suffix(')'));
+            let place: Vec<f64> =
+                place.expect("it is moved").split(' ').map(|it| it.parse().expect("px")).collect();
+            let text = node.text().expect("an amount").to_owned();
+            // Letters of 13 px are on average some 6 px wide, and stand on their line.
+            let half = [3.0 * text.len() as f64, 6.0];
+            (text, [place[0] + number("x"), place[1] + number("y") - 4.5], half)
+        })
+        .collect()
+}
+
 #[test]
 fn amounts_do_not_lie_on_each_other() {
     // All in one line, the middles of the bars close together.
@@ -80,29 +168,101 @@ fn amounts_do_not_lie_on_each_other() {
          for i in 1..4 { point Q[i] = (2 + i / 10, 0) frozen; length P Q[i] = i }
          svg \"p.svg\"",
     );
-    let document = roxmltree::Document::parse(&drawn).expect("it is well formed");
-    let amounts = document.descendants().filter(|node| node.attribute("class") == Some("amount"));
-    let boxes: Vec<[f64; 3]> = amounts
-        .map(|node| {
-            let number = |name: &str| -> f64 {
-                node.attribute(name).map_or(0.0, |text| text.parse().expect("a number"))
-            };
-            let place = node.parent().and_then(|group| group.attribute("transform"));
-            let place = place.and_then(|it| it.strip_prefix("translate(")?.strip_suffix(')'));
-            let place: Vec<f64> =
-                place.expect("it is moved").split(' ').map(|it| it.parse().expect("px")).collect();
-            let n_letters = node.text().expect("an amount").len() as f64;
-            // Letters of 13 px are on average some 6 px wide.
-            [place[0] + number("x"), place[1] + number("y"), 3.0 * n_letters]
-        })
-        .collect();
+    let boxes = amounts(&drawn);
     assert_eq!(boxes.len(), 4, "{drawn}");
-    for (k, [x, y, half]) in boxes.iter().enumerate() {
-        for [other_x, other_y, other_half] in &boxes[k + 1..] {
-            let is_apart = (x - other_x).abs() > half + other_half || (y - other_y).abs() >= 13.0;
-            assert!(is_apart, "{boxes:?}");
+    for (k, (_, at, half)) in boxes.iter().enumerate() {
+        for (_, other, other_half) in &boxes[k + 1..] {
+            let is_apart =
+                |axis: usize| (at[axis] - other[axis]).abs() >= half[axis] + other_half[axis];
+            assert!(is_apart(0) || is_apart(1), "{boxes:?}");
         }
     }
+}
+
+#[test]
+fn an_amount_stands_beside_what_is_off_and_not_on_it() {
+    // Two bars and two that are to be equal, far apart; none is half as long as the page is wide.
+    let drawn = picture(
+        "delete A cascade; delete B cascade; delete C cascade; delete D cascade
+         point P = (0, 0) frozen, Q = (4, 0) frozen, R = (0, 9) frozen, S = (0, 6) frozen
+         point T = (9, 9) frozen, U = (9, 8) frozen
+         level: length P Q = 5; upright: length R S = 5; alike: equal R S, T U
+         svg \"p.svg\"",
+    );
+    // The page shows 9 by 9 units within 48 px on each side.
+    let px = |x: f64, y: f64| [48.0 + x * (704.0 / 9.0), 752.0 - y * (704.0 / 9.0)];
+    let bars = [
+        ("level", [px(0.0, 0.0), px(4.0, 0.0)]),
+        ("upright", [px(0.0, 9.0), px(0.0, 6.0)]),
+        ("alike", [px(9.0, 9.0), px(9.0, 8.0)]),
+    ];
+    let found = amounts(&drawn);
+    assert_eq!(found.len(), 3, "{drawn}");
+    for (text, at, half) in &found {
+        let gap = |[a, b]: [[f64; 2]; 2]| {
+            // The least distance of the box from the bar, which is upright or level.
+            let beyond = |axis: usize| {
+                let (lo, hi) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+                (lo - at[axis] - half[axis]).max(at[axis] - half[axis] - hi).max(0.0)
+            };
+            f64::hypot(beyond(0), beyond(1))
+        };
+        for (name, bar) in bars {
+            let gap = gap(bar);
+            assert!(gap > 3.0, "{text} lies on {name}: {found:?}");
+            assert!(!text.starts_with(name) || name == "alike" || gap < 30.0, "{text}: {found:?}");
+        }
+        let is_of_pair = bars[1..].iter().any(|(_, bar)| gap(*bar) < 30.0);
+        assert!(!text.starts_with("alike") || is_of_pair, "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn more_than_can_be_read_is_counted() {
+    let drawn = picture(
+        "for i in 1..40 { point P[i] = (i, 9) frozen, Q[i] = (i, 10) frozen; length P[i] Q[i] = 3 }
+         svg \"p.svg\"",
+    );
+    let found = amounts(&drawn);
+    assert_eq!(drawn.matches("class=\"unmet\"").count(), 40);
+    assert_eq!(found.len(), 17, "{found:?}");
+    assert!(found.iter().any(|(text, ..)| text == "and 24 more off"), "{found:?}");
+}
+
+#[test]
+fn a_title_that_is_too_wide_has_several_lines_and_an_empty_one_none() {
+    let plain = picture("svg \"p.svg\"");
+    assert_eq!(picture("svg \"p.svg\" title \"\""), plain);
+    let long = ["a word"; 30].join(" ");
+    let titled = picture(&format!("svg \"p.svg\" title \"{long}\""));
+    assert!(titled.contains(&format!("<title>{long}</title>")));
+    let lines: Vec<&str> = titled.split("class=\"headline\"").skip(1).collect();
+    assert!(lines.len() >= 2, "{titled}");
+    let extra = attribute(&titled, "height") - attribute(&plain, "height");
+    assert!(extra > 50.0, "{extra} px for {} lines", lines.len());
+    let chart =
+        |title: &str| picture(&format!("sample \"s\" = 1; plot \"p.svg\" title \"{title}\""));
+    let (short, wide) = (chart("a word"), chart(&long));
+    assert!(attribute(&wide, "height") > attribute(&short, "height"));
+    assert!(
+        wide.matches("font-weight=\"bold\"").count()
+            > short.matches("font-weight=\"bold\"").count()
+    );
+}
+
+#[test]
+fn a_lap_that_is_closed_is_as_long_as_it_is_drawn() {
+    // A turn in 24 frames: the path goes on from the last to the first.
+    let moving = answer(
+        "point O = (0, 0) frozen, P = (1, 0); motor O P speed 1rev; set dt 1/24; trace P
+         record \"p.svg\"; step 24; record stop",
+    );
+    let moving = String::from_utf8(moving.files[Path::new("p.svg")].clone()).expect("a text");
+    let length = attribute(&moving, "pathLength");
+    // A circle of two units across the page, but for its margins, as a polygon.
+    let radius = 0.5 * (attribute(&moving, "width") - 96.0);
+    let polygon = 48.0 * radius * (std::f64::consts::PI / 24.0).sin();
+    assert!((length / polygon - 1.0).abs() < 1e-3, "{length}, not {polygon}");
 }
 
 #[test]

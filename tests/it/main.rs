@@ -23,6 +23,7 @@ mod hard_cases;
 mod interrupts;
 mod json;
 mod language_server;
+mod laps;
 mod laws;
 mod long_texts;
 mod looks;

@@ -156,7 +156,8 @@ fn the_bytes_of_undo_are_those_of_traces_ghosts_and_recordings_too() {
     let limits = [(Quota::UndoBytes, 8000)];
     for (begin, is_more) in [
         ("let k = 0", false),
-        ("trace B", true),
+        // A lap that repeats would be kept once.
+        ("set dt 0.0123; trace B", true),
         ("expose every 1", true),
         ("record \"a.csv\"", true),
     ] {

@@ -95,8 +95,15 @@ fn a_table_is_replaced_by_one_with_the_same_columns_only() {
     };
     assert_eq!(status(&script("time, A")).0, Some(0));
     assert_eq!(status(&script("time, A")).0, Some(0));
-    let (code, said) = status(&script("time, A").replace("t.csv", "foreign.csv"));
-    assert!(code != Some(0) && said.contains("did not write it"), "{said}");
+    let is_refused = |script: &str| {
+        let (code, said) = status(script);
+        assert!(code != Some(0) && said.contains("did not write it"), "{said}");
+    };
+    is_refused(&script("time, A").replace("t.csv", "foreign.csv"));
+    for of in ["time, A.x", "A, time", "time, A, A.x", "time", "time in ms, A"] {
+        is_refused(&script(of));
+    }
+    assert_eq!(status(&script("time, A")).0, Some(0));
 }
 
 #[test]
@@ -110,7 +117,9 @@ fn measures_are_drawn_against_each_other_with_units_on_the_axes() {
          step 360
          plot \"mu.svg\" mu against phi
          plot \"lift.svg\" lift, fall against time log title \"Lift & fall\"
-         plot \"path.svg\" lift, mu against phi x \"crank\" y \"both\""
+         plot \"path.svg\" lift, mu against phi x \"crank\" y \"both\"
+         plot \"mixed.svg\" lift, mu against phi
+         plot \"alike.svg\" mu, phi against time"
     ));
     let mu = &files["mu.svg"];
     assert!(mu.contains(">phi (deg)</text>") && mu.contains(">mu (deg)</text>"), "{mu}");
@@ -119,6 +128,12 @@ fn measures_are_drawn_against_each_other_with_units_on_the_axes() {
     assert!(lift.contains("Lift &amp; fall"));
     let path = &files["path.svg"];
     assert!(path.contains(">crank</text>") && path.contains(">both</text>"));
+    // A unit stands with what has it, and with nothing else.
+    let mixed = &files["mixed.svg"];
+    assert!(mixed.contains(">lift, mu</text>") && mixed.contains(">mu (deg)</text>"), "{mixed}");
+    assert!(mixed.contains(">lift</text>"), "{mixed}");
+    let alike = &files["alike.svg"];
+    assert!(alike.contains(">mu, phi (deg)</text>") && alike.contains(">phi</text>"), "{alike}");
     // A line each, through all of its places.
     let long = mu.lines().filter(|line| line.matches('L').count() >= 360);
     assert_eq!(long.count(), 1);

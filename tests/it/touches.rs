@@ -42,12 +42,12 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What a cutter makes: rods, cranks, bodies, and holes for what is hinged on them.
     (
         Kind::Hinge,
-        &["render/export/parts.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
+        &["render/export/members.rs", "session/commands/touch.rs", "solve/closed_form/sum.rs"],
     ),
     (
         Kind::Rigid,
         // A body is placed as one.
-        &["render/export/parts.rs", "solve/closed_form/body.rs", "solve/closed_form/cluster.rs"],
+        &["render/export/members.rs", "solve/closed_form/body.rs", "solve/closed_form/cluster.rs"],
     ),
     // What of a circle others name; SVG documents and drawing lists have circles of their own.
     (
@@ -91,7 +91,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Length,
         &[
             "lang/lower/errors/refusal.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "session/commands/diagnose.rs",
             "session/resolve/unbind.rs",
             "world/member.rs",
@@ -120,7 +120,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Motor,
         &[
             "mobility/range.rs",
-            "render/export/parts.rs",
+            "render/export/members.rs",
             "render/style.rs",
             "solve/closed_form/compile.rs",
             "solve/closed_form/run.rs",

@@ -3,7 +3,7 @@
 use super::sheet::{Anchor, Sheet, Stroke, TextStyle, polyline};
 use crate::constraint::{Point, Vector};
 use crate::interrupt::tick;
-use crate::render::labels::{Area, cheapest, direction, directions, even_width};
+use crate::render::labels::{Area, BOLD, cheapest, direction, directions, even_width, text_width};
 
 /// What is written, and how.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +20,14 @@ pub struct ChartLabel<'a> {
     pub preference: Preference,
     /// Whether it must be seen, and may therefore stand farther off.
     pub must: bool,
+}
+
+impl ChartLabel<'_> {
+    /// How wide it is at most, px.
+    fn width(&self) -> f64 {
+        let even = even_width(self.text, self.size);
+        if self.is_bold { even.max(BOLD * self.size * text_width(self.text)) } else { even }
+    }
 }
 
 /// Where a label would best stand.
@@ -93,7 +101,7 @@ impl LabelPlacer {
 
     /// The areas where a label can stand, each with its cost.
     fn candidates(&self, at: Point, label: ChartLabel) -> impl Iterator<Item = (f64, Area)> {
-        let half = Vector::new(0.5 * even_width(label.text, label.size), 0.5 * label.size);
+        let half = Vector::new(0.5 * label.width(), 0.5 * label.size);
         let distances: &[f64] = if label.must { &FARTHER } else { &CLOSE };
         let places = distances.iter().flat_map(|&d| directions().map(move |k| (d, k)));
         places.filter_map(move |(distance, k)| {
@@ -121,6 +129,7 @@ impl LabelPlacer {
         let is_free = is_inside
             && self.taken.iter().all(|other| !area.meets(other, 1.5))
             && self.marks.iter().all(|mark| !area.holds(*mark, MARK));
+        tick(self.taken.len() + self.marks.len() + self.lines.len());
         is_free.then(|| self.lines.iter().filter(|place| area.holds(**place, 0.5)).count() as f64)
     }
 }

@@ -6,7 +6,8 @@ use super::label_placer::{ChartLabel, LabelPlacer, Preference};
 use super::series_look::SeriesLook;
 use super::sheet::{Anchor, Sheet, Stroke, TextStyle, number};
 use crate::constraint::Point;
-use crate::render::labels::{Area, even_width};
+use crate::interrupt::tick;
+use crate::render::labels::{Area, BOLD, even_width, text_width, wrapped};
 use crate::render::trace::thin;
 
 /// The width of the part left of the legend.
@@ -21,6 +22,7 @@ const TOP: f64 = 66.0;
 const FLOOR: f64 = HEIGHT - 74.0;
 /// Sizes of letters, px.
 const TITLE: f64 = 17.0;
+const TITLE_LINE: f64 = 22.0;
 const TEXT: f64 = 13.0;
 const SMALL: f64 = 11.0;
 const TINY: f64 = 9.5;
@@ -31,6 +33,8 @@ const DENSE: usize = 1000;
 const FINE: f64 = 0.05;
 /// The line through the efficient places: broad and pale, beneath the others.
 const FRONTIER: Stroke = Stroke { colour: "#c9c9c9", width: 9.0, is_round: false, dash: "" };
+/// What a look at a datum takes, in ticks.
+const LOOK: usize = 10;
 /// Words around the data.
 const WORDS: TextStyle = TextStyle { size: TEXT, anchor: Anchor::Middle, colour: "#222" };
 /// Words of the legend.
@@ -43,8 +47,14 @@ impl Chart {
     /// The chart as an SVG document.
     pub fn svg(&self) -> String {
         let plot = Plot::new(self);
-        let mut sheet = Sheet::new(BODY + self.legend_width(), HEIGHT, &self.title);
-        sheet.write_bold(Point::new(LEFT, 28.0), &self.title, HEADING);
+        let width = BODY + self.legend_width();
+        let title = wrapped(&self.title, (width - LEFT) / (BOLD * TITLE));
+        let n_more = title.len().saturating_sub(1) as f64;
+        let mut sheet = Sheet::new(width, [n_more * TITLE_LINE, HEIGHT], &self.title);
+        for (k, line) in title.iter().enumerate() {
+            let up = (n_more - k as f64) * TITLE_LINE;
+            sheet.write_bold(Point::new(LEFT, 28.0 - up), line, HEADING);
+        }
         sheet.write(Point::new(LEFT, 48.0), &self.subtitle, REMARKS);
         sheet.write(Point::new(LEFT, HEIGHT - 14.0), &self.note, REMARKS);
         plot.draw_grid(self, &mut sheet);
@@ -59,7 +69,8 @@ impl Chart {
     }
 
     fn legend_width(&self) -> f64 {
-        let names = self.series.iter().map(|series| even_width(&series.name, TEXT));
+        let width = |name: &str| even_width(name, TEXT).max(TEXT * text_width(name));
+        let names = self.series.iter().map(|series| width(&series.name));
         names.fold(0.0, f64::max).ceil().max(LEAST_LEGEND - LEGEND) + LEGEND
     }
 
@@ -140,6 +151,7 @@ struct Line<'a> {
 impl Plot {
     fn new(chart: &Chart) -> Self {
         let data = || chart.series.iter().flat_map(|series| &series.data);
+        tick(LOOK * chart.series.iter().map(|series| series.data.len()).sum::<usize>());
         let mut x = Scale::new(&chart.x, data().map(|datum| datum.x), LEFT, BODY);
         let mut y = Scale::new(&chart.y, data().map(|datum| datum.y), FLOOR, TOP);
         x.keep_clear(0.02);
@@ -159,6 +171,7 @@ impl Plot {
             marks: Vec::new(),
         };
         for datum in &series.data {
+            tick(LOOK);
             match self.place(datum.x, datum.y) {
                 Some(place) => {
                     line.stretches.last_mut().expect("there is one").push(place);
@@ -235,6 +248,7 @@ impl Line<'_> {
     fn marked(&self) -> impl Iterator<Item = (Point, &Datum)> {
         let mut last: Option<Point> = None;
         self.marks.iter().filter_map(move |&(place, datum)| {
+            tick(1);
             let is_apart = last.is_none_or(|last| place.distance(last) >= MARK_GAP);
             (datum.label.is_some() || is_apart).then(|| {
                 last = Some(place);

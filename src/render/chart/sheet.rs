@@ -81,21 +81,27 @@ pub fn number(value: f64) -> String {
 
 /// The chain of straight lines through some places, as the data of a path.
 pub fn polyline(places: &[Point]) -> String {
-    let place = |p: &Point| format!("{} {}", number(p.x), number(p.y));
+    let place = |p: &Point| {
+        tick(ELEMENT);
+        format!("{} {}", number(p.x), number(p.y))
+    };
     let places: Vec<String> = places.iter().map(place).collect();
     format!("M{}", places.join("L"))
 }
 
 impl Sheet {
-    /// A sheet of paper with a title for who lists documents.
-    pub fn new(width: f64, height: f64, title: &str) -> Self {
-        let (width, height, title) = (number(width), number(height), escaped(title));
+    /// A sheet of paper with a title for who lists documents, and more of it above the place that heights
+    /// are counted from.
+    pub fn new(width: f64, [above, below]: [f64; 2], title: &str) -> Self {
+        let (width, height, title) = (number(width), number(above + below), escaped(title));
+        let top = number(-above);
+        let down = if above > 0.0 { format!(" y=\"{top}\"") } else { String::new() };
         Self {
             svg: format!(
-                "{FIRST_WORDS} xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+                "{FIRST_WORDS} xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {width} {height}\" \
                  width=\"{width}\" height=\"{height}\" font-family=\"{FONT}\">\n\
                  <title>{title}</title>\n\
-                 <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
+                 <rect{down} width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
             ),
         }
     }

@@ -7,12 +7,17 @@ use super::rounded::Stretch;
 use super::sheet::Placed;
 use crate::constraint::Point;
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
+
+/// What the writing of a group takes, in ticks.
+const GROUP: usize = 50;
 
 /// A file of group codes and values, a line each.
 struct Groups(String);
 
 impl Groups {
     fn word(&mut self, code: u16, word: &str) {
+        tick(GROUP);
         // Writing to a string cannot fail.
         let _ = writeln!(self.0, "{code}\n{word}");
     }

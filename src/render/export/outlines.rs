@@ -7,7 +7,11 @@ use super::rounded::{Rounded, Stretch};
 use super::sheet::Placed;
 use crate::constraint::{Point, Vector};
 use crate::diag::format_decimals;
+use crate::interrupt::tick;
 use crate::render::FIRST_WORDS;
+
+/// What the writing of an arc takes, in ticks.
+const ARC: usize = 200;
 
 /// The parts on their sheet, one path each.
 pub fn outlines(sheet: &Placed) -> String {
@@ -22,6 +26,7 @@ pub fn outlines(sheet: &Placed) -> String {
     let point = |p: Point| format!("{} {}", number(p.x), number(sheet.size[1] - p.y));
     for part in &sheet.parts {
         let name = escaped(&part.name);
+        tick(ARC * (part.outline.corners.len() + 3 * part.holes.len()));
         let _ = write!(text, "<path d=\"{}", outline_data(&part.outline, &point));
         for &hole in &part.holes {
             text.push_str(&circle_data(hole, part.hole_radius, &point));

@@ -1,9 +1,16 @@
-//! Which parts a mechanism is made of.
+//! Parts of a mechanism, as they are cut.
 
+use super::members::{Member, members};
 use super::rounded::Rounded;
-use crate::constraint::{Constraint, ConstraintKind as _, Point, PointIdx, Vector};
+use crate::constraint::{Point, PointIdx, Vector};
+use crate::interrupt::tick;
 use crate::render::symbols::hull;
-use crate::world::{PointId, Record, World};
+use crate::world::{PointId, World};
+
+/// What the making of a part takes, in ticks.
+const PART: usize = 500;
+/// What the making of a hole takes, in ticks.
+const HOLE: usize = 20;
 
 /// How parts are made; all in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,12 +46,6 @@ pub enum PartFlaw {
     HolesMeet(String, [String; 2], f64),
 }
 
-/// What holds points together, as it is being found.
-struct Member {
-    name: String,
-    points: Vec<PointIdx>,
-}
-
 /// The rods and rigid bodies of a world that are switched on, in the order in which they were made.
 ///
 /// # Errors
@@ -53,46 +54,8 @@ pub fn parts(world: &World, cut: &Cut) -> Result<Vec<Part>, PartFlaw> {
     members(world).iter().map(|member| part(world, member, cut)).collect()
 }
 
-fn members(world: &World) -> Vec<Member> {
-    let mut members: Vec<Member> = Vec::new();
-    let on = || world.constraints().map(|(_, record)| record).filter(|record| record.is_on);
-    for record in on() {
-        let Some(points) = held_together(record) else { continue };
-        let all_frozen = points.iter().all(|&p| world.points().is_frozen(PointId(p)));
-        let is_known = members.iter().any(|known| points.iter().all(|p| known.points.contains(p)));
-        if !all_frozen && !is_known {
-            members.push(Member { name: record.name.to_string(), points });
-        }
-    }
-    // What is hinged on a rod is a hole in it.
-    for record in on() {
-        if let Constraint::Hinge(hinge) = record.constraint.stated() {
-            let [pin, a, b] = hinge.points;
-            let rod = |member: &&mut Member| [a, b].iter().all(|p| member.points.contains(p));
-            if let Some(rod) = members.iter_mut().find(rod)
-                && !rod.points.contains(&pin)
-            {
-                rod.points.push(pin);
-            }
-        }
-    }
-    members
-}
-
-/// The points that a constraint holds as one body; none if it is no part.
-fn held_together(record: &Record) -> Option<Vec<PointIdx>> {
-    let is_driven = record.drivers().iter().any(|(_, formula)| formula.depends().is_live());
-    match record.constraint.stated() {
-        Constraint::Length(length) if length.bounds.is_equality() && !is_driven => {
-            Some(length.points.to_vec())
-        }
-        Constraint::Motor(motor) => Some(motor.crank().to_vec()),
-        Constraint::Rigid(rigid) => Some(rigid.points().to_vec()),
-        _ => None,
-    }
-}
-
 fn part(world: &World, member: &Member, cut: &Cut) -> Result<Part, PartFlaw> {
+    tick(PART);
     let at = world.points().column();
     let corners = hull(&member.points, at);
     let origin = at[corners[0] as usize];
@@ -105,6 +68,7 @@ fn part(world: &World, member: &Member, cut: &Cut) -> Result<Part, PartFlaw> {
     let outline = Rounded { corners: corners.iter().map(place).collect(), radius };
     let mut holes: Vec<(Point, PointIdx)> = Vec::new();
     for p in member.points.iter().filter(|_| cut.hole.is_some()) {
+        tick(HOLE + holes.len());
         let hole = place(p);
         let near = |(other, _): &&(Point, PointIdx)| other.distance(hole) < cut.hole.unwrap_or(0.0);
         match holes.iter().find(near) {

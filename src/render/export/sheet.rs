@@ -2,9 +2,13 @@
 
 use super::parts::Part;
 use crate::constraint::Vector;
+use crate::interrupt::tick;
 
 /// Between two parts, and from a part to the edge, mm.
 const GAP: f64 = 3.0;
+
+/// What the placing of a part takes, in ticks.
+const PART: usize = 100;
 
 /// Parts where they lie.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +33,7 @@ pub fn lay_out(parts: Vec<Part>) -> Placed {
     let mut widest = 0.0_f64;
     let mut placed = Vec::with_capacity(parts.len());
     for part in parts {
+        tick(PART + part.holes.len());
         let size = extent(&part);
         if x > GAP && x + size.x > GAP + room {
             (x, y, row) = (GAP, y + row + GAP, 0.0);

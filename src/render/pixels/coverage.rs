@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use super::image::{Paint, Pixels};
 use crate::constraint::Point;
+use crate::interrupt::tick;
 
 /// What of overlapping areas counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,10 +106,11 @@ impl Coverage {
         }
     }
 
-    /// Paints what was added, and forgets it.
-    pub fn paint(&mut self, paint: Paint, rule: Rule, onto: &mut Pixels) {
+    /// Paints what was added, and forgets it; gives the rows that it may have touched.
+    pub fn paint(&mut self, paint: Paint, rule: Rule, onto: &mut Pixels) -> Range<usize> {
         let rows = std::mem::replace(&mut self.rows, self.height..0);
-        for row in rows {
+        for row in rows.clone() {
+            tick(self.width);
             let steps = &mut self.steps[row * (self.width + 2)..][..self.width + 2];
             let pixels = onto.row_mut(row);
             let mut sum = 0.0;
@@ -129,5 +131,6 @@ impl Coverage {
             }
             steps.fill(0.0);
         }
+        rows
     }
 }

@@ -1,5 +1,7 @@
 //! A picture as colours in rows.
 
+use std::ops::Range;
+
 /// A picture, three bytes a pixel, red, green and blue, rows from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pixels {
@@ -18,6 +20,15 @@ impl Pixels {
     /// Paper.
     pub(super) fn white(width: usize, height: usize) -> Self {
         Self { width, rgb: vec![255; 3 * width * height] }
+    }
+
+    /// Lets some rows of another picture of this size show through: this hides so much of them.
+    pub(super) fn lie_over(&mut self, below: &Self, opacity: f32, rows: Range<usize>) {
+        let bytes = 3 * rows.start.min(rows.end) * self.width..3 * rows.end * self.width;
+        for (byte, below) in self.rgb[bytes.clone()].iter_mut().zip(&below.rgb[bytes]) {
+            let (over, below) = (f32::from(*byte), f32::from(*below));
+            *byte = (below + (over - below) * opacity).round() as u8;
+        }
     }
 
     /// The bytes of a row.

@@ -7,6 +7,10 @@ use std::collections::HashMap;
 
 use super::outline::Transform;
 use crate::constraint::{Point, Vector};
+use crate::interrupt::tick;
+
+/// What reading a tag takes, in ticks, besides its attributes.
+const TAG: usize = 500;
 
 /// A shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +43,17 @@ pub enum Anchor {
     End,
 }
 
+/// What a document has, from the bottom up.
+#[derive(Debug, Clone, Copy)]
+pub enum Part<'a> {
+    /// What lies in a group that is so opaque as a whole, up to its end.
+    Begin(f32),
+    /// A shape, and how it looks.
+    Shape(&'a Element, &'a Look),
+    /// The end of the group that was begun last.
+    End,
+}
+
 /// How a shape looks and where it stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look {
@@ -47,9 +62,11 @@ pub struct Look {
     pub stroke: Option<[u8; 3]>,
     pub width: f64,
     pub dash: Vec<f64>,
+    /// Its own; that of a group is the group's.
     pub opacity: f32,
     pub is_even_odd: bool,
     pub is_italic: bool,
+    pub is_bold: bool,
     /// Of letters.
     pub size: f64,
     pub anchor: Anchor,
@@ -66,6 +83,7 @@ impl Default for Look {
             opacity: 1.0,
             is_even_odd: false,
             is_italic: false,
+            is_bold: false,
             size: 16.0,
             anchor: Anchor::Start,
         }
@@ -83,10 +101,10 @@ impl Look {
             "stroke-dasharray" => {
                 self.dash = value.split([' ', ',']).filter_map(|word| number(word).ok()).collect();
             }
-            // What lies in a group is as opaque as both let it be.
-            "opacity" => self.opacity *= number(value).unwrap_or(1.0) as f32,
+            "opacity" => self.opacity = number(value).unwrap_or(1.0) as f32,
             "fill-rule" => self.is_even_odd = value == "evenodd",
             "font-style" => self.is_italic = value == "italic",
+            "font-weight" => self.is_bold = value == "bold",
             "font-size" => self.size = number(value).unwrap_or(self.size),
             "text-anchor" => {
                 self.anchor = match value {
@@ -211,31 +229,40 @@ struct Group<'a> {
 }
 
 impl Document<'_> {
-    /// Gives each shape, from the bottom up.
-    pub fn visit(&mut self, give: &mut impl FnMut(&Element, &Look)) {
+    /// Gives each shape and each group that lets through what lies below it, from the bottom up.
+    pub fn visit(&self, give: &mut impl FnMut(Part)) {
         let mut groups = vec![Group { class: None, look: Look::default() }];
         let mut k = 0;
         while let Some(tag) = self.tags.get(k) {
             k += 1;
+            tick(TAG + tag.attributes.len());
             match tag.name {
                 "g" if !tag.is_empty() => {
                     let look = self.look(tag, &groups);
+                    if look.opacity < 1.0 {
+                        give(Part::Begin(look.opacity));
+                    }
                     groups.push(Group { class: tag.attribute("class"), look });
                 }
-                "/g" if groups.len() > 1 => drop(groups.pop()),
+                "/g" if groups.len() > 1 => {
+                    let is_faded = groups.pop().is_some_and(|group| group.look.opacity < 1.0);
+                    is_faded.then(|| give(Part::End));
+                }
                 "rect" => {
                     let [width, height] =
                         ["width", "height"].map(|side| tag.number(side).unwrap_or_default());
-                    give(&Element::Rectangle { width, height }, &self.look(tag, &groups));
+                    let rectangle = Element::Rectangle { width, height };
+                    give(Part::Shape(&rectangle, &self.look(tag, &groups)));
                 }
                 "circle" => {
                     let (centre, radius) =
                         (tag.place("cx", "cy"), tag.number("r").unwrap_or_default());
-                    give(&Element::Circle { centre, radius }, &self.look(tag, &groups));
+                    let circle = Element::Circle { centre, radius };
+                    give(Part::Shape(&circle, &self.look(tag, &groups)));
                 }
                 "path" => {
                     let data = tag.attribute("d").unwrap_or_default().to_owned();
-                    give(&Element::Path(data), &self.look(tag, &groups));
+                    give(Part::Shape(&Element::Path(data), &self.look(tag, &groups)));
                 }
                 "text" => {
                     let mut look = self.look(tag, &groups);
@@ -252,7 +279,8 @@ impl Document<'_> {
                         runs.push(run);
                         k += 1;
                     }
-                    give(&Element::Text { at: tag.place("x", "y"), runs }, &look);
+                    let text = Element::Text { at: tag.place("x", "y"), runs };
+                    give(Part::Shape(&text, &look));
                 }
                 _ => {}
             }
@@ -262,7 +290,7 @@ impl Document<'_> {
     /// How a tag looks: what its group says, then rules, from the weakest, then its own attributes.
     fn look(&self, tag: &Tag, groups: &[Group]) -> Look {
         let around = &groups[groups.len() - 1];
-        let mut look = around.look.clone();
+        let mut look = Look { opacity: 1.0, ..around.look.clone() };
         for (name, value) in tag.attributes() {
             look.set(name, value);
         }

@@ -10,15 +10,25 @@ mod letters;
 mod markup;
 mod outline;
 
+use std::ops::Range;
+
 use coverage::{Coverage, Rule};
 use image::Paint;
 pub use image::Pixels;
 use letters::Font;
-use markup::{Element, Look};
+use markup::{Element, Look, Part};
 use outline::{Contour, Transform};
+
+use crate::interrupt::tick;
 
 /// The longest side of a picture, pixels.
 const MOST: f64 = 8192.0;
+
+/// What the drawing of a line to a place takes, in ticks.
+const PLACE: usize = 100;
+
+/// How much wider the strokes of bold letters are, in sizes of letters.
+const BOLD: f64 = 0.05;
 
 impl Pixels {
     /// A document that this room wrote, as large as fits into a box of pixels.
@@ -35,7 +45,7 @@ impl Pixels {
     /// # Ok::<(), linkwork::Diagnostic>(())
     /// ```
     pub fn of(svg: &str, most: [usize; 2]) -> Self {
-        let mut document = markup::read(svg);
+        let document = markup::read(svg);
         let [width, height] = document.size;
         let fits = (most[0] as f64 / width).min(most[1] as f64 / height);
         let scale = fits.min(MOST / width.max(height));
@@ -45,9 +55,14 @@ impl Pixels {
             pixels: Self::white(width, height),
             coverage: Coverage::new(width, height),
             contours: Vec::new(),
+            groups: Vec::new(),
         };
         let all = Transform::scaling(scale);
-        document.visit(&mut |element, look| canvas.draw(element, look, all));
+        document.visit(&mut |part| match part {
+            Part::Begin(opacity) => canvas.begin(opacity),
+            Part::Shape(element, look) => canvas.draw(element, look, all),
+            Part::End => canvas.end(),
+        });
         canvas.pixels
     }
 }
@@ -58,9 +73,43 @@ struct Canvas {
     coverage: Coverage,
     /// Room for those of one shape.
     contours: Vec<Contour>,
+    /// Those that let through what lies below them, outermost first.
+    groups: Vec<Faded>,
+}
+
+/// A group that lets through what lies below it.
+struct Faded {
+    below: Pixels,
+    opacity: f32,
+    /// Those of its rows that were painted.
+    rows: Range<usize>,
 }
 
 impl Canvas {
+    fn begin(&mut self, opacity: f32) {
+        let rows = self.pixels.size()[1]..0;
+        self.groups.push(Faded { below: self.pixels.clone(), opacity, rows });
+    }
+
+    fn end(&mut self) {
+        if let Some(Faded { below, opacity, rows }) = self.groups.pop() {
+            self.pixels.lie_over(&below, opacity, rows.clone());
+            self.note(&rows);
+        }
+    }
+
+    /// Notes that rows were painted.
+    fn note(&mut self, rows: &Range<usize>) {
+        if let Some(group) = self.groups.last_mut() {
+            group.rows = group.rows.start.min(rows.start)..group.rows.end.max(rows.end);
+        }
+    }
+
+    fn paint(&mut self, rgb: [u8; 3], opacity: f32, rule: Rule) {
+        let rows = self.coverage.paint(Paint { rgb, opacity }, rule, &mut self.pixels);
+        self.note(&rows);
+    }
+
     fn draw(&mut self, element: &Element, look: &Look, page: Transform) {
         let transform = page.after(look.transform);
         match element {
@@ -78,29 +127,32 @@ impl Canvas {
         self.contours.iter_mut().for_each(|contour| contour.place(transform));
         let rule = if look.is_even_odd { Rule::EvenOdd } else { Rule::NonZero };
         let is_text = matches!(element, Element::Text { .. });
-        if is_text {
-            self.stroke(look, transform);
+        if is_text && let Some(rgb) = look.stroke {
+            self.stroke(rgb, look.width, look, transform);
         }
         if let Some(rgb) = look.fill {
             for contour in &self.contours {
                 self.coverage.add(&contour.points);
             }
-            self.coverage.paint(Paint { rgb, opacity: look.opacity }, rule, &mut self.pixels);
+            self.paint(rgb, look.opacity, rule);
+            if is_text && look.is_bold {
+                self.stroke(rgb, BOLD * look.size, look, transform);
+            }
         }
-        if !is_text {
-            self.stroke(look, transform);
+        if !is_text && let Some(rgb) = look.stroke {
+            self.stroke(rgb, look.width, look, transform);
         }
     }
 
-    fn stroke(&mut self, look: &Look, transform: Transform) {
-        let Some(rgb) = look.stroke else { return };
+    fn stroke(&mut self, rgb: [u8; 3], width: f64, look: &Look, transform: Transform) {
         let scale = transform.scale();
-        let half = 0.5 * look.width * scale;
+        let half = 0.5 * width * scale;
         for contour in &self.contours {
+            tick(PLACE * contour.points.len());
             let dash = look.dash.iter().map(|dash| dash * scale).collect::<Vec<f64>>();
             outline::stroke(contour, half, &dash, &mut |piece| self.coverage.add_convex(piece));
         }
-        self.coverage.paint(Paint { rgb, opacity: look.opacity }, Rule::NonZero, &mut self.pixels);
+        self.paint(rgb, look.opacity, Rule::NonZero);
     }
 }
 
@@ -163,6 +215,30 @@ mod tests {
         assert_eq!(at(&fine, 20, 20), [255, 0, 0]);
         assert_eq!(at(&fine, 60, 70), [0, 0, 255]);
         assert_eq!(at(&fine, 80, 20), [255, 128, 128]);
+    }
+
+    #[test]
+    fn a_group_is_opaque_as_a_whole() {
+        let discs = "<g opacity=\"0.5\"><circle cx=\"4\" cy=\"5\" r=\"2\" fill=\"#0000ff\"/>\
+                     <circle cx=\"6\" cy=\"5\" r=\"2\" fill=\"#ff0000\"/></g>";
+        let pixels = picture(discs, 100);
+        // The blue disc is not seen through the red one.
+        assert_eq!(at(&pixels, 50, 50), [255, 128, 128]);
+        assert_eq!(at(&pixels, 30, 50), [128, 128, 255]);
+        let twice = picture(&format!("<g opacity=\"0.5\">{discs}</g>"), 100);
+        assert_eq!(at(&twice, 50, 50), [255, 192, 192]);
+        assert_eq!(at(&twice, 50, 90), [255; 3]);
+    }
+
+    #[test]
+    fn bold_letters_have_more_ink() {
+        let text = |weight: &str| {
+            let text =
+                "<text x=\"5\" y=\"8\" font-size=\"8\" text-anchor=\"middle\" fill=\"#000\">";
+            picture(&format!("{text}<tspan{weight}>H</tspan></text>"), 200)
+        };
+        let [plain, bold] = ["", " font-weight=\"bold\""].map(|weight| ink(&text(weight)));
+        assert!(bold > 1.3 * plain && bold < 2.0 * plain, "{plain} and {bold}");
     }
 
     #[test]

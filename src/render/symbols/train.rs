@@ -6,6 +6,7 @@ use super::bar::Segment;
 use super::draw::Draw;
 use super::teeth;
 use crate::constraint::{Point, PointIdx, Vector};
+use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::render::canvas::Canvas;
 use crate::render::figure::{Layer, Placement};
@@ -74,6 +75,7 @@ impl Gears {
     /// A wheel that is there already, or a new one: one shaft may carry wheels of several
     /// sizes.
     fn wheel(&mut self, [centre, marker]: [PointIdx; 2], radius: f64, is_ring: bool) -> usize {
+        tick(self.wheels.len());
         let wheel = Wheel { centre, marker, is_ring };
         let is_same = |(other, r): &(Wheel, f64)| {
             *other == wheel && (r - radius).abs() <= 0.02 * radius.max(*r)
@@ -222,6 +224,7 @@ impl Train {
         is_set[0] = true;
         // From wheel to wheel; the meshes of a train hang together.
         for _ in 0..self.meshes.len() {
+            tick(self.meshes.len());
             let mut is_done = true;
             for mesh in &self.meshes {
                 let Mesh::Wheels([a, b], ratio) = *mesh else { continue };

@@ -4,7 +4,7 @@ use crate::constraint::{Carried, ConstraintKind as _};
 use crate::session::state::State;
 use crate::session::undo::recorder::Recorder;
 use crate::solve::{Solver, is_one_sided, is_wheel};
-use crate::world::{Depends, Record, Sample, World};
+use crate::world::{Depends, Record, World};
 
 /// Something that only scenes pay for which call for it.
 pub struct Effect {
@@ -99,7 +99,7 @@ pub static EFFECTS: [Effect; 9] = [
         },
         n_bytes: |state| {
             let traces = state.world.traces().iter();
-            traces.map(|trace| trace.samples.len()).sum::<usize>() * size_of::<Sample>()
+            traces.map(|trace| trace.samples.n_bytes()).sum::<usize>()
         },
         work: Work::Leaving(|copy| copy.world.sample_traces(false)),
     },

@@ -4,7 +4,7 @@ use crate::diag::{Diagnostic, Span, format_rounded};
 use crate::errors;
 use crate::lang::ast::{ExportPart, Expr, Ident, Text};
 use crate::render::Scene;
-use crate::render::export::{Cut, PartFlaw, Placed, dxf, lay_out, outlines, parts, strokes};
+use crate::render::export::{Cut, PartFlaw, Placed, Strokes, dxf, lay_out, outlines, parts};
 use crate::session::execution::Execution;
 use crate::session::file_kind::{FileKind, ends_in};
 use crate::session::output_file::wrong_ending;
@@ -55,8 +55,10 @@ impl Execution<'_> {
                         .at(at, "strokes for a plotter have none")
                         .help("`width 12` makes parts so wide"));
                 }
-                let strokes = strokes(&Scene::new(&self.state.world), scale);
-                strokes.ok_or_else(|| nothing(span, "neither a bar nor a path"))?
+                let strokes = Strokes::of(&Scene::new(&self.state.world), scale);
+                let strokes = strokes.ok_or_else(|| nothing(span, "neither a bar nor a path"))?;
+                must_fit(strokes.size(), span)?;
+                strokes.svg()
             }
         };
         self.queue_file(file, kind, bytes.into_bytes(), path.span);
@@ -119,13 +121,19 @@ impl Execution<'_> {
             return Err(nothing(span, "no rod and no rigid body is switched on"));
         }
         let sheet = lay_out(made);
-        if sheet.size.iter().any(|side| *side > LARGEST) {
-            return Err(Diagnostic::error(errors::OUT_OF_RANGE, "the parts are too large")
-                .at(span, "more than a hundred metres")
-                .help("a smaller `scale` makes them smaller"));
-        }
+        must_fit(sheet.size, span)?;
         Ok(sheet)
     }
+}
+
+/// Refuses what no machine has room for.
+fn must_fit(size: [f64; 2], span: Span) -> Result<(), Diagnostic> {
+    if size.iter().all(|side| *side <= LARGEST) {
+        return Ok(());
+    }
+    Err(Diagnostic::error(errors::OUT_OF_RANGE, "this is too large for a machine")
+        .at(span, "more than a hundred metres")
+        .help("a smaller `scale` makes it smaller"))
 }
 
 fn nothing(span: Span, why: &str) -> Diagnostic {

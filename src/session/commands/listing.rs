@@ -82,6 +82,7 @@ impl State {
                     label: trace.label.as_deref().map(str::to_owned),
                     every: trace.every,
                     n_places: trace.samples.len(),
+                    is_ended: trace.is_ended,
                 })
                 .collect();
         }

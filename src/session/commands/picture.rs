@@ -1,20 +1,16 @@
 //! `svg`: a picture of what is now, and how pictures look.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::lang::ast::{PicturePart, Text};
 use crate::render::raster::{IS_BUILT_IN, png};
-use crate::render::{Options, Scene, Unmet, svg};
+use crate::render::{Options, svg};
 use crate::session::execution::Execution;
 use crate::session::file_kind::{FileKind, ends_in};
 use crate::session::output_file::wrong_ending;
 use crate::session::parcel::unwritable;
-use crate::session::settled::miss;
-use crate::session::state::State;
-use crate::solve::{present, verdict};
 
 /// The widest picture, px: in pixels it takes a quarter of a gigabyte.
 const WIDEST: f64 = 8192.0;
@@ -34,8 +30,8 @@ impl Execution<'_> {
         let look = self.look(parts)?;
         let run = self.run.as_ref().or(self.history.last_run.as_ref());
         let options = Options { receipt: self.state.picture_options(run).receipt, ..look };
-        let scene = Scene::new(&self.state.world).with_unmet(self.state.unmet());
-        self.queue_still(file, kind, svg(&scene, &options), &options, path.span)
+        let picture = svg(&self.state.scene(), &options);
+        self.queue_still(file, kind, picture, &options, path.span)
     }
 
     /// Where a still picture is written, and what its ending says that it is.
@@ -86,28 +82,12 @@ impl Execution<'_> {
                 PicturePart::Dark => look.is_dark = true,
                 PicturePart::Transparent => look.is_transparent = true,
                 PicturePart::WithoutNames => look.without_names = true,
-                PicturePart::Title(text) => look.title = Some(text.value.to_string()),
+                PicturePart::Title(text) => {
+                    look.title = Some(text.value.to_string()).filter(|title| !title.is_empty());
+                }
             }
         }
         Ok(look)
-    }
-}
-
-impl State {
-    /// What does not hold in the present pose, each with by how much.
-    fn unmet(&self) -> Unmet {
-        let verdict = verdict(&self.world, &self.preferences.solve);
-        if verdict.is_met() {
-            return Unmet::new();
-        }
-        let (world, _) = present(&self.world);
-        let off = verdict.judged.iter().filter(|judged| !judged.is_met());
-        let amount = |id| {
-            let record = world.constraint(id)?;
-            let text = format!("{} off by {}", record.name, miss(&world, &record.constraint));
-            Some((id, Arc::from(text)))
-        };
-        off.filter_map(|judged| amount(judged.id)).collect()
     }
 }
 

@@ -84,6 +84,12 @@ impl Execution<'_> {
             up.push(y);
         }
         chart.y = axis(&names_of(&up));
+        if common_unit(&up).is_none() {
+            // One title for all would give the unit of one to the others.
+            for (series, measure) in chart.series.iter_mut().zip(&up) {
+                series.name = with_unit(&measure.name, measure.unit);
+            }
+        }
         say(&mut chart, parts);
         let place = path.map_or(curves.against.span, |path| path.span);
         self.show_chart(&chart, file, place)
@@ -143,13 +149,16 @@ fn together(x: &Measure, y: &Measure) -> Vec<Datum> {
     x.tally.readings().iter().filter_map(both).collect()
 }
 
-/// What is drawn upwards, with the unit once where it is one.
+/// What is drawn upwards, with the unit that all have.
 fn names_of(measures: &[Measure]) -> String {
+    let names = measures.iter().map(|it| &*it.name).collect::<Vec<_>>().join(", ");
+    with_unit(&names, common_unit(measures).unwrap_or(Unit::None))
+}
+
+/// The unit of all of these; none where they differ.
+fn common_unit(measures: &[Measure]) -> Option<Unit> {
     let is_one = measures.windows(2).all(|pair| pair[0].unit == pair[1].unit);
-    let name = |it: &Measure| with_unit(&it.name, if is_one { Unit::None } else { it.unit });
-    let names = measures.iter().map(name).collect::<Vec<_>>().join(", ");
-    let unit = measures.first().map_or(Unit::None, |it| it.unit);
-    if is_one { with_unit(&names, unit) } else { names }
+    measures.first().map(|it| it.unit).filter(|_| is_one)
 }
 
 fn with_unit(name: &str, unit: Unit) -> String {

@@ -8,7 +8,8 @@ use crate::lang::ast::{Expr, Ident, Name};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
 use crate::world::{
-    Clock, Edit, Entity, Ghost, Measure, Record, Sample, Tally, Trace, TurnCount, Turning, Value,
+    Clock, Edit, Entity, Ghost, Measure, Record, Sample, SampleList, Tally, Trace, TurnCount,
+    Turning, Value,
 };
 
 /// Why something cannot be restored.
@@ -239,23 +240,21 @@ impl Execution<'_> {
             Value::Vector(v) => Ok(Sample { at: Point::new(v.x, v.y), missed: false }),
             Value::Number(_) => Err(Unfit::Values),
         });
-        let samples = samples.collect::<Result<Vec<_>, _>>()?;
-        self.restore_samples(name, |kept| *kept = samples)
+        let samples = samples.collect::<Result<SampleList, _>>()?;
+        self.restore_trace_by(name, |trace| trace.samples = samples)
     }
 
     fn restore_missed(&mut self, name: &Name, values: &[Value]) -> Restored {
         let missed = numbers(values)?;
-        self.restore_samples(name, |samples| {
+        self.restore_trace_by(name, |trace| {
+            let mut samples: Vec<Sample> = trace.samples.iter().copied().collect();
             for k in missed {
                 if let Some(sample) = samples.get_mut(k as usize) {
                     sample.missed = true;
                 }
             }
+            trace.samples = samples.into_iter().collect();
         })
-    }
-
-    fn restore_samples(&mut self, name: &Name, change: impl FnOnce(&mut Vec<Sample>)) -> Restored {
-        self.restore_trace_by(name, |trace| change(&mut trace.samples))
     }
 
     /// Changes the trace of a point that was made last.

@@ -279,10 +279,8 @@ impl State {
                 let places = trace.samples.iter().map(|s| vector(s.at.x, s.at.y)).collect();
                 restore(script, Restorable::Trace, Some(name), places);
             }
-            let missed: Vec<f64> = (0..trace.samples.len())
-                .filter(|&k| trace.samples[k].missed)
-                .map(|k| k as f64)
-                .collect();
+            let missed = trace.samples.iter().enumerate().filter(|(_, sample)| sample.missed);
+            let missed: Vec<f64> = missed.map(|(k, _)| k as f64).collect();
             if !missed.is_empty() {
                 restore(script, Restorable::Missed, Some(name), numbers(&missed));
             }

@@ -9,7 +9,7 @@ use crate::interrupt::tick;
 use crate::lang::ast::{Expr, ListWhat, Name, Node, PrintItem, Relation};
 use crate::lang::catalogue::{self, Trade};
 use crate::lang::nearest_command;
-use crate::render::{Drawable, Scene};
+use crate::render::Drawable;
 use crate::session::execution::Execution;
 use crate::session::finding::Finding;
 use crate::session::resolve::scope::Meaning;
@@ -307,8 +307,7 @@ impl Execution<'_> {
         if self.state.world.points().ids().next().is_none() {
             return self.note("nothing here yet");
         }
-        let scene = Scene::new(&self.state.world);
-        self.host.draw(Drawable::Scene(&scene));
+        self.host.draw(Drawable::Scene(&self.state.scene()));
     }
 
     pub(crate) fn tell_history(&mut self) {

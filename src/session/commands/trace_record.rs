@@ -17,7 +17,7 @@ use crate::session::resolve::scope::ALL;
 use crate::session::spool::Tape;
 use crate::session::undo::journal::Change;
 use crate::session::undo::recorder::{Format, Recorder, kind_of};
-use crate::world::{Edit, PointId, Trace};
+use crate::world::{Edit, PointId, SampleList, Trace};
 
 impl Execution<'_> {
     fn every(&mut self, every: Option<&Expr>) -> Result<u64, Diagnostic> {
@@ -98,7 +98,7 @@ impl Execution<'_> {
     }
 
     fn begin_trace(&mut self, point: PointId, label: Option<Arc<str>>, every: u64) {
-        let trace = Trace { point, label, every, is_ended: false, samples: Vec::new() };
+        let trace = Trace { point, label, every, is_ended: false, samples: SampleList::default() };
         self.edit(Edit::Trace(self.state.world.traces().len(), Some(Box::new(trace))));
     }
 

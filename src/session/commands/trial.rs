@@ -13,7 +13,7 @@ use crate::session::quotas::Quota;
 use crate::session::state::State;
 use crate::session::undo::history::History;
 use crate::solve::{Memory, Solver, Status};
-use crate::world::{Edit, Formula, ParameterId, PointId, Rates, Trace, Value, World};
+use crate::world::{Edit, Formula, ParameterId, PointId, Rates, SampleList, Trace, Value, World};
 
 /// A motion that is tried with different numbers, each time from the same pose.
 pub(super) struct Trial {
@@ -53,8 +53,13 @@ impl Execution<'_> {
         }
         if let Some(point) = path_of {
             quotas.check(Quota::TraceSamples, n_values, span)?;
-            let trace =
-                Trace { point, label: None, every: 1, is_ended: false, samples: Vec::new() };
+            let trace = Trace {
+                point,
+                label: None,
+                every: 1,
+                is_ended: false,
+                samples: SampleList::default(),
+            };
             world.apply(Edit::Trace(0, Some(Box::new(trace))));
         }
         let memory = self.state.solver.memory();
@@ -129,6 +134,6 @@ impl Tried {
     /// Where the point was whose path was kept: at the start, and after each frame.
     pub(super) fn path(&self) -> Vec<Point> {
         let traces = self.0.world.traces().iter();
-        traces.flat_map(|trace| &trace.samples).map(|sample| sample.at).collect()
+        traces.flat_map(|trace| trace.samples.iter()).map(|sample| sample.at).collect()
     }
 }

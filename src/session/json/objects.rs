@@ -225,7 +225,8 @@ fn listed(word: &str, listing: &Listing) -> Value {
         "constraints": listing.constraints.iter().map(constraint).collect::<Vec<_>>(),
         "traces": listing.traces.iter().map(|row| {
             let places = row.n_places;
-            labelled(json!({ "point": row.point, "every": row.every, "places": places }), row.label.as_deref())
+            let ended = row.is_ended;
+            labelled(json!({ "point": row.point, "every": row.every, "ended": ended, "places": places }), row.label.as_deref())
         }).collect::<Vec<_>>(),
         "measures": listing.measures.iter().map(measure).collect::<Vec<_>>(),
         "definitions": listing.definitions.iter().map(definition).collect::<Vec<_>>(),
@@ -241,6 +242,7 @@ pub fn traces(world: &World) -> Value {
         let object = json!({
             "point": world.points().name(trace.point),
             "every": trace.every,
+            "ended": trace.is_ended,
             "x": column(|sample| sample.at.x),
             "y": column(|sample| sample.at.y),
             "missed": trace.samples.iter().map(|sample| sample.missed).collect::<Vec<bool>>(),

@@ -7,7 +7,7 @@ use super::host::Objects;
 use super::objects;
 use crate::diag::Diagnostic;
 use crate::errors;
-use crate::render::{Scene, svg};
+use crate::render::svg;
 use crate::session::Session;
 use crate::session::execution::Flow;
 use crate::session::host::Host as _;
@@ -34,7 +34,7 @@ pub fn answer_request(line: &str, session: &mut Session, host: &mut Objects) -> 
         (None, Some("measures")) => say(&objects::measures(session.world()), host),
         (None, Some("svg")) => {
             let options = session.picture_options();
-            let picture = svg(&Scene::new(session.world()), &options);
+            let picture = svg(&session.scene(), &options);
             say(&json!({ "type": "svg", "svg": picture }), host)
         }
         (None, Some("script")) => {

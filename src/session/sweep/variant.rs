@@ -7,7 +7,7 @@ use super::grid::Grid;
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::lang::ast::Statement;
 use crate::lang::parse;
-use crate::render::{Options, Scene, svg};
+use crate::render::{Options, svg};
 use crate::session::host::Host;
 use crate::session::quiet::Quiet;
 use crate::session::results::Results;
@@ -74,7 +74,7 @@ pub(super) struct Ran {
 impl Ran {
     /// A picture of the pose that it ended in.
     pub fn picture(&self, options: &Options) -> String {
-        svg(&Scene::new(self.session.world()), options)
+        svg(&self.session.scene(), options)
     }
 }
 

@@ -255,12 +255,12 @@ impl Recorder {
         Ok(scene.with_places(places.iter().map(|&[x, y]| Point::new(x, y)).collect()))
     }
 
-    /// The view that shows all of its scenes.
+    /// The view that shows all of its scenes, so wide, px.
     ///
     /// # Errors
     /// Where the tape cannot be read.
-    pub fn view(&self) -> io::Result<View> {
-        View::through(self.shots.len(), |frame| self.scene(frame))
+    pub fn view(&self, width: Option<u32>) -> io::Result<View> {
+        View::through(self.shots.len(), width, |frame| self.scene(frame))
     }
 
     /// All of its scenes as one picture that moves; none if `is_stopped` says so on the way.
@@ -274,7 +274,7 @@ impl Recorder {
     ) -> io::Result<Option<String>> {
         let scenes = self.shots.iter().filter_map(|shot| shot.scene.as_ref());
         let n_symbols = scenes.map(|scene| scene.n_symbols()).max().unwrap_or(0);
-        let mut movie = Animation::new(self.view()?, options);
+        let mut movie = Animation::new(self.view(options.width)?, options);
         for (frame, shot) in self.shots.iter().enumerate() {
             if is_stopped() {
                 return Ok(None);
@@ -297,7 +297,7 @@ impl Recorder {
         options: &Options,
         is_stopped: impl Fn() -> bool,
     ) -> io::Result<bool> {
-        let view = self.view()?;
+        let view = self.view(options.width)?;
         let n = self.shots.len();
         let span = match &self.shots[..] {
             [first, .., last] => last.time - first.time,
