@@ -145,7 +145,8 @@ impl Host for ProcessHost {
         if self.has_pager {
             output::page(lines);
         } else {
-            lines.iter().for_each(|line| output::answer_fitted(line));
+            let goes_on = |_: &&String| !self.is_interrupted();
+            lines.iter().take_while(goes_on).for_each(|line| output::answer_fitted(line));
         }
     }
 

@@ -228,6 +228,13 @@ impl<'a> Execution<'a> {
         }
     }
 
+    /// Gives an answer of several lines. One that is left by the user ends the command.
+    pub fn print_all(&mut self, lines: &[String]) {
+        self.host.print_all(lines);
+        // However long it was.
+        interrupt::tick(usize::MAX);
+    }
+
     /// Tells the user something that is not an answer.
     pub fn note(&mut self, text: impl Into<String>) {
         self.warn(&Diagnostic::note_only(text));

@@ -63,7 +63,8 @@ pub trait Host {
     /// Takes one line of the answer, without its line end.
     fn print(&mut self, line: &str);
 
-    /// Takes an answer of several lines that belong together: a terminal may show it page by page.
+    /// Takes an answer of several lines that belong together: a terminal may show it page by page, and
+    /// need not take the rest once the user wants to stop.
     fn print_all(&mut self, lines: &[String]) {
         lines.iter().for_each(|line| self.print(line));
     }

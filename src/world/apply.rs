@@ -46,7 +46,7 @@ impl World {
             Edit::Constraint(id, record) => Edit::Constraint(id, self.swap_constraint(id, record)),
             Edit::Switch(id, on) => {
                 self.touched.constraints.push(id);
-                self.dependencies.note_switch();
+                self.dependencies.note_switch(id);
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
             }

@@ -95,7 +95,7 @@ impl World {
     /// Puts a constraint in the place of the same one that was bound otherwise.
     pub(super) fn swap_bound(&mut self, id: ConstraintId, record: &mut Record) {
         self.touched.constraints.push(id);
-        self.dependencies.note_switch();
+        self.dependencies.note_switch(id);
         self.note_constraint(id);
         if let Some(now) = self.constraints.get_mut(id.idx()) {
             std::mem::swap(now, record);

@@ -25,8 +25,8 @@ pub(super) struct Dependencies {
     lists: LiveConstraints,
     /// Whether `order` has to be made anew.
     is_order_dirty: bool,
-    /// Whether the lists of constraints have to be made anew.
-    are_lists_dirty: bool,
+    /// Which constraints the lists may be wrong about.
+    unlisted: Unlisted,
     /// Whether time or points changed since the live parameters were evaluated.
     is_stale: bool,
     /// Whether some constraint has, or had, a value that may measure points.
@@ -45,6 +45,51 @@ pub(super) struct LiveConstraints {
     /// Motors that are switched on and whose speed is an expression that mentions time.
     pub ramps: Vec<Ramp>,
 }
+
+impl LiveConstraints {
+    /// Takes a constraint off all lists.
+    pub fn remove(&mut self, id: ConstraintId) {
+        for list in [&mut self.driven, &mut self.turned, &mut self.motors] {
+            if let Ok(k) = list.binary_search(&id) {
+                list.remove(k);
+            }
+        }
+        if let Ok(k) = self.ramps.binary_search_by_key(&id, |ramp| ramp.motor) {
+            self.ramps.remove(k);
+        }
+    }
+
+    /// Whether the same constraints are on each list.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let motors_of = |ramps: &[Ramp]| ramps.iter().map(|it| it.motor).collect::<Vec<_>>();
+        (&self.driven, &self.turned, &self.motors) == (&other.driven, &other.turned, &other.motors)
+            && motors_of(&self.ramps) == motors_of(&other.ramps)
+    }
+}
+
+/// Puts an item on a list where its key has its place.
+pub(super) fn enlist<T>(list: &mut Vec<T>, item: T, key: impl Fn(&T) -> ConstraintId) {
+    let place = match list.last() {
+        Some(last) if key(last) > key(&item) => list.partition_point(|it| key(it) < key(&item)),
+        _ => list.len(),
+    };
+    list.insert(place, item);
+}
+
+/// Which constraints the lists may be wrong about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) enum Unlisted {
+    /// None.
+    #[default]
+    None,
+    /// These.
+    Few(Vec<ConstraintId>),
+    /// All.
+    All,
+}
+
+/// So many changed constraints find their places on the lists faster than the lists are made anew.
+const FEW: usize = 50;
 
 /// A motor whose speed changes within a frame.
 #[derive(Debug, Clone)]
@@ -69,9 +114,16 @@ impl Dependencies {
         self.is_stale = true;
     }
 
-    /// A constraint was switched.
-    pub fn note_switch(&mut self) {
-        self.are_lists_dirty = true;
+    /// A constraint was switched, or bound otherwise.
+    pub fn note_switch(&mut self, id: ConstraintId) {
+        // What drives it may drive those that mention it.
+        let is_mentioned = self.has_members();
+        match &mut self.unlisted {
+            _ if is_mentioned => self.unlisted = Unlisted::All,
+            Unlisted::None => self.unlisted = Unlisted::Few(vec![id]),
+            Unlisted::Few(ids) if ids.len() < FEW => ids.push(id),
+            Unlisted::Few(_) | Unlisted::All => self.unlisted = Unlisted::All,
+        }
     }
 
     /// Live parameters, each after those it mentions.
@@ -129,9 +181,14 @@ impl Dependencies {
         self.order = order;
     }
 
-    /// Whether the lists of constraints are to be made anew; they count as made from here on.
-    pub fn take_lists_dirty(&mut self) -> bool {
-        std::mem::take(&mut self.are_lists_dirty)
+    /// Which constraints the lists may be wrong about; they count as right from here on.
+    pub fn take_unlisted(&mut self) -> Unlisted {
+        std::mem::take(&mut self.unlisted)
+    }
+
+    /// Lends the lists, to be [given back](Self::set_lists).
+    pub fn take_lists(&mut self) -> LiveConstraints {
+        std::mem::take(&mut self.lists)
     }
 
     /// Says what of constraints is live.
@@ -197,7 +254,9 @@ impl Dependencies {
             (Some((was, a)), Some((is, b))) => {
                 let is_like_before = a.is_live() == b.is_live() && was.is_same(is);
                 self.is_order_dirty |= (a.is_live() || b.is_live()) && !is_like_before;
-                self.are_lists_dirty |= a != b;
+                if a != b {
+                    self.unlisted = Unlisted::All;
+                }
             }
             (Some((_, depends)), None) => self.is_order_dirty |= depends.is_live(),
             _ => {}
@@ -222,7 +281,9 @@ impl Dependencies {
         };
         self.has_measures |= new.is_some_and(measures);
         let is_listed = |record: &Record| !record.drivers().is_empty() || is_motor(record);
-        self.are_lists_dirty |= [old, new].into_iter().flatten().any(is_listed);
+        if [old, new].into_iter().flatten().any(is_listed) {
+            self.note_switch(id);
+        }
         // What it measures, and by how much it is missed, may be other numbers now.
         self.is_stale |= self.has_members();
     }

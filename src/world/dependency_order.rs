@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::dependencies::{LiveConstraints, Ramp, is_motor};
+use super::dependencies::{LiveConstraints, Ramp, Unlisted, enlist, is_motor};
 use super::{ConstraintId, Depends, Entity, Formula, Mention, ParameterId, Record, World};
 use crate::constraint::{ConstraintKind as _, Field};
 use crate::terms::Member;
@@ -63,29 +63,51 @@ impl World {
 
     /// Brings the lists of driven constraints and motors up to date.
     pub(super) fn sort_constraints(&mut self) {
-        if !self.dependencies.take_lists_dirty() {
+        let unlisted = self.dependencies.take_unlisted();
+        if unlisted == Unlisted::None {
             return;
         }
         self.sort_parameters();
-        let mut lists = LiveConstraints::default();
-        for (id, record) in self.constraints() {
-            if record.is_on && is_turning(record) {
-                match record.driver(Field::Speed).filter(|speed| self.depends(speed).on_time) {
-                    Some(speed) => lists.ramps.push(self.ramp(id, speed)),
-                    None => lists.motors.push(id),
+        let lists = match unlisted {
+            Unlisted::Few(ids) => {
+                let mut lists = self.dependencies.take_lists();
+                for id in ids {
+                    lists.remove(id);
+                    if let Some(record) = self.constraint(id) {
+                        self.list(id, record, &mut lists);
+                    }
                 }
+                debug_assert!(lists.is_like(&self.all_lists()), "each has its place");
+                lists
             }
-            if record.live().iter().any(|(_, formula)| self.depends(formula).is_live()) {
-                lists.driven.push(id);
-            }
-            let is_turned =
-                |formula: &Formula| self.depends(formula).on_angles || formula.counts_turns();
-            if record.live().iter().any(|(_, formula)| is_turned(formula)) {
-                lists.turned.push(id);
-            }
-        }
+            Unlisted::None | Unlisted::All => self.all_lists(),
+        };
         self.dependencies.set_lists(lists);
         self.log.note_motor_lists();
+    }
+
+    fn all_lists(&self) -> LiveConstraints {
+        let mut lists = LiveConstraints::default();
+        self.constraints().for_each(|(id, record)| self.list(id, record, &mut lists));
+        lists
+    }
+
+    /// Puts a constraint on the lists where it belongs.
+    fn list(&self, id: ConstraintId, record: &Record, lists: &mut LiveConstraints) {
+        if record.is_on && is_turning(record) {
+            match record.driver(Field::Speed).filter(|speed| self.depends(speed).on_time) {
+                Some(speed) => enlist(&mut lists.ramps, self.ramp(id, speed), |ramp| ramp.motor),
+                None => enlist(&mut lists.motors, id, |id| *id),
+            }
+        }
+        if record.live().iter().any(|(_, formula)| self.depends(formula).is_live()) {
+            enlist(&mut lists.driven, id, |id| *id);
+        }
+        let is_turned =
+            |formula: &Formula| self.depends(formula).on_angles || formula.counts_turns();
+        if record.live().iter().any(|(_, formula)| is_turned(formula)) {
+            enlist(&mut lists.turned, id, |id| *id);
+        }
     }
 
     /// A motor with a speed that mentions time, and what of its parameters time changes.

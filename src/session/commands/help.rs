@@ -24,7 +24,7 @@ impl Execution<'_> {
                 .map(str::to_owned)
                 .collect(),
         };
-        self.host.print_all(&lines);
+        self.print_all(&lines);
         Ok(())
     }
 
@@ -34,7 +34,7 @@ impl Execution<'_> {
             Some(topic) => self.state.help_on(topic)?,
         };
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        self.host.print_all(&lines);
+        self.print_all(&lines);
         Ok(())
     }
 }

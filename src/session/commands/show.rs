@@ -217,7 +217,7 @@ impl Execution<'_> {
                 format!("define {}({})", definition.name.text, names.join(", "))
             }));
         }
-        self.host.print_all(&lines);
+        self.print_all(&lines);
         if lines.is_empty() {
             let nothing = match what {
                 None => "nothing here yet",
@@ -313,7 +313,7 @@ impl Execution<'_> {
     pub(crate) fn tell_history(&mut self) {
         let typed = self.input.typed();
         let lines: Vec<String> = typed.flat_map(str::lines).map(str::to_owned).collect();
-        self.host.print_all(&lines);
+        self.print_all(&lines);
     }
 }
 
