@@ -21,21 +21,21 @@ pub struct Rates {
 pub(super) struct Here<'a> {
     world: &'a World,
     rates: Option<&'a Rates>,
-    /// What parameters that depend on rates came to.
-    values: BTreeMap<ParameterId, Result<Value, Diagnostic>>,
+    /// What parameters that depend on rates came to; none without rates.
+    values: Option<BTreeMap<ParameterId, Result<Value, Diagnostic>>>,
 }
 
 impl<'a> Here<'a> {
     /// The world as it stands, live parameters being up to date. Without `rates` what
     /// mentions a velocity has no value.
     pub fn new(world: &'a World, rates: Option<&'a Rates>) -> Self {
-        let mut here = Self { world, rates, values: BTreeMap::new() };
+        let mut here = Self { world, rates, values: None };
         if rates.is_some() {
             for &id in world.dependencies.order() {
                 let parameter = world.parameter(id).expect("a listed parameter lives");
                 if parameter.depends.on_rates {
                     let value = parameter.formula.evaluate(&here);
-                    here.values.insert(id, value);
+                    here.values.get_or_insert_default().insert(id, value);
                 }
             }
         }
@@ -49,7 +49,7 @@ impl Environment<f64> for Here<'_> {
         if let Some(value) = parameter.value {
             return Ok(value);
         }
-        if let Some(value) = self.values.get(&id) {
+        if let Some(value) = self.values.as_ref().and_then(|values| values.get(&id)) {
             return value.clone();
         }
         if parameter.depends.on_measures && !parameter.depends.on_rates {

@@ -72,13 +72,13 @@ pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Measure, Parameter, Record};
-pub use samples::SampleList;
+pub use samples::{Sample, SampleList};
 pub use smooth::Reading;
 pub use state::World;
 pub use tally::{Extremes, Tally};
 #[doc(hidden)]
 pub use touched::Touched;
-pub use trace::{Ghost, Sample, Trace};
+pub use trace::{Ghost, Trace};
 pub use turning::{TurnCount, Turning};
 pub use user::User;
 pub use value::Value;

@@ -8,7 +8,7 @@
 use std::borrow::Cow;
 use std::ops::Index;
 
-use super::Sample;
+use crate::constraint::Point;
 
 /// A repeated sample may differ by this part of the size of its lap: that is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -21,6 +21,15 @@ const FEW: usize = 32;
 
 /// So long at first it is waited whether a sample comes again, before another one is waited for.
 const FIRST_WAIT: usize = 64;
+
+/// One place of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The place.
+    pub at: Point,
+    /// Whether the frame missed its tolerance.
+    pub missed: bool,
+}
 
 /// Samples in order of time.
 #[derive(Debug, Clone, Default)]
@@ -333,7 +342,7 @@ impl FromIterator<Sample> for SampleList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constraint::{Point, Vector};
+    use crate::constraint::Vector;
 
     fn sample(x: f64, y: f64) -> Sample {
         Sample { at: Point::new(x, y), missed: false }

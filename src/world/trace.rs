@@ -20,15 +20,6 @@ pub struct Trace {
     pub samples: SampleList,
 }
 
-/// One place of a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// The place.
-    pub at: Point,
-    /// Whether the frame missed its tolerance.
-    pub missed: bool,
-}
-
 /// The mechanism as it stood at one time: the positions of all points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ghost {

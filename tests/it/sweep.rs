@@ -67,6 +67,23 @@ fn each_variant_has_its_row() {
 }
 
 #[test]
+fn each_row_is_what_a_run_with_its_values_says() {
+    let script = SLIDER.replace("step 36", "trace S; set measures sampled; step 36");
+    for script in [SLIDER, &script] {
+        let folder = folder(&[("slider.link", script)]);
+        fine(&sweep(folder.path(), &["--set", "r=0.4..1:0.3", "--set", "l=3,0.5"]));
+        let table = table(folder.path(), "sweep.csv");
+        for row in rows(&table) {
+            let [r, l] = [1, 2].map(|at| format!("{}={}", ["", "r", "l"][at], row[at]));
+            let run = run(folder.path(), &["run", "slider.link", "--set", &r, "--set", &l], "");
+            fine(&run);
+            let wanted = format!("height = {}\nstroke = {}\n", row[3], row[4]);
+            assert_eq!(text(&run.stdout), wanted, "of {row:?}");
+        }
+    }
+}
+
+#[test]
 fn what_goes_wrong_is_in_its_row() {
     let script = SLIDER.replace("step 36", "step 36; assert l > 1.5");
     let folder = folder(&[("slider.link", &script)]);

@@ -1,13 +1,14 @@
 // Measures the page in a real browser: from a pointer event until the picture that answers it is drawn,
 // until the frame has ended that shows it, and how long that takes in a page that only leads an
-// element after the pointer; frames a second while time passes.
+// element after the pointer; what a move takes of the processor, in the thread of the page and in the
+// program; frames a second while time passes.
 //
 //   node web/page/measure.mjs [--playground web/dist/index.html] [--program target/release/linkwork]
 //
 // Chromium without a display paints in software; on a machine with one, figures are better.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -107,7 +108,7 @@ async function session(script) {
     child.kill();
     rmSync(cwd, { recursive: true, force: true });
   };
-  return { address, end };
+  return { address, end, pid: child.pid };
 }
 
 /** Notes when the pointer moved, when that was drawn, and when the frame ended that shows it. */
@@ -232,16 +233,34 @@ async function lead(page, start, reach) {
   return found;
 }
 
-/** Frames a second while time passes, and what each takes of the page's thread: time of the processor,
- * which does not count what others do on the machine. */
-async function rate(page) {
+/** Tells how long the page's thread has been busy, ms: time of the processor, which does not count what others
+ * do on the machine. */
+async function clockOf(page) {
   const cdp = await page.context().newCDPSession(page);
   await cdp.send("Performance.enable", { timeDomain: "threadTicks" });
-  const look = async () => {
+  return async () => {
     const { metrics } = await cdp.send("Performance.getMetrics");
-    const busy = metrics.find(({ name }) => name === "TaskDuration").value;
-    return { busy, n: await page.evaluate(() => window.nFrames) };
+    return 1000 * metrics.find(({ name }) => name === "TaskDuration").value;
   };
+}
+
+/** The same of a program, where the system says it; of a worker it cannot be told. */
+function busyOf(pid) {
+  try {
+    const threads = readdirSync(`/proc/${pid}/task`);
+    const times = threads.map((it) => readFileSync(`/proc/${pid}/task/${it}/schedstat`, "utf8"));
+    return times.reduce((sum, time) => sum + Number(time.split(" ")[0]) / 1e6, 0);
+  } catch {
+    return Number.NaN;
+  }
+}
+
+/** Frames a second while time passes, and what each takes of the page's thread. */
+async function rate(page, busy) {
+  const look = async () => ({
+    busy: await busy(),
+    n: await page.evaluate(() => window.nFrames),
+  });
   await page.click("#play");
   await page.waitForTimeout(1000);
   const before = await look();
@@ -249,7 +268,7 @@ async function rate(page) {
   const after = await look();
   await page.click("#play");
   const n = after.n - before.n;
-  return { rate: n / SECONDS, busy: (1000 * (after.busy - before.busy)) / n };
+  return { rate: n / SECONDS, busy: (after.busy - before.busy) / n };
 }
 
 function percentile(found, share) {
@@ -260,7 +279,7 @@ function percentile(found, share) {
 /** The median and what one in twenty is beyond. */
 const told = (found) => [0.5, 0.95].map((share) => percentile(found, share).toFixed(1));
 
-async function measure(browser, engine, scene, address) {
+async function measure(browser, engine, scene, address, pid) {
   const context = await browser.newContext({ viewport: { width: 1200, height: 800 } });
   await context.addInitScript(watch);
   const floor = await context.newPage();
@@ -270,15 +289,20 @@ async function measure(browser, engine, scene, address) {
   await settle(page);
   const start = await gripOf(page, scene);
   const found = { written: [], shown: [], floor: [] };
+  const busy = await clockOf(page);
+  const taken = { page: 0, engine: 0 };
   // In turn, so that what others do on the machine is the same for both.
   for (let round = 0; round < N_ROUNDS; round++) {
     const bare = await lead(floor, start, scene.reach);
     found.floor.push(...bare.shown);
+    const [page0, engine0] = [await busy(), busyOf(pid)];
     const ours = await lead(page, start, scene.reach);
+    taken.page += ((await busy()) - page0) / (N_ROUNDS * N_MOVES);
+    taken.engine += (busyOf(pid) - engine0) / (N_ROUNDS * N_MOVES);
     found.written.push(...ours.written);
     found.shown.push(...ours.shown);
   }
-  const frames = await rate(page);
+  const frames = await rate(page, busy);
   await context.close();
   const row = [
     scene.name,
@@ -288,6 +312,8 @@ async function measure(browser, engine, scene, address) {
     `${scene.goal}`,
     ...told(found.shown),
     ...told(found.floor),
+    taken.page.toFixed(1),
+    Number.isNaN(taken.engine) ? "–" : taken.engine.toFixed(1),
     frames.rate.toFixed(0),
     frames.busy.toFixed(1),
   ];
@@ -296,13 +322,13 @@ async function measure(browser, engine, scene, address) {
 
 const browser = await chromium.launch({ executablePath: values.chromium, args: ["--no-sandbox"] });
 const COLUMNS =
-  "scene | engine | moves | drawn, ms | 95 % | goal | shown, ms | 95 % | floor, ms | 95 % | frames a second | page, ms a frame";
+  "scene | engine | moves | drawn, ms | 95 % | goal | shown, ms | 95 % | floor, ms | 95 % | page, ms a move | program, ms a move | frames a second | page, ms a frame";
 console.log(`| ${COLUMNS} |`);
 console.log(`|${COLUMNS.replaceAll(/[^|]+/g, "---")}|`);
 for (const scene of SCENES) {
-  const { address, end } = await session(scene.script);
+  const { address, end, pid } = await session(scene.script);
   try {
-    await measure(browser, "socket", scene, address);
+    await measure(browser, "socket", scene, address, pid);
   } finally {
     end();
   }

@@ -1,6 +1,7 @@
 //! `linkwork sweep`: a script run for every variant of a grid, on all cores, into one table.
 
 mod in_order;
+mod plan;
 mod table;
 
 use std::io;
@@ -13,17 +14,13 @@ use super::process_host::ProcessHost;
 use super::progress::ProgressBar;
 use super::run::{ExitStatus, Talk};
 use super::{files, output};
-use crate::diag::{Diagnostic, Kind, Sources, format_count};
-use crate::errors;
+use crate::diag::{Diagnostic, Sources};
 use crate::render::Options;
-use crate::session::{
-    Finding, Grid, Host, Refusal, Shard, Sweep, SweepScript, Swept, Variant, picture_sheet, reason,
-};
+use crate::session::{Finding, Host, Refusal, Swept, picture_sheet};
 use in_order::in_order;
+use plan::{Counts, Plan, failure, unwritable};
 use table::Table;
 
-/// A grid of more variants has to be meant.
-const MOST_VARIANTS: f64 = 1e8;
 /// Rows that a core takes at once.
 const CHUNK: u64 = 8;
 /// Pictures on a sheet.
@@ -40,62 +37,7 @@ pub fn sweep(wish: &SweepArguments) -> ExitStatus {
     })
 }
 
-fn failure(problem: Diagnostic) -> Refusal {
-    (problem, Sources::new())
-}
-
-fn unwritable(name: &str, e: &io::Error) -> Diagnostic {
-    Diagnostic::error(errors::CANNOT_WRITE, format!("cannot write `{name}`: {}", reason(e)))
-        .kind(Kind::Unreadable)
-}
-
-/// A sweep, and what the user wants of it.
-struct Plan<'a> {
-    wish: &'a SweepArguments,
-    sweep: Sweep,
-    shard: Shard,
-}
-
-impl<'a> Plan<'a> {
-    fn begin(wish: &'a SweepArguments) -> Result<Self, Refusal> {
-        let text = files::read(&wish.file).map_err(|e| {
-            let message = format!("cannot read `{}`: {}", wish.file.display(), reason(&e));
-            failure(Diagnostic::error(errors::CANNOT_READ, message).kind(Kind::Unreadable))
-        })?;
-        let grid = Grid { axes: wish.host.set.clone() };
-        let n = grid.n_variants();
-        if n > MOST_VARIANTS && !wish.host.force {
-            let message = format!("{} variants are a great many", format_count(n));
-            return Err(failure(
-                Diagnostic::error(errors::OUT_OF_RANGE, message)
-                    .help("larger steps make fewer; `--force` runs them all the same"),
-            ));
-        }
-        let folder = wish.file.parent().map(Path::to_path_buf).unwrap_or_default();
-        let limits = wish.host.limits.clone();
-        let script = SweepScript::read(&wish.file.to_string_lossy(), &text, folder, limits)?;
-        let sweep = Sweep::begin(script, grid, &mut new_host(wish))?;
-        Ok(Self { wish, sweep, shard: wish.shard.unwrap_or(Shard::WHOLE) })
-    }
-
-    fn host(&self) -> ProcessHost {
-        new_host(self.wish)
-    }
-
-    /// How many rows the table is to have.
-    fn n_rows(&self) -> u64 {
-        self.shard.n_rows(self.sweep.n_variants())
-    }
-
-    /// A row of the table, and how its variant went; none where the user stops it.
-    fn row(&self, row: u64, host: &mut dyn Host) -> Option<(String, Counts)> {
-        let variant = self.sweep.variant(self.shard.variant(row), host)?;
-        let columns = self.sweep.columns();
-        let text =
-            if self.wish.host.json { columns.object(&variant) } else { columns.row(&variant) };
-        Some((text, Counts::of(&variant)))
-    }
-
+impl Plan<'_> {
     fn run(&self, host: &mut dyn Host) -> Result<ExitStatus, Refusal> {
         // What was said comes before rows that go the same way.
         output::flush();
@@ -214,10 +156,6 @@ impl<'a> Plan<'a> {
     }
 }
 
-fn new_host(wish: &SweepArguments) -> ProcessHost {
-    ProcessHost::new(&wish.host, files::folder_of(&wish.file))
-}
-
 fn tell(text: &str, host: &mut dyn Host) {
     host.tell(&Diagnostic::note_only(text), &Sources::new());
 }
@@ -268,28 +206,4 @@ struct Chunk {
     n_rows: u64,
     text: String,
     counts: Counts,
-}
-
-/// How variants went, together.
-#[derive(Debug, Default)]
-struct Counts {
-    failed: u64,
-    missed: u64,
-    dead: u64,
-}
-
-impl Counts {
-    fn of(variant: &Variant) -> Self {
-        Self {
-            failed: u64::from(variant.failure.is_some()),
-            missed: u64::from(variant.n_missed > 0),
-            dead: u64::from(variant.n_dead_points > 0),
-        }
-    }
-
-    fn join(&mut self, other: &Self) {
-        self.failed += other.failed;
-        self.missed += other.missed;
-        self.dead += other.dead;
-    }
 }

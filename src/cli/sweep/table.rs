@@ -4,7 +4,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use super::{Plan, failure, unwritable};
+use super::plan::{Plan, failure, unwritable};
 use crate::cli::files;
 use crate::diag::{Diagnostic, Kind};
 use crate::errors;

@@ -50,8 +50,10 @@ pub fn parse_axis(text: &str) -> Result<Axis, Diagnostic> {
             ));
         }
         if n_steps >= MOST_VALUES {
-            let message =
-                format!("{} values are too many for one parameter", format_count(n_steps));
+            let message = format!(
+                "{} values are too many for one parameter: use a larger STEP in LEAST..MOST:STEP",
+                format_count(n_steps)
+            );
             return Err(Diagnostic::error(errors::OUT_OF_RANGE, message));
         }
         let n = (n_steps + SLACK).floor() as u64;

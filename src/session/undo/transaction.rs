@@ -26,7 +26,7 @@ impl State {
                 };
                 Change::Definition(definition)
             }
-            Change::Memory(recall) => Change::Memory(Box::new(self.solver.recall(*recall))),
+            Change::Memory(recall) => Change::Memory(Box::new(self.solver.recall(&recall))),
             Change::Recorder(idx, Some(recorder)) => {
                 self.recorders.insert(idx, *recorder);
                 Change::Recorder(idx, None)
@@ -76,7 +76,7 @@ impl State {
         let outer = solver.begin_recall();
         let answer = interrupt::catch(|| ask(solver, world, &preferences.solve));
         if let Some(recall) = solver.end_recall(outer) {
-            solver.recall(recall);
+            solver.recall(&recall);
         }
         answer.unwrap_or_else(|stopped| {
             solver.begin_anew();

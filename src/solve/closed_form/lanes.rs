@@ -6,6 +6,7 @@ use super::found::Found;
 use super::run::make;
 use crate::constraint::{Constraint, Heading, Point};
 use crate::solve::island::Island;
+use crate::world::{ConstraintId, World};
 
 /// No more poses than these are remembered before the present one.
 const MOST_PAST: usize = 3;
@@ -119,6 +120,13 @@ impl Lanes {
         }
         let headings = self.headings.iter().map(|of_crank| of_crank[l]);
         point(form, &mut island.constraints, headings);
+    }
+
+    /// Tells the world how the cranks point at the end of a frame.
+    pub fn hand_over(&self, l: usize, form: &ClosedForm, ids: &[ConstraintId], world: &mut World) {
+        for (crank, of_crank) in form.cranks.iter().zip(&self.headings) {
+            crank.point_in(world, ids, of_crank[l]);
+        }
     }
 
     /// The first `n` frames count, and those after them do not.

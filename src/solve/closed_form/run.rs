@@ -5,7 +5,7 @@ use super::found::Found;
 use super::length::Values;
 use super::{ClosedForm, Crank, Radius, Step};
 use crate::constraint::{
-    Constraint, ConstraintKind as _, Field, Motor, Point, PointIdx, Stateful as _, Vector,
+    Constraint, ConstraintKind as _, Field, Heading, Motor, Point, PointIdx, Stateful as _, Vector,
 };
 use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
@@ -145,11 +145,8 @@ impl ClosedForm {
     /// Points the motors of a world, which have these handles, as those here.
     pub fn hand_over(&self, constraints: &[Constraint], ids: &[ConstraintId], world: &mut World) {
         for crank in &self.cranks {
-            let c = crank.motor as usize;
-            if let (Constraint::Motor(here), Constraint::Motor(there)) =
-                (&constraints[c], world.constraint_state_mut(ids[c]))
-            {
-                there.set_heading(here.heading());
+            if let Constraint::Motor(here) = &constraints[crank.motor as usize] {
+                crank.point_in(world, ids, here.heading());
             }
         }
     }
@@ -248,6 +245,13 @@ impl Crank {
         match &mut constraints[self.motor as usize] {
             Constraint::Motor(motor) => Some(motor),
             _ => None,
+        }
+    }
+
+    /// Points its motor, in a world where the constraints of its island have these handles.
+    pub fn point_in(&self, world: &mut World, ids: &[ConstraintId], heading: Heading) {
+        if let Constraint::Motor(there) = world.constraint_state_mut(ids[self.motor as usize]) {
+            there.set_heading(heading);
         }
     }
 

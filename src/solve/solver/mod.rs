@@ -244,7 +244,7 @@ impl Solver {
 
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
     /// to become so before the solver is called again.
-    pub fn recall(&mut self, then: Recall) -> Recall {
+    pub fn recall(&mut self, then: &Recall) -> Recall {
         let mut islands: Vec<(PointId, Kept)> = then.iter().collect();
         let mut others = Vec::new();
         exchange(&mut self.pending, &mut islands, |k| others.push(k));

@@ -105,8 +105,8 @@ impl Solver {
             } else if course.frame(&mut riders, &mut stretch) {
                 stretch.n_frames += 1;
                 if kept.is_traced {
-                    riders.iter().for_each(|rider| write_back(&rider.island, world));
-                    failure = keep(&mut riders, world, kept, on).err();
+                    riders.iter().for_each(|rider| rider.write_back(world, kept));
+                    failure = keep(&mut riders, None, world, kept, on).err();
                 }
                 is_side_by_side = riders.iter().all(|rider| rider.form.is_for_lanes());
             } else {
@@ -161,22 +161,34 @@ impl Solver {
     }
 }
 
-/// Keeps of a frame what is kept of each; the world has where points are.
-fn keep(riders: &mut [Rider], world: &mut World, kept: Kept, on: &Along) -> Result<(), Diagnostic> {
+/// Keeps of a frame what is kept of each, of the one in this lane or of that which the islands are at; the
+/// world has all that is looked at.
+fn keep(
+    riders: &mut [Rider],
+    lane: Option<usize>,
+    world: &mut World,
+    kept: Kept,
+    on: &Along,
+) -> Result<(), Diagnostic> {
     world.pass(1);
     world.sample_traces(false);
-    if kept.is_measured { measure(riders, world, on.extremes) } else { Ok(()) }
+    if kept.is_measured { measure(riders, lane, world, on.extremes) } else { Ok(()) }
 }
 
-/// Measures the pose of a frame, which the world has all of but how far motors have turned.
-fn measure(riders: &mut [Rider], world: &mut World, extremes: Extremes) -> Result<(), Diagnostic> {
-    for Rider { island, form, .. } in riders.iter() {
-        form.hand_over(&island.constraints, &island.ids, world);
-    }
+/// Measures the pose of a frame; the islands are shown to be at it where it is asked how they move.
+fn measure(
+    riders: &mut [Rider],
+    lane: Option<usize>,
+    world: &mut World,
+    extremes: Extremes,
+) -> Result<(), Diagnostic> {
     let mut rates = |world: &mut World| {
         let still = || vec![Vector::ZERO; world.points().column().len()];
         let mut rates = Rates { velocity: still(), acceleration: still() };
         for rider in riders.iter_mut() {
+            if let Some(l) = lane {
+                rider.show(l);
+            }
             // Nothing but motors changes in time.
             velocity::add_rates(&mut rider.island, &[], &mut rates);
         }
@@ -239,8 +251,8 @@ impl Course<'_> {
             for l in 0..n {
                 riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, stretch));
                 if kept.is_traced {
-                    riders.iter_mut().for_each(|rider| rider.tell(l, world, kept));
-                    result = keep(riders, world, kept, on);
+                    riders.iter().for_each(|rider| rider.tell(l, world, kept));
+                    result = keep(riders, Some(l), world, kept, on);
                 }
                 if result.is_err() {
                     n_done = l + 1;
@@ -375,12 +387,30 @@ impl Rider {
         }
     }
 
-    /// Tells the world of a frame that was found beside others what is kept of it.
-    fn tell(&mut self, l: usize, world: &mut World, kept: Kept) {
+    /// Tells the world of the frame that the island is at what is kept of it.
+    fn write_back(&self, world: &mut World, kept: Kept) {
+        write_back(&self.island, world);
+        if kept.is_measured {
+            self.form.hand_over(&self.island.constraints, &self.island.ids, world);
+        }
+    }
+
+    /// Puts the island to where it is at the end of a frame that was found beside others.
+    fn show(&mut self, l: usize) {
+        if let Some(lanes) = &self.lanes {
+            lanes.show(l, &self.form, &mut self.island);
+        }
+    }
+
+    /// Tells the world of a frame that was found beside others what is kept of it: nothing in it has a
+    /// state but its motors.
+    fn tell(&self, l: usize, world: &mut World, kept: Kept) {
         let Self { island, form, lanes: Some(lanes), traced, .. } = self else { return };
         if kept.is_measured {
-            lanes.show(l, form, island);
-            write_back(island, world);
+            for (p, &id) in island.points[..island.n_free].iter().enumerate() {
+                world.set_position(id, lanes.at(p, l));
+            }
+            lanes.hand_over(l, form, &island.ids, world);
         } else {
             traced.iter().for_each(|&(p, id)| world.set_position(id, lanes.at(p, l)));
         }

@@ -99,14 +99,14 @@ fn an_island_that_was_not_touched_is_not_made_anew_when_others_are_brought_back(
     s.world.go_to(moment);
     s.world.take_touched(Box::new(Touched::default()));
     s.move_to(b, 41.0, 0.5);
-    s.solver.recall(recall);
+    s.solver.recall(&recall);
     run(&mut s, 5);
     assert_eq!(s.bits(), first);
     let outer = s.solver.begin_recall();
     s.move_to(b, 41.0, -0.5);
     s.solver.sync(&mut s.world, &s.settings);
     let recall = s.solver.end_recall(outer).expect("it was asked for");
-    s.solver.recall(recall);
+    s.solver.recall(&recall);
     // Only the rod was touched.
     let report = s.solver.settle(&mut s.world, &s.settings, &Budget::default());
     assert_eq!(report.counters.islands_rebuilt, 1);
