@@ -164,7 +164,7 @@ const STOPPED: &str = "
     crank: motor O P radius 2 speed 1rev
     length P S = l
     glider S on O E unbounded
-    set dt 1/60
+    set dt 1/20
     measure x = S.x
     measure y = P.y";
 
@@ -181,14 +181,14 @@ fn a_trial_is_a_run() {
     ] {
         let mut talking = Talking::after(&format!("{STOPPED}\n{settings}"));
         talking.talk.told.clear();
-        talking.run("fit l in 1.2..1.6 to maximise x.span over 90");
+        talking.run("fit l in 1.2..1.6 to maximise x.span over 30");
         let told = talking.talk.told();
         let best = told.iter().find_map(|it| it.strip_prefix("l = ")).expect("the best");
         let best: f64 = best.parse().expect("a number");
         assert_eq!(number(&mut talking, "l").to_bits(), best.to_bits());
         let how =
             told.iter().find(|it| it.starts_with("x.span = ")).expect("how good it is").clone();
-        talking.run("measure x = S.x; step 90");
+        talking.run("measure x = S.x; step 30");
         let found = number(&mut talking, "x.span");
         let said = how["x.span = ".len()..].split(',').next().expect("a value").to_owned();
         let said: f64 = said.parse().expect("a number");
@@ -197,7 +197,7 @@ fn a_trial_is_a_run() {
     // Where the run ends before its frames, nothing is found.
     let mut talking = Talking::after(&format!("{STOPPED}\nset dead-points stop"));
     let problem =
-        talking.execute("fit l in 1.2..1.6 to maximise x.span over 90").expect_err("stopped");
+        talking.execute("fit l in 1.2..1.6 to maximise x.span over 30").expect_err("stopped");
     assert!(talking.drawn(&problem).contains("none of these numbers gives a motion"));
 }
 
