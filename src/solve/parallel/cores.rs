@@ -10,8 +10,8 @@ pub fn n_cores() -> usize {
 /// More cores than this are nothing that a mechanism could use.
 const MOST_CORES: usize = 1024;
 
-/// Works with so many cores from now on, at least one and at most [`MOST_CORES`]; what comes out is the same to the bit.
-/// Only the first call counts, and only before there was work to share.
+/// Works with so many cores from now on, at least one and at most 1024; what comes out is the same to the
+/// bit. Only the first call counts, and only before there was work to share.
 pub fn limit_cores(n: usize) {
     // Fails only where it was said before: a process has one crew.
     let crew = rayon::ThreadPoolBuilder::new().num_threads(n.clamp(1, MOST_CORES));
