@@ -198,6 +198,12 @@ impl Diagnostic {
         self
     }
 
+    /// The same where nothing else says it.
+    #[must_use]
+    pub fn or_help(self, text: impl Into<String>) -> Self {
+        if self.helps.is_empty() { self.help(text) } else { self }
+    }
+
     /// Adds what else is worth knowing.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {

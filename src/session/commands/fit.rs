@@ -84,11 +84,8 @@ impl Execution<'_> {
         }
         let mut all: Vec<Fitted> = Vec::new();
         for FitRange { name, range } in ranges {
-            let entity = self.resolve().entity(name).map_err(|problem| match &problem.helps[..] {
-                [] => {
-                    problem.help(format!("`let {name} = 1` declares it; then something follows it"))
-                }
-                _ => problem,
+            let entity = self.resolve().entity(name).map_err(|problem| {
+                problem.or_help(format!("`let {name} = 1` declares it; then something follows it"))
             });
             let Entity::Parameter(id) = entity? else {
                 return Err(Diagnostic::error(errors::WRONG_SORT, "`fit` looks for parameters")

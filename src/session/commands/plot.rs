@@ -98,10 +98,15 @@ impl Execution<'_> {
     /// The measure of this name.
     fn plotted(&mut self, expr: &Expr) -> Result<Measure, Diagnostic> {
         let found = match expr.as_name() {
-            Some(name) => match self.resolve().meaning(name)? {
-                (Meaning::Entity(Entity::Measure(id)), None) => self.state.world.measure(id),
-                _ => None,
-            },
+            Some(name) => {
+                let meaning = self.resolve().meaning(name).map_err(|problem| {
+                    problem.or_help(format!("`measure {name} = VALUE` before the run makes it"))
+                })?;
+                match meaning {
+                    (Meaning::Entity(Entity::Measure(id)), None) => self.state.world.measure(id),
+                    _ => None,
+                }
+            }
             None => None,
         };
         found.cloned().ok_or_else(|| {
