@@ -334,10 +334,17 @@ mod pixels {
 
     #[test]
     fn a_png_is_as_wide_as_its_statement_says_and_twice_the_drawing_without() {
+        let drawn = |statement| String::from_utf8(file(statement, "p.svg")).expect("a text");
+        let is_of = |svg: &str, [width, height]: [u32; 2]| {
+            svg.contains(&format!(" height=\"{height}\" viewBox=\"0 0 {width} {height}\""))
+        };
         let [width, height] = size(&file("svg \"p.png\"", "p.png"));
         assert_eq!(width, 1600);
-        let [narrow, low] = size(&file("svg \"p.png\" width 400", "p.png"));
-        assert_eq!((narrow, low), (400, (height + 2) / 4));
+        assert!(is_of(&drawn("svg \"p.svg\""), [width / 2, height / 2]), "{height}");
+        // It is laid out for that width, as the drawing is.
+        let narrow = size(&file("svg \"p.png\" width 400", "p.png"));
+        assert_eq!(narrow[0], 400);
+        assert!(is_of(&drawn("svg \"p.svg\" width 400"), narrow), "{narrow:?}");
     }
 
     #[test]
