@@ -1,5 +1,6 @@
 """Sweeps with Dask on two workers, kills one of them midway, and compares with a sweep in one go."""
 
+import contextlib
 import csv
 import os
 import signal
@@ -25,9 +26,11 @@ def kill_one(client, done, killed):
                 ["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True, check=False
             ).stdout.split()
             os.kill(pid, signal.SIGKILL)
-            for child in children:
-                os.kill(int(child), signal.SIGKILL)
             killed.append(pid)
+            for child in children:
+                # It may have ended by itself.
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(child), signal.SIGKILL)
             print("killed a worker after", len(begun), "parts were begun")
             return
         time.sleep(0.01)

@@ -104,7 +104,12 @@ def test_the_program_outlives_ctrl_c(session):
     # It goes to the whole group of processes: what waits for a question goes on waiting.
     for _ in range(3):
         session._process.send_signal(signal.SIGINT)
-        assert session.evaluate("1 + 1") == 2
+        try:
+            answer = session.evaluate("1 + 1")
+        except LinkworkError:
+            # It came late, and stopped the question.
+            answer = session.evaluate("1 + 1")
+        assert answer == 2
     # What runs is stopped, whenever that comes: here it says that it runs.
     session.run(FOUR_BAR)
     number = session._send({"run": "for i in 1..1e6 { step 1000; i }"})
