@@ -6,6 +6,8 @@
 //! of islands that are [solved as a whole](crate::solve::frame::predict): the pose is near to where it was
 //! expected, and far from the other places where the bars hold.
 
+use std::f64::consts::PI;
+
 use super::abreast::{Abreast, Places, Poses};
 use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
@@ -185,14 +187,19 @@ impl Block {
             *to = x.get(p).at(N - 1);
         }
         let known = |p: PointIdx| x.get(p).at(0);
-        let found = if N == 1 { self.solve(&before, &known) } else { None };
+        // What goes around more than half a turn shows in no place.
+        let is_far = abreast.turned.iter().any(|it| {
+            let radius_squared = it.x[0] * it.x[0] + it.y[0] * it.y[0];
+            it.way[0] * it.way[0] > PI * PI * radius_squared
+        });
+        let found = if N == 1 && !is_far { self.solve(&before, &known) } else { None };
         let Some((places, side)) = found else {
             abreast.check_each(|_| f64::NAN);
             return;
         };
         for (k, p) in self.finds().enumerate() {
             x.put(p, Places::all(places[k]));
-            // Where it turned back on the way it had not gone farther than in the frame before.
+            // Where it turned back on the way it is taken to have gone no farther than in the frame before.
             abreast.ways[p as usize] = [places[k].distance(before[k]) + self.last_ways[k]; N];
         }
         self.side = side;

@@ -98,7 +98,7 @@ impl Body {
             Carried { to, arm, parts, mass: mass(to) }
         });
         let carried: Vec<Carried> = carried.collect();
-        let farthest = carried.iter().map(|carried| carried.parts[1]).fold(0.0, f64::max);
+        let farthest = carried.iter().map(|carried| carried.parts[1]).fold(0.0, larger);
         let is_sound = farthest.is_finite() && (second.is_none() || farthest < 1.0 / SHORT);
         let least_side = if second.is_some() { 1.0 / farthest.max(1.0) } else { 1.0 };
         let (mut bars, mut plates) = (Vec::new(), Vec::new());

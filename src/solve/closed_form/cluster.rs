@@ -7,11 +7,18 @@
 
 use super::length::bar;
 use crate::constraint::{Constraint, ConstraintKind as _, Hinge, Point, PointIdx, Vector};
+use crate::interrupt::tick;
 use crate::solve::frame::decomposition::Part;
 
 /// Two bars that meet in a flatter angle than this, as its sine, do not hold a point: what is off in
 /// their lengths is so many times as much in its place.
 const FLAT: f64 = 1e-2;
+
+/// A point with more bars and plates than this is of no body: each body on it looks at them all.
+const MOST_AT_A_POINT: usize = 200;
+
+/// What growing past a bar or a plate takes, in ticks.
+const GROWN: usize = 20;
 
 /// A point, and the two that say on which side of them it is: 1 or -1.
 type Side = ([PointIdx; 3], f64);
@@ -57,6 +64,10 @@ pub(super) struct Net<'a> {
     plates: Vec<Vec<u32>>,
     /// Whether a constraint lies within a cluster.
     pub is_inside: Vec<bool>,
+    /// Whether more points would be of a cluster if bars had other lengths: two hold them, but hardly.
+    pub is_by_lengths: bool,
+    /// Whether some point has too many bars.
+    is_crowded: bool,
     /// Where the points of the cluster are that grows; none for the others.
     place: Vec<Option<Vector>>,
     /// The bars from points of it that lead to each other point.
@@ -74,6 +85,8 @@ impl<'a> Net<'a> {
             bars: (0..n).map(|_| Vec::new()).collect(),
             plates: lists(),
             is_inside: vec![false; constraints.len()],
+            is_by_lengths: false,
+            is_crowded: false,
             place: vec![None; n],
             hits: (0..n).map(|_| Vec::new()).collect(),
         };
@@ -87,12 +100,17 @@ impl<'a> Net<'a> {
             }
         }
         net.bars.iter_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.to, bar.constraint)));
+        let n_at = net.bars.iter().zip(&net.plates).map(|(bars, plates)| bars.len() + plates.len());
+        net.is_crowded = n_at.max().is_some_and(|most| most > MOST_AT_A_POINT);
         net
     }
 
     /// The clusters of a part.
     pub fn clusters(&mut self, part: &Part) -> Vec<Cluster> {
         let mut all = Vec::new();
+        if self.is_crowded {
+            return all;
+        }
         for &c in part.constraints.iter().filter(|&&c| is_rigid(&self.constraints[c as usize])) {
             if let Some(plate) = plate(&self.constraints[c as usize]).filter(|_| !self.is_taken(c))
             {
@@ -146,6 +164,7 @@ impl<'a> Net<'a> {
         let mut next = 0;
         while let Some(&(p, _)) = cluster.points.get(next) {
             next += 1;
+            tick(GROWN * (self.bars[p as usize].len() + self.plates[p as usize].len()));
             for k in 0..self.bars[p as usize].len() {
                 let Bar { to, length, constraint } = self.bars[p as usize][k];
                 if self.place[to as usize].is_some() || self.is_taken(constraint) {
@@ -167,7 +186,12 @@ impl<'a> Net<'a> {
             }
         }
         self.close(&mut cluster);
-        met.iter().for_each(|&p| self.hits[p as usize].clear());
+        for p in met {
+            let hits = &mut self.hits[p as usize];
+            let is_held = hits.iter().any(|(other, _)| *other != hits[0].0);
+            self.is_by_lengths |= is_held && self.place[p as usize].is_none();
+            hits.clear();
+        }
         cluster.points.iter().for_each(|&(p, _)| self.place[p as usize] = None);
         cluster.points.sort_by_key(|(p, _)| *p);
         cluster
@@ -217,6 +241,8 @@ impl<'a> Net<'a> {
             return;
         }
         let turn = (b - a).over(own_b - own_a);
+        // Bars may put both in one place.
+        self.is_by_lengths |= a == b;
         let turn = if plate.has_size { turn / turn.norm() } else { turn };
         for &(p, own) in &plate.places {
             if self.place[p as usize].is_none() {

@@ -45,26 +45,6 @@ pub(super) struct Compiler<'a> {
 }
 
 impl ClosedForm {
-    /// The list for an island; none if some of its points have no closed form.
-    pub fn new(given: Given) -> Option<Self> {
-        let Given { plan, constraints, x, .. } = given;
-        let carries = |c: &Constraint| {
-            let is_told = matches!(c.traits().carried, Carried::Nothing | Carried::ByClock);
-            !is_told && !matches!(c, Constraint::Cog(_) | Constraint::Orientation(_))
-        };
-        if constraints.iter().any(carries) {
-            return None;
-        }
-        let compiler = Compiler::new(given);
-        let by_points = plan.is_complete() && !compiler.has_bodies();
-        let found = if by_points { compiler.blocks(|_| true) } else { None };
-        let found = found.or_else(|| Compiler::new(given).by_bodies());
-        let Compiler { mut form, n_driven, .. } = found?;
-        form.one = Abreast::new(x.len(), n_driven as usize);
-        form.held.sort_unstable();
-        Some(form)
-    }
-
     /// Whether steps may ask a constraint for its values in each frame, so that these may change.
     pub fn asks(constraint: &Constraint) -> bool {
         match constraint {
@@ -74,9 +54,18 @@ impl ClosedForm {
         }
     }
 
-    /// Whether the steps of this list ask one of these.
-    pub fn takes(&self, c: u32) -> bool {
+    /// Whether the steps of this list ask for the values of all these in each frame.
+    pub fn takes_all(&self, changed: &[(u32, Constraint)]) -> bool {
+        changed.iter().all(|(c, _)| self.takes(*c))
+    }
+
+    fn takes(&self, c: u32) -> bool {
         self.held.binary_search(&c).is_err()
+    }
+
+    /// A step holds what is no more.
+    pub fn outdate(&mut self) {
+        self.is_outdated = true;
     }
 
     /// The length of a bar changed.
@@ -101,6 +90,8 @@ impl Compiled {
             // What is no length has no list.
             _ if !ClosedForm::asks(now) || is_bar(before) != is_bar(now) => *self = Self::NotYet,
             Self::List(form) if matches!(now, Constraint::Length(_)) => form.note_length(c),
+            // There may be one for other lengths.
+            Self::Impossible if matches!(now, Constraint::Length(_)) => *self = Self::NotYet,
             // Others are asked anew in each frame.
             Self::List(_) | Self::NotYet | Self::Impossible => {}
         }
@@ -109,7 +100,7 @@ impl Compiled {
 
 impl<'a> Compiler<'a> {
     /// A list without steps.
-    fn new(given: Given<'a>) -> Self {
+    pub fn new(given: Given<'a>) -> Self {
         let Given { plan, constraints, x, degree, .. } = given;
         let form = ClosedForm {
             steps: Vec::with_capacity(plan.blocks.len()),
@@ -128,6 +119,14 @@ impl<'a> Compiler<'a> {
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
         let n_driven = constraints.iter().filter(is_driver).count() as u32;
         Self { given, form, n_driven }
+    }
+
+    /// The list, as far as it got.
+    pub fn finish(self) -> ClosedForm {
+        let Self { given, mut form, n_driven } = self;
+        form.one = Abreast::new(given.x.len(), n_driven as usize);
+        form.held.sort_unstable();
+        form
     }
 
     /// The steps of some of the points that are found one by one; none if one has no closed form.
@@ -223,6 +222,12 @@ impl<'a> Compiler<'a> {
             _ => None,
         }
     }
+}
+
+/// Whether a step may keep what a constraint keeps from frame to frame.
+pub(super) fn may_have_a_step(constraint: &Constraint) -> bool {
+    let is_told = matches!(constraint.traits().carried, Carried::Nothing | Carried::ByClock);
+    is_told || matches!(constraint, Constraint::Cog(_) | Constraint::Orientation(_))
 }
 
 /// The step that finds a point on two loci.

@@ -6,8 +6,9 @@
 use std::collections::VecDeque;
 
 use super::cluster::{Cluster, Net};
-use super::compile::{Compiler, Given, Locus, locus, meeting};
-use super::{Body, Length, Radius, Step};
+use super::compile::{Compiler, Given, Locus, locus, may_have_a_step, meeting};
+use super::length::bar;
+use super::{Body, ClosedForm, Length, Radius, Step};
 use crate::constraint::{ConstraintKind as _, PointIdx};
 use crate::solve::frame::decomposition::{Part, Plan, Search};
 
@@ -21,7 +22,7 @@ pub(super) struct Assembly<'a> {
     anchors: Vec<Option<PointIdx>>,
     pub is_placed: Vec<bool>,
     /// Whether a constraint is checked by a step.
-    pub is_met: Vec<bool>,
+    pub is_met: &'a mut [bool],
     /// Bodies that may be placed now, and points that may be found.
     next_bodies: VecDeque<usize>,
     next_points: VecDeque<PointIdx>,
@@ -30,18 +31,73 @@ pub(super) struct Assembly<'a> {
 /// A body of fewer points is found as fast point by point.
 const FEW: usize = 6;
 
+impl ClosedForm {
+    /// The list for an island; none if some of its points have no closed form.
+    pub fn new(given: Given) -> Option<Self> {
+        let may_be = given.constraints.iter().all(may_have_a_step);
+        may_be.then(|| list(given))?.map(Compiler::finish)
+    }
+}
+
+/// The steps of an island; none if some of it has no closed form. They are the same whenever they are
+/// compiled: a length that has to do with which they are is one that the list holds.
+fn list(given: Given) -> Option<Compiler> {
+    let Given { plan, constraints, x, .. } = given;
+    let by_points = || Compiler::new(given).blocks(|_| true).filter(|_| plan.is_complete());
+    if constraints.len() < 2 * FEW - 3
+        && let Some(compiler) = by_points()
+    {
+        return Some(compiler);
+    }
+    let mut parts = vec![determined(plan)];
+    parts.extend(plan.rest.iter().cloned());
+    let mut net = Net::new(constraints, x, &parts);
+    let bodies: Vec<Vec<Cluster>> = parts.iter().map(|part| net.clusters(part)).collect();
+    let is_bar = |c: &u32| bar(&constraints[*c as usize]).is_some();
+    let all_bars = || (0..constraints.len() as u32).filter(is_bar);
+    if bodies.iter().flatten().all(|body| body.points.len() < FEW)
+        && let Some(mut compiler) = by_points()
+    {
+        if net.is_by_lengths {
+            compiler.form.held.extend(all_bars());
+        }
+        return Some(compiler);
+    }
+    let within = bodies.iter().flatten().flat_map(|body| &body.constraints);
+    let held: Vec<u32> =
+        if net.is_by_lengths { all_bars().collect() } else { within.copied().collect() };
+    let found = Compiler::new(given).by_bodies(&parts, bodies, net.is_inside);
+    // How far the ends of a body are apart says whether it is known by them.
+    let mut compiler = found.or_else(by_points)?;
+    compiler.form.held.extend(held);
+    Some(compiler)
+}
+
 impl Compiler<'_> {
-    /// The steps of an island in which there may be bodies; none if some of it has no closed form.
-    pub fn by_bodies(mut self) -> Option<Self> {
-        let (plan, x) = (self.given.plan, self.given.x);
-        let mut parts = vec![determined(plan)];
-        parts.extend(plan.rest.iter().cloned());
-        let mut net = Net::new(self.given.constraints, x, &parts);
-        let mut search = Search::new(self.given.constraints, self.given.n_free, x.len());
+    /// The steps of parts with bodies, and of the points that are found after them.
+    fn by_bodies(
+        mut self,
+        parts: &[Part],
+        bodies: Vec<Vec<Cluster>>,
+        mut is_met: Vec<bool>,
+    ) -> Option<Self> {
+        let Given { plan, constraints, n_free, x, .. } = self.given;
+        let mut search = Search::new(constraints, n_free, x.len());
         let mut of_point = vec![Vec::new(); x.len()];
         let mut is_smooth = true;
-        for part in &parts {
-            is_smooth &= self.part(part, &mut net, &mut search, &mut of_point)?;
+        for (part, bodies) in parts.iter().zip(bodies) {
+            let n = bodies.len();
+            let assembly = Assembly {
+                search: &mut search,
+                bodies,
+                of_point: &mut of_point,
+                anchors: vec![None; n],
+                is_placed: vec![false; n],
+                is_met: &mut is_met,
+                next_bodies: (0..n).collect(),
+                next_points: part.points.iter().copied().collect(),
+            };
+            is_smooth &= self.part(part, assembly)?;
         }
         if !plan.is_complete() {
             // Whether that was found out already makes no difference to what is kept of poses.
@@ -50,37 +106,8 @@ impl Compiler<'_> {
         self.blocks(|block| !block.is_determined)
     }
 
-    /// Whether an island that can be found point by point has bodies.
-    pub fn has_bodies(&self) -> bool {
-        let Given { plan, constraints, x, .. } = self.given;
-        if constraints.len() < 2 * FEW - 3 {
-            return false;
-        }
-        let parts = [determined(plan)];
-        let clusters = Net::new(constraints, x, &parts).clusters(&parts[0]);
-        clusters.iter().any(|cluster| cluster.points.len() >= FEW)
-    }
-
     /// The steps of a part, and whether it has no freedom.
-    fn part(
-        &mut self,
-        part: &Part,
-        net: &mut Net,
-        search: &mut Search,
-        of_point: &mut [Vec<u32>],
-    ) -> Option<bool> {
-        let bodies = net.clusters(part);
-        let n = bodies.len();
-        let mut assembly = Assembly {
-            search,
-            bodies,
-            of_point,
-            anchors: vec![None; n],
-            is_placed: vec![false; n],
-            is_met: net.is_inside.clone(),
-            next_bodies: (0..n).collect(),
-            next_points: part.points.iter().copied().collect(),
-        };
+    fn part(&mut self, part: &Part, mut assembly: Assembly) -> Option<bool> {
         assembly.file();
         loop {
             if let Some(b) = assembly.next_bodies.pop_front() {
@@ -124,7 +151,6 @@ impl Compiler<'_> {
         // The longer side of what holds two points is no shorter than that.
         self.form.extent = self.form.extent.max(body.extent * std::f64::consts::FRAC_1_SQRT_2);
         let found = body.finds().collect();
-        self.form.held.extend(&cluster.constraints);
         self.form.steps.push(Step::Body(Box::new(body)));
         Some(found)
     }
@@ -138,11 +164,8 @@ impl Compiler<'_> {
         let ready = assembly.search.ready(p).filter(|&c| !assembly.is_met[c as usize]);
         let ready: Vec<u32> = ready.collect();
         let n_firm: usize = ready.iter().map(|&c| all[c as usize].traits().n_firm_rows).sum();
-        let is_found = if n_firm >= 2 {
-            self.point(p, &ready, true).is_some()
-        } else {
-            self.hang(p, &ready, &assembly.circles(p)).is_some()
-        };
+        let is_found = n_firm >= 2 && self.point(p, &ready, true).is_some()
+            || self.hang(p, &ready, &assembly.circles(p)).is_some();
         if is_found {
             ready.iter().for_each(|&c| assembly.is_met[c as usize] = true);
             assembly.learn(self, p);
@@ -152,15 +175,23 @@ impl Compiler<'_> {
     /// The step that finds a point of bodies of which a point is known each, by constraints and by
     /// these bodies.
     fn hang(&mut self, to: PointIdx, ready: &[u32], circles: &[Locus]) -> Option<()> {
-        let (&first, others) = circles.split_first()?;
         let all = self.given.constraints;
-        let by_one = ready.iter().find_map(|&c| {
-            let constraint = &all[c as usize];
-            let turned = self.turned(to, (c, constraint), &first);
-            let step = turned.or_else(|| meeting(to, first, locus((c, constraint), to)?))?;
-            Some((step, Some(c)))
-        });
-        let (step, by) = by_one.or_else(|| Some((meeting(to, first, *others.first()?)?, None)))?;
+        let mut by_one = |circle: &Locus| {
+            ready.iter().find_map(|&c| {
+                let constraint = &all[c as usize];
+                let turned = self.turned(to, (c, constraint), circle);
+                let step = turned.or_else(|| meeting(to, *circle, locus((c, constraint), to)?))?;
+                Some((step, Some(c)))
+            })
+        };
+        let by_two = || {
+            let pairs = circles
+                .iter()
+                .enumerate()
+                .flat_map(|(k, one)| circles[k + 1..].iter().map(move |other| (*one, *other)));
+            pairs.into_iter().find_map(|(one, other)| Some((meeting(to, one, other)?, None)))
+        };
+        let (step, by) = circles.iter().find_map(&mut by_one).or_else(by_two)?;
         self.push(step, ready.iter().copied().filter(|&c| Some(c) != by))
     }
 
@@ -169,8 +200,7 @@ impl Compiler<'_> {
         let [cluster] = &assembly.bodies[..] else { return None };
         let is_all = part.constraints.iter().all(|&c| assembly.is_met[c as usize])
             && part.points.iter().all(|p| cluster.place(*p).is_some());
-        let _ = assembly.anchors[0].filter(|_| is_all)?;
-        self.place(cluster, assembly)?;
+        (is_all && assembly.anchors[0].is_some()).then(|| self.place(cluster, assembly))??;
         Some(())
     }
 }

@@ -102,7 +102,9 @@ impl Assembly<'_> {
         let n = 2 * draft.bases.len() + draft.bodies.len();
         let legs = bars.iter().filter_map(|&(ends, length)| {
             let ends = [self.end(ends[0], &draft)?, self.end(ends[1], &draft)?];
-            Some(Leg { ends, length })
+            // One between points that are found is checked, and says nothing of these.
+            let is_leg = !matches!(ends, [End::Known(_), End::Known(_)]);
+            is_leg.then_some(Leg { ends, length })
         });
         let legs: Vec<Leg> = legs.take(n).collect();
         (legs.len() == n).then(|| Block::new(draft.bases, draft.bodies, legs))

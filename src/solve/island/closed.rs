@@ -20,26 +20,26 @@ impl Island {
         if !changed.iter().all(|(_, before)| ClosedForm::asks(before)) {
             return Err(NoStep::Changed);
         }
-        let is_taken = |form: &ClosedForm| changed.iter().all(|(c, _)| form.takes(*c));
         // What was compiled for other values takes the same constraints.
         if let Compiled::List(form) = &self.closed_form
-            && !is_taken(form)
+            && !form.takes_all(changed)
         {
             return Err(NoStep::Changed);
         }
         let mut form = self.take_closed_form().ok_or(NoStep::Open)?;
-        let changed = self.inputs.constraints();
-        if !changed.iter().all(|(c, _)| form.takes(*c)) {
-            self.closed_form = Compiled::List(form);
-            return Err(NoStep::Changed);
-        }
         if !form.knows_pose() {
             self.swap_inputs();
             let fits = form.look(&self.x);
             self.swap_inputs();
             if !fits {
-                form = self.compile().ok_or(NoStep::Open)?;
+                form = self.take_closed_form().ok_or(NoStep::Open)?;
             }
+        }
+        if !form.takes_all(self.inputs.constraints()) {
+            // It is for what was there before this frame.
+            form.outdate();
+            self.closed_form = Compiled::List(form);
+            return Err(NoStep::Changed);
         }
         form.drive(&self.inputs, &self.x, &self.constraints);
         let found = self.run_closed(&mut form, tolerance);

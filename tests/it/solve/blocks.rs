@@ -80,6 +80,20 @@ fn few_bodies_are_found_together() {
 }
 
 #[test]
+fn a_link_on_three_rods_may_hang_on_another() {
+    let scene = format!(
+        "{TRIAD}\n{}
+         point U = (3.6, 4.7), V = (5, 6), W = (4.2, 7.5), F = (12, 6.4) frozen, G = (4.5, 16) frozen
+         length U V; length V W; length W U
+         length R U; length F V; length G W
+         step 4",
+        LINKS[0]
+    );
+    check_closed(&scene, 175);
+    check_same("one on the other", &scene, 50);
+}
+
+#[test]
 fn a_rod_of_a_link_that_changes_moves_it() {
     let scene = TRIAD.replace("length E R", "length E R = 3.58 + 0.1 * sin(time * 2rev)");
     let scene = format!("{scene}\n{}\nstep 4", LINKS[0]);
