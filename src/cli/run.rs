@@ -356,7 +356,7 @@ fn converse_in_objects(
             } else {
                 transcript.enter(piece, session, objects)
             };
-            if outcome.flow == Flow::Stopped {
+            if outcome.flow == Flow::Stopped && !interrupt::is_ending() {
                 // Who stopped this may ask for something else.
                 interrupt::forget();
                 outcome.flow = Flow::On;
