@@ -93,6 +93,7 @@ class Session:
         )
         self._read_ahead = bytearray()
         self._n_asked = 0
+        self._is_torn = False
         version = self._read()["version"]
         if version != VERSION:
             self.close()
@@ -174,9 +175,12 @@ class Session:
         """Sends a request; gives the number that its answer will have."""
         self._n_asked += 1
         line = json.dumps({**request, "id": self._n_asked}) + "\n"
-        left = memoryview(line.encode())
+        # What an interrupted sender left of a line ends here: it is answered as no request.
+        left = memoryview((b"\n" if self._is_torn else b"") + line.encode())
+        self._is_torn = True
         while left:
             left = left[self._process.stdin.write(left) :]
+        self._is_torn = False
         return self._n_asked
 
     def _read(self):

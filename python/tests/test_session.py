@@ -121,6 +121,25 @@ def test_the_program_outlives_ctrl_c(session):
     assert session.evaluate("1 + 1") == 2
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such signals")
+def test_what_is_interrupted_while_it_is_sent_is_left_out(session):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    # The program takes nothing: what is longer than a pipe is sent in part.
+    session._process.send_signal(signal.SIGSTOP)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(KeyboardInterrupt):
+            session.run("print 1\n" * 100_000)
+    finally:
+        session._process.send_signal(signal.SIGCONT)
+        signal.signal(signal.SIGALRM, before)
+    assert session.evaluate("1 + 1") == 2
+    assert session.run("print 3").values == [3]
+
+
 def test_traces_are_arrays(session):
     numpy = pytest.importorskip("numpy")
     session.run(FOUR_BAR + "trace B; step 360")
