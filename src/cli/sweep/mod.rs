@@ -44,8 +44,11 @@ impl Plan<'_> {
         let mut table = Table::open(self)?;
         let n_before = table.n_rows;
         let (counts, is_whole) = match self.fill(&mut table) {
-            // Who reads the table has read enough.
+            // Who reads the table has read enough; what is to be written besides still is.
             Err(e) if !table.is_file && e.kind() == io::ErrorKind::BrokenPipe => {
+                if self.wish.pictures {
+                    self.write_pictures(host)?;
+                }
                 return Ok(ExitStatus::Fine);
             }
             filled => filled.map_err(|e| failure(unwritable(&table.name, &e)))?,

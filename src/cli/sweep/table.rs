@@ -10,6 +10,9 @@ use crate::diag::{Diagnostic, Kind};
 use crate::errors;
 use crate::session::{Host as _, Refusal};
 
+/// A row of so many bytes is none of a sweep.
+const LONGEST_ROW: u64 = 1 << 24;
+
 /// What a table is called that goes to standard output.
 const STANDARD_OUTPUT: &str = "standard output";
 
@@ -51,7 +54,10 @@ impl Rest {
         }
         loop {
             rest.begun.clear();
-            reader.read_until(b'\n', &mut rest.begun)?;
+            reader.by_ref().take(LONGEST_ROW).read_until(b'\n', &mut rest.begun)?;
+            if rest.begun.len() as u64 == LONGEST_ROW {
+                return Ok(None);
+            }
             if rest.begun.last() != Some(&b'\n') {
                 return Ok(Some(rest));
             }
