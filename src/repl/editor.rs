@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -148,12 +148,15 @@ impl ConditionalEventHandler for GoOn {
     }
 }
 
+/// Keys that the numbers of an answer take at most.
+const LONGEST_ANSWER: u8 = 48;
+
 /// Swallows the answer of a terminal that comes when nobody waits for it any more: what the editor takes for
 /// an unknown key, and the numbers behind it that it takes for typed.
 #[derive(Default)]
 struct Swallow {
-    /// Whether an answer has begun.
-    is_begun: AtomicBool,
+    /// How many keys may still belong to an answer that has begun.
+    n_left: AtomicU8,
 }
 
 impl ConditionalEventHandler for Swallow {
@@ -163,22 +166,22 @@ impl ConditionalEventHandler for Swallow {
         if !graphics::is_answer_due() {
             return None;
         }
-        let is_begun = self.is_begun.load(Ordering::Relaxed);
-        let goes_on = match key {
-            KeyCode::UnknownEscSeq => true,
-            KeyCode::Char('0'..='9' | ';') if is_begun => true,
+        let n_left = self.n_left.load(Ordering::Relaxed);
+        let n_left = match key {
+            KeyCode::UnknownEscSeq => LONGEST_ANSWER,
+            KeyCode::Char('0'..='9' | ';') if n_left > 0 => n_left - 1,
             // The size of a letter, and what the terminal is: that ends it.
-            KeyCode::Char('t') if is_begun => false,
-            KeyCode::Char('c') if is_begun => {
+            KeyCode::Char('t') if n_left > 0 => 0,
+            KeyCode::Char('c') if n_left > 0 => {
                 graphics::forget_answer();
-                false
+                0
             }
             _ => {
-                self.is_begun.store(false, Ordering::Relaxed);
+                self.n_left.store(0, Ordering::Relaxed);
                 return None;
             }
         };
-        self.is_begun.store(goes_on, Ordering::Relaxed);
+        self.n_left.store(n_left, Ordering::Relaxed);
         Some(Cmd::Noop)
     }
 }

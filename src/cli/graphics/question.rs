@@ -47,6 +47,9 @@ const LATEST: Duration = Duration::from_secs(30);
 /// What was typed while nobody but the question looked.
 static TYPED: Mutex<String> = Mutex::new(String::new());
 
+/// The beginning of something that came last, while nobody looked further.
+static BEGUN: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+
 /// Asks, or takes the answer to what was asked before.
 pub fn ask() -> Asked {
     let stdin = io::stdin();
@@ -56,7 +59,7 @@ pub fn ask() -> Asked {
         return Asked::NotNow;
     }
     let Some(_silence) = Silence::begin(input) else { return Asked::NotNow };
-    let mut heard = Heard::default();
+    let mut heard = Heard::go_on();
     if is_due() {
         heard.listen(input, Duration::ZERO);
     } else if is_ready(input, Duration::ZERO) {
@@ -93,7 +96,7 @@ pub fn take_typed() -> String {
     if is_due()
         && let Some(_silence) = Silence::begin(stdin.as_fd())
     {
-        let mut heard = Heard::default();
+        let mut heard = Heard::go_on();
         heard.listen(stdin.as_fd(), Duration::ZERO);
         heard.end();
     }
@@ -118,6 +121,12 @@ struct Heard {
 }
 
 impl Heard {
+    /// What came before may have been half of something.
+    fn go_on() -> Self {
+        let begun = mem::take(&mut *BEGUN.lock().unwrap_or_else(PoisonError::into_inner));
+        Self { begun, ..Self::default() }
+    }
+
     /// Listens until the answer is whole, or so long.
     fn listen(&mut self, input: BorrowedFd, patience: Duration) {
         let begun = Instant::now();
@@ -186,6 +195,7 @@ impl Heard {
             forget();
         }
         TYPED.lock().unwrap_or_else(PoisonError::into_inner).push_str(&self.typed);
+        *BEGUN.lock().unwrap_or_else(PoisonError::into_inner) = self.begun;
         if self.is_whole { Asked::Answered(self.answer) } else { Asked::Silent }
     }
 }
