@@ -27,6 +27,9 @@ const MOST: f64 = 8192.0;
 /// What the drawing of a line to a place takes, in ticks.
 const PLACE: usize = 100;
 
+/// Bytes of a picture that are copied, or looked at, in a tick.
+const COPIED: usize = 8;
+
 /// How much wider the strokes of bold letters are, in sizes of letters.
 const BOLD: f64 = 0.05;
 
@@ -87,6 +90,7 @@ struct Faded {
 
 impl Canvas {
     fn begin(&mut self, opacity: f32) {
+        tick(self.pixels.rgb().len() / COPIED);
         let rows = self.pixels.size()[1]..0;
         self.groups.push(Faded { below: self.pixels.clone(), opacity, rows });
     }
