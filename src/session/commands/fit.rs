@@ -110,12 +110,17 @@ impl Execution<'_> {
             }
             let (lo, hi) = (self.resolve().number(&range.from)?, self.resolve().number(&range.to)?);
             if lo >= hi {
-                let problem = Diagnostic::error(errors::OUT_OF_RANGE, "this range has no inside")
-                    .at(range.from.span.to(range.to.span), "expected the least number first");
+                let place = range.from.span.to(range.to.span);
+                let problem = Diagnostic::error(errors::OUT_OF_RANGE, "this range has no inside");
                 return Err(if lo > hi {
-                    problem.help(format!("`{name} in {}..{}`", range.to, range.from))
-                } else {
                     problem
+                        .at(place, "expected the least number first")
+                        .help(format!("`{name} in {}..{}`", range.to, range.from))
+                } else {
+                    let name = &parameter.name;
+                    problem
+                        .at(place, "its ends are one number")
+                        .help(format!("`let {name} = {}` gives it that number", range.from))
                 });
             }
             let now = parameter.value.map_or(lo, crate::world::Value::number);
