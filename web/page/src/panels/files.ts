@@ -4,6 +4,8 @@ import { h, put, replace } from "../dom.ts";
 import type { FileAnswer } from "../engine/protocol.ts";
 import type { Page } from "../page.ts";
 
+/** Files that are texts: no others are given to pages. */
+const TEXT = /\.(svg|csv|link|dxf|json)$/;
 /** Of files that statements wrote so many are offered. */
 const MOST_WRITTEN = 12;
 
@@ -88,7 +90,8 @@ function writtenFiles(page: Page): HTMLElement {
     return h("button", { type: "button", title: name, "data-file": label, onclick: ask }, label);
   };
   page.client.filed.listen((wrote) => {
-    names = [...new Set([...names, ...wrote].reverse())].slice(0, MOST_WRITTEN).reverse();
+    const texts = wrote.filter((name) => TEXT.test(name));
+    names = [...new Set([...names, ...texts].reverse())].slice(0, MOST_WRITTEN).reverse();
     show();
   });
   page.client.greeted.listen(() => {
