@@ -1,5 +1,5 @@
-//! Variables of the environment. One that is empty is as if it were not there: a shell has no other way
-//! to take one back for a single command.
+//! Variables of the environment. One that is empty is as if it were not there: `NAME= command` takes one back
+//! for a single command.
 
 use std::ffi::OsString;
 

@@ -200,8 +200,8 @@ pub trait Host {
     /// nothing was.
     ///
     /// # Errors
-    /// [`NotFound`](io::ErrorKind::NotFound) where nothing was written, or where something else
-    /// lies since, whatever that is.
+    /// [`NotFound`](io::ErrorKind::NotFound) where nothing was written, or where a link lies in the way
+    /// since.
     fn read_back(&mut self, path: &Path) -> io::Result<String> {
         self.behind_mut()
             .map_or_else(|| Err(io::ErrorKind::NotFound.into()), |host| host.read_back(path))
