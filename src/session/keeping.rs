@@ -4,7 +4,7 @@
 use super::execution::Flow;
 use super::host::{Host, Kept};
 use super::quotas::Quota;
-use super::undo::told::{Deed, FileRead, Told, Walk};
+use super::undo::told::{Deed, FileRead, Place, Told, Walk};
 use super::{Session, transcript};
 use crate::lang::ast::Statement;
 
@@ -18,7 +18,7 @@ impl Session {
 
     fn begin_journal(&mut self, script: &str, host: &mut dyn Host) {
         let told = &mut self.history.told;
-        (told.n_begun, told.n_texts, told.n_bytes) = (told.n_begun + 1, 0, 0);
+        *told = Place { journal: told.journal + 1, texts: 0, bytes: 0 };
         host.keep(Kept::Whole(script));
     }
 
@@ -77,7 +77,7 @@ impl Session {
     /// Tells the host's journal a text that does what was done.
     fn pass(&mut self, text: &str, host: &mut dyn Host) {
         self.history.told.pass(text);
-        if self.history.told.n_bytes > self.quota(Quota::SourceBytes) / 2 {
+        if self.history.told.bytes > self.quota(Quota::SourceBytes) / 2 {
             // It could not be read any more.
             self.keep_whole(host);
         } else {
@@ -88,10 +88,10 @@ impl Session {
     /// Commands were taken back.
     fn keep_way_back(&mut self, host: &mut dyn Host) {
         let at = self.history.journal.told_of_next().map(|told| told.at);
-        match at.filter(|at| at.n_begun == self.history.told.n_begun) {
+        match at.filter(|at| at.journal == self.history.told.journal) {
             Some(at) => {
                 self.history.told = at;
-                host.keep(Kept::First(at.n_texts));
+                host.keep(Kept::First(at.texts));
             }
             None => self.keep_whole(host),
         }

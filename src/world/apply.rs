@@ -195,8 +195,8 @@ impl World {
         std::mem::swap(self, other);
         std::mem::swap(&mut self.log, &mut other.log);
         std::mem::swap(&mut self.revision, &mut other.revision);
-        self.touched = Box::new(Touched::everything());
-        other.touched = Box::default();
+        *self.touched = Touched::everything();
+        *other.touched = Touched::default();
     }
 
     /// Whether there is nothing in it, and no time has passed.
@@ -215,8 +215,6 @@ impl World {
         let measures = self.measures().map(|(_, measure)| measure.n_bytes());
         let traces = self.traces.iter().map(|trace| size_of_val(trace) + trace.samples.n_bytes());
         let ghosts = self.ghosts.iter().map(Ghost::n_bytes);
-        // Besides its own, each thing has its place among the names and among what uses what.
-        const BESIDE: usize = 64;
         size_of::<Self>()
             + self.points.n_bytes()
             + BESIDE * self.index.len()
@@ -239,6 +237,9 @@ impl World {
         Edit::StartState(id, whole_state(constraint).map(Vec::into_boxed_slice))
     }
 }
+
+/// Bytes of a thing beside its own: its place among the names, and among what uses what.
+const BESIDE: usize = 64;
 
 impl World {
     fn delete_batch(&mut self, batch: Batch) -> BatchRecords {

@@ -436,10 +436,11 @@ fn commands_that_are_taken_back_or_done_again_are_so_whole_or_not_at_all() {
 
 #[test]
 fn of_many_commands_that_are_taken_back_those_stay_back_that_were() {
-    let lines = || (0..20).map(|k| format!("let r = {k}\n")).collect::<String>();
+    let lines: Vec<String> = (0..20).map(|k| format!("let r = {k}")).collect();
+    let lines = lines.join("\n");
     for most in 0..12 {
-        assert_kept(&[(&lines(), u64::MAX), ("undo 10", most), ("let after = r", u64::MAX)]);
-        assert_kept(&[(&lines(), u64::MAX), ("undo 10", u64::MAX), ("redo 9", most)]);
+        assert_kept(&[(&lines, u64::MAX), ("undo 10", most), ("let after = r", u64::MAX)]);
+        assert_kept(&[(&lines, u64::MAX), ("undo 10", u64::MAX), ("redo 9", most)]);
     }
 }
 

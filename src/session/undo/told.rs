@@ -55,19 +55,19 @@ impl Deed {
 /// How far a journal has been told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Place {
-    /// How many scripts of all there is it was told: each begins it anew.
-    pub n_begun: u64,
+    /// Which one: how many scripts of all there is it was told, each of which begins it anew.
+    pub journal: u64,
     /// How many texts since the last of them.
-    pub n_texts: u64,
+    pub texts: u64,
     /// The bytes of these.
-    pub n_bytes: u64,
+    pub bytes: u64,
 }
 
 impl Place {
     /// A text was told.
     pub fn pass(&mut self, text: &str) {
-        self.n_texts += 1;
-        self.n_bytes += text.len() as u64;
+        self.texts += 1;
+        self.bytes += text.len() as u64;
     }
 }
 

@@ -292,40 +292,32 @@ impl History {
 
     /// Takes back the last command as if it had never been.
     pub fn revoke(&mut self, state: &mut State) {
-        if let Some(entry) = self.journal.pop_done() {
-            let inverse = interrupt::undisturbed(|| invert(state, entry, Way::Back));
-            debug_assert!(inverse.is_ok(), "nobody is asked");
+        if let Some(mut entry) = self.journal.pop_done() {
+            let done = interrupt::undisturbed(|| invert(state, &mut entry, Way::Back));
+            debug_assert!(done.is_ok(), "nobody is asked");
         }
     }
 
     fn step_back(&mut self, state: &mut State) -> Result<Option<String>, Stopped> {
-        let Some(entry) = self.journal.pop_done() else { return Ok(None) };
-        match invert(state, entry, Way::Back) {
-            Ok(inverse) => {
-                let label = inverse.label.clone();
-                self.journal.push_undone(inverse);
-                Ok(Some(label))
-            }
-            Err(entry) => {
-                self.journal.keep(entry);
-                Err(Stopped)
-            }
+        let Some(mut entry) = self.journal.pop_done() else { return Ok(None) };
+        let result = invert(state, &mut entry, Way::Back);
+        let label = result.map(|()| Some(entry.label.clone()));
+        match label {
+            Ok(_) => self.journal.push_undone(entry),
+            Err(_) => self.journal.keep(entry),
         }
+        label
     }
 
     fn step_forth(&mut self, state: &mut State) -> Result<Option<String>, Stopped> {
-        let Some(entry) = self.journal.pop_undone() else { return Ok(None) };
-        match invert(state, entry, Way::Forth) {
-            Ok(inverse) => {
-                let label = inverse.label.clone();
-                self.journal.keep(inverse);
-                Ok(Some(label))
-            }
-            Err(entry) => {
-                self.journal.push_undone(entry);
-                Err(Stopped)
-            }
+        let Some(mut entry) = self.journal.pop_undone() else { return Ok(None) };
+        let result = invert(state, &mut entry, Way::Forth);
+        let label = result.map(|()| Some(entry.label.clone()));
+        match label {
+            Ok(_) => self.journal.keep(entry),
+            Err(_) => self.journal.push_undone(entry),
         }
+        label
     }
 
     /// Asks something of the state as it was before a command, or would be once it is the next to be
@@ -363,16 +355,16 @@ enum Way {
 /// What the change of a thing takes, in ticks.
 const THING: usize = 200;
 
-/// Takes back one command, or does it again; gives what takes that back. Where the user wants to stop
-/// before half of it is done, everything is put back and the command given as it was; from there on the
-/// way to the end is the shorter one.
-fn invert(state: &mut State, entry: Entry, way: Way) -> Result<Entry, Entry> {
-    let Entry { mut changes, handles, .. } = entry;
+/// Takes back one command, or does it again: what it then holds takes that back. Where the user wants to
+/// stop before half of it is done, everything is put back as it was; from there on the way to the end is
+/// the shorter one.
+fn invert(state: &mut State, entry: &mut Entry, way: Way) -> Result<(), Stopped> {
     let before = state.world.handles();
     if way == Way::Forth {
         // Where things move is put back before they are.
-        state.world.set_handles(before.max(handles));
+        state.world.set_handles(before.max(entry.handles));
     }
+    let changes = &mut entry.changes;
     let mut inverse = Vec::with_capacity(changes.len());
     while let Some(change) = changes.pop() {
         let n_things = change.n_things();
@@ -382,9 +374,11 @@ fn invert(state: &mut State, entry: Entry, way: Way) -> Result<Entry, Entry> {
                 changes.push(state.apply(change));
             }
             state.world.set_handles(before);
-            return Err(Entry { changes, ..entry });
+            return Err(Stopped);
         }
     }
-    state.world.set_handles(handles);
-    Ok(Entry { changes: inverse, handles: before, ..entry })
+    entry.changes = inverse;
+    state.world.set_handles(entry.handles);
+    entry.handles = before;
+    Ok(())
 }
