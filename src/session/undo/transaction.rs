@@ -176,10 +176,11 @@ impl History {
     }
 
     /// Keeps what running changes from here on, before the command under way lets time pass or the
-    /// solver move points. Once a command is enough.
+    /// solver move points, and lets the solver take in what was edited. Once a command is enough for what is
+    /// kept.
     pub fn begin_motion(&mut self, state: &mut State) {
         if self.journal.motion.is_some() {
-            return;
+            return self.sync(state);
         }
         self.journal.covered.clear();
         self.journal.motion = Some(self.journal.current.len());
