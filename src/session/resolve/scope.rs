@@ -8,7 +8,7 @@ use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::quotas::Quotas;
 use crate::session::state::State;
 use crate::terms::{Member, Statistic, Unit};
-use crate::world::{ConstraintId, Entity, Formula, MeasureId, NameText, PointId, Turning};
+use crate::world::{ConstraintId, Entity, Formula, MeasureId, NameText, PointId, Turning, World};
 
 /// Names that have a meaning of their own in every expression.
 pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
@@ -61,6 +61,15 @@ impl Scopes {
         self.innermost_mut().bindings.truncate(place);
     }
 
+    /// All that parameters stand for is gone, but for numbers.
+    pub fn lose_all(&mut self) {
+        let bindings = self.stack.iter_mut().flat_map(|scope| &mut scope.bindings);
+        for (_, bound) in bindings.filter(|(_, bound)| !matches!(bound, Bound::Number(..))) {
+            *bound = Bound::Lost;
+        }
+        self.turnings.clear();
+    }
+
     /// What was to be counted since this was last asked for.
     pub fn take_turnings(&mut self) -> Vec<Turning> {
         std::mem::take(&mut self.turnings)
@@ -104,6 +113,26 @@ pub enum Bound {
     Formula(Formula),
     /// A point, itself.
     Point(PointId),
+    /// What it was is of a world that was cleared.
+    Lost,
+}
+
+impl Bound {
+    /// Whether all that it stands for is there.
+    fn is_there(&self, world: &World) -> bool {
+        match self {
+            Self::Number(..) => true,
+            Self::Formula(formula) => world.has_all(formula),
+            Self::Point(id) => world.points().is_alive(*id),
+            Self::Lost => false,
+        }
+    }
+}
+
+/// What is wrong where a parameter stands for what was deleted since it was given.
+pub(super) fn lost(span: Span) -> Diagnostic {
+    Diagnostic::error(errors::UNKNOWN_NAME, "what this stands for is gone")
+        .at(span, "it was deleted within this definition")
 }
 
 /// What a name in an expression stands for.
@@ -203,6 +232,9 @@ impl<'a> Resolver<'a> {
         };
         if let Some(bound) = self.binding(name) {
             let bound = bound.clone();
+            if !bound.is_there(&self.state.world) {
+                return Err(lost(name.span));
+            }
             return match (name.parts.len(), axis) {
                 (0, _) => Ok((Meaning::Bound(bound), None)),
                 (1, Some(axis)) if !matches!(bound, Bound::Number(..)) => {
