@@ -1,6 +1,7 @@
 //! Expressions of the language become values, or formulas that stay live.
 
-use super::scope::{Bound, Meaning, Resolver, lost};
+use super::scope::{Meaning, Resolver};
+use super::scopes::{Bound, lost};
 use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;

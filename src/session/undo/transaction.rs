@@ -242,7 +242,12 @@ impl History {
     /// none to be taken back.
     pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) -> bool {
         self.gather(state);
-        let is_change = !self.journal.current.iter().all(|change| state.is_at(change));
+        let changes = &self.journal.current;
+        // What was changed of a world that is gone is not to be looked for in this one.
+        let is_another =
+            |it: &Change| matches!(it, Change::World(Edit::Everything(_))) && !state.is_at(it);
+        let is_change =
+            changes.iter().any(is_another) || !changes.iter().all(|change| state.is_at(change));
         if is_change {
             self.journal.commit(label, quotas);
         } else {

@@ -99,6 +99,6 @@ fn what_a_parameter_stood_for_may_be_gone() {
         check_same(&talking.script(), &before, body);
     }
     let mut talking = Talking::after("define d(P, r) { clear; let z = r }; point A = (0, 0)");
-    talking.run("use d(A, 3)");
-    assert_eq!(talking.ask("z"), ["3"]);
+    talking.run("use d(A, 3) as left");
+    assert_eq!(talking.ask("left.z"), ["3"]);
 }
