@@ -3,8 +3,8 @@
 use super::batch::{Batch, BatchRecords};
 use super::motion::whole_state;
 use super::{
-    ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, Parameter, ParameterId, PointId,
-    PointRecord, Record, Refreeze, World,
+    ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
+    PointId, PointRecord, Record, Refreeze, World,
 };
 use crate::constraint::Constraint;
 
@@ -50,6 +50,7 @@ impl World {
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
             }
+            Edit::Rename(entity, name) => Edit::Rename(entity, self.swap_name(entity, name)),
             Edit::DeleteBatch(batch) => Edit::RestoreBatch(Box::new(self.delete_batch(batch))),
             Edit::RestoreBatch(records) => Edit::DeleteBatch(self.restore_batch(*records)),
             Edit::Parameter(id, parameter) => {
@@ -182,6 +183,15 @@ impl World {
             _ => {}
         }
         self.measures.swap(id.idx(), new.map(|it| *it)).map(Box::new)
+    }
+
+    /// Gives another name to what lives; gives the name it had. Nothing else of it changes: all that
+    /// refers to it does so by its handle.
+    fn swap_name(&mut self, entity: Entity, mut name: Box<NameText>) -> Box<NameText> {
+        std::mem::swap(self.name_text_mut(entity), &mut *name);
+        self.index.remove(&name, entity);
+        self.index.insert(&self.name_text_of(entity).clone(), entity);
+        name
     }
 
     /// Empties the world; gives the edits that bring everything back, last first.
