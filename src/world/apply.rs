@@ -50,7 +50,10 @@ impl World {
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
             }
-            Edit::Rename(entity, name) => Edit::Rename(entity, self.swap_name(entity, name)),
+            Edit::Rename(entity, mut name) => {
+                self.swap_name(entity, &mut name);
+                Edit::Rename(entity, name)
+            }
             Edit::DeleteBatch(batch) => Edit::RestoreBatch(Box::new(self.delete_batch(batch))),
             Edit::RestoreBatch(records) => Edit::DeleteBatch(self.restore_batch(*records)),
             Edit::Parameter(id, parameter) => {
@@ -185,13 +188,12 @@ impl World {
         self.measures.swap(id.idx(), new.map(|it| *it)).map(Box::new)
     }
 
-    /// Gives another name to what lives; gives the name it had. Nothing else of it changes: all that
-    /// refers to it does so by its handle.
-    fn swap_name(&mut self, entity: Entity, mut name: Box<NameText>) -> Box<NameText> {
-        std::mem::swap(self.name_text_mut(entity), &mut *name);
-        self.index.remove(&name, entity);
-        self.index.insert(&self.name_text_of(entity).clone(), entity);
-        name
+    /// Exchanges the name of what lives for a free one. Nothing else of it changes: all that refers to it
+    /// does so by its handle.
+    fn swap_name(&mut self, entity: Entity, name: &mut NameText) {
+        self.index.insert(name, entity);
+        std::mem::swap(self.name_text_mut(entity), name);
+        self.index.remove(name, entity);
     }
 
     /// Empties the world; gives the edits that bring everything back, last first.
