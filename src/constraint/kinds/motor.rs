@@ -142,14 +142,23 @@ impl Motor {
         }
     }
 
-    /// Advances so many times by `dt`; where it points after each.
+    /// Advances so many times by `dt`; how far it turns in each, and the coordinates of where it points then.
     #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
     #[inline(always)]
-    pub fn advance_each<const N: usize>(&mut self, dt: f64) -> [Heading; N] {
-        let Some(step) = self.drive.step(dt) else { return [self.heading; N] };
-        let headings = self.drive.headings(self.heading, step);
-        self.heading = headings[N - 1];
-        headings
+    pub fn advance_each<const N: usize>(&mut self, dt: f64) -> (Turns, [[f64; N]; 2]) {
+        let Heading { turned, target } = self.heading;
+        let Some(step) = self.drive.step(dt) else {
+            return (Turns::default(), [[target.x; N], [target.y; N]]);
+        };
+        let [x, y] = self.drive.targets(turned, step);
+        let turned = turned.plus_times(step, N);
+        self.heading = Heading { turned, target: Vector::new(x[N - 1], y[N - 1]) };
+        (step, [x, y])
+    }
+
+    /// How far the driven point goes around the centre where the motor turns as far as that.
+    pub fn way_of(&self, turned: Turns) -> f64 {
+        turned.total().abs() * self.drive.radius
     }
 
     fn linear(&self) -> Linear {

@@ -1,9 +1,10 @@
 //! What drives a motor, and where that leads.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::content::add_all;
-use super::geometry::{Vector, wrap};
+use super::geometry::{Vector, wrap, wrap_near};
 use super::heading::Heading;
 use super::sines::sines_and_cosines;
 use super::turns::Turns;
@@ -65,22 +66,21 @@ impl Drive {
         add_all([*radius, *speed, *phase], word);
     }
 
-    /// Where it points after each of so many equal steps.
+    /// Where it points after each of so many equal steps: the coordinates of its targets.
     #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
     #[inline(always)]
-    pub fn headings<const N: usize>(&self, from: Heading, step: Turns) -> [Heading; N] {
-        let mut headings = [from; N];
+    #[allow(clippy::needless_range_loop, reason = "one loop over all, that vectors are made of")]
+    pub fn targets<const N: usize>(&self, from: Turns, step: Turns) -> [[f64; N]; 2] {
         let mut angles = [0.0; N];
-        let mut turned = from.turned;
-        for (heading, angle) in headings.iter_mut().zip(&mut angles) {
-            turned = turned.plus(step);
-            heading.turned = turned;
-            *angle = self.angle_at(turned);
+        for l in 0..N {
+            angles[l] = self.phase + from.plus_times(step, l + 1).angle();
+        }
+        if self.phase.abs() <= 0.9 * TAU {
+            angles = angles.map(wrap_near);
+        } else {
+            angles = angles.map(wrap);
         }
         let [sines, cosines] = sines_and_cosines(&angles);
-        for (l, heading) in headings.iter_mut().enumerate() {
-            heading.target = Vector::new(self.radius * cosines[l], self.radius * sines[l]);
-        }
-        headings
+        [cosines, sines].map(|parts| parts.map(|part| self.radius * part))
     }
 }

@@ -155,6 +155,14 @@ pub fn wrap(phi: f64) -> f64 {
     if r <= -PI { r + TAU } else { r }
 }
 
+/// The same for an angle below one and a half turns either way, without branches.
+#[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+#[inline(always)]
+pub fn wrap_near(phi: f64) -> f64 {
+    let whole = if phi > PI { TAU } else { 0.0 } - if phi <= -PI { TAU } else { 0.0 };
+    phi - whole
+}
+
 /// Whether two points are far enough apart to have a direction: below the rounding of their
 /// coordinates it would be noise.
 pub fn has_direction(a: Point, b: Point) -> bool {

@@ -3,43 +3,93 @@
 use super::geometry::wrap;
 use std::f64::consts::TAU;
 
-/// How far something has turned: whole turns and a fraction of one, to twice the precision
+/// How far something has turned: whole turns and a fraction of one, to about twice the precision
 /// of `f64`. A turn is `f64`'s 2 pi, the `1rev` of the command language.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+///
+/// The fraction is counted in parts of a turn, so that sums are exact: a hundred steps one by one lead where a
+/// hundred at once do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Turns {
     /// Whole turns.
     whole: i64,
-    /// The rest, in turns, as an unevaluated sum of two; within half a turn of 0.
-    fraction: Double,
+    /// The rest, within half a turn of 0.
+    fraction: Fraction,
 }
 
-/// The sum of two numbers, the second below the rounding of the first.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Double {
-    hi: f64,
-    lo: f64,
+/// A part of a turn, in two digits to the base [`BASE`]; each is at least `-BASE / 2` and below `BASE / 2`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Fraction {
+    /// Parts of a turn.
+    high: i64,
+    /// Parts of such a part.
+    low: i64,
 }
 
-impl Double {
-    /// The exact sum of two numbers.
-    fn sum(a: f64, b: f64) -> Self {
-        let hi = a + b;
-        let b_part = hi - a;
-        Self { hi, lo: (a - (hi - b_part)) + (b - b_part) }
+/// The binary digits of a digit.
+const BITS: u32 = 52;
+/// The parts of a turn, and of one of these.
+const BASE: i64 = 1 << BITS;
+/// A part of a turn, and a part of that, in turns.
+const PARTS: [f64; 2] = [1.0 / BASE as f64, 1.0 / BASE as f64 / BASE as f64];
+
+/// What a digit has too much, and what is left of it.
+#[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+#[inline(always)]
+const fn carry(digit: i64) -> (i64, i64) {
+    let over = (digit + BASE / 2) >> BITS;
+    (over, digit - (over << BITS))
+}
+
+/// A digit as a number; exact.
+#[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+#[inline(always)]
+const fn number(digit: i64) -> f64 {
+    // Next to this number the digits of a float count ones: so it goes in vectors too.
+    const ONES: f64 = 1.5 * BASE as f64;
+    f64::from_bits((ONES.to_bits().cast_signed() + digit).cast_unsigned()) - ONES
+}
+
+impl Fraction {
+    /// So many parts, and the turns that are in them.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
+    const fn of(high: i64, low: i64) -> (i64, Self) {
+        let (over, low) = carry(low);
+        let (whole, high) = carry(high + over);
+        (whole, Self { high, low })
     }
 
-    /// The quotient of two numbers.
-    fn quotient(a: f64, b: f64) -> Self {
-        let hi = a / b;
-        if hi.is_finite() { Self { hi, lo: (-hi).mul_add(b, a) / b } } else { Self::default() }
+    /// The sum of two numbers of turns, one at most each, and the turns that are in it. What is below a part of a
+    /// part is rounded.
+    fn nearest([one, other]: [f64; 2]) -> (i64, Self) {
+        let split = |turns: f64| {
+            let high = (turns / PARTS[0]).round();
+            (high as i64, ((turns - high * PARTS[0]) / PARTS[1]).round() as i64)
+        };
+        let ((a, b), (c, d)) = (split(one), split(other));
+        Self::of(a + c, b + d)
     }
 
-    fn plus(self, o: Self) -> Self {
-        let high = Self::sum(self.hi, o.hi);
-        let low = Self::sum(self.lo, o.lo);
-        let once = Self::sum(high.hi, high.lo + low.hi);
-        Self::sum(once.hi, once.lo + low.lo)
+    /// In turns.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
+    const fn to_numbers(self) -> [f64; 2] {
+        [number(self.high) * PARTS[0], number(self.low) * PARTS[1]]
     }
+
+    /// In radians.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
+    fn angle(self) -> f64 {
+        let [high, low] = self.to_numbers();
+        high.mul_add(TAU, low * TAU)
+    }
+}
+
+/// The quotient of two numbers, as an unevaluated sum of two; 0 where it is no number.
+fn quotient(a: f64, b: f64) -> [f64; 2] {
+    let high = a / b;
+    if high.is_finite() { [high, (-high).mul_add(b, a) / b] } else { [0.0; 2] }
 }
 
 impl Turns {
@@ -52,32 +102,50 @@ impl Turns {
         if !radians.is_finite() {
             return Self::default();
         }
-        let turns = Double::quotient(radians, TAU);
-        let whole = turns.hi.round();
-        let rest = Double::sum(turns.hi - whole, turns.lo);
-        let fraction = simplest_fraction(rest.hi, 4.0 * f64::EPSILON * turns.hi.abs())
-            .map_or(rest, |(p, q)| Double::quotient(p, q));
-        Self { whole: whole as i64, fraction }
+        let [turns, less] = quotient(radians, TAU);
+        let whole = turns.round();
+        let rest = turns - whole;
+        let fraction = simplest_fraction(rest, 4.0 * f64::EPSILON * turns.abs())
+            .map_or([rest, less], |(p, q)| quotient(p, q));
+        Self::sum(whole as i64, Fraction::nearest(fraction))
+    }
+
+    const fn sum(whole: i64, (more, fraction): (i64, Fraction)) -> Self {
+        Self { whole: whole.saturating_add(more), fraction }
     }
 
     /// Turns on by another amount.
     #[must_use]
-    pub fn plus(self, by: Self) -> Self {
-        let fraction = self.fraction.plus(by.fraction);
-        if fraction.hi.abs() < 0.5 && fraction.hi != 0.0 {
-            // Nothing is carried, as in most frames, and it is a sum already.
-            return Self { whole: self.whole.saturating_add(by.whole), fraction };
-        }
-        let carry = fraction.hi.round();
-        Self {
-            whole: self.whole.saturating_add(by.whole).saturating_add(carry as i64),
-            fraction: Double::sum(fraction.hi - carry, fraction.lo),
-        }
+    pub const fn plus(self, by: Self) -> Self {
+        self.plus_times(by, 1)
+    }
+
+    /// Turns on by another amount so many times, eight at most.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[must_use]
+    #[inline(always)]
+    pub const fn plus_times(self, by: Self, times: usize) -> Self {
+        let times = times.cast_signed() as i64;
+        let (high, low) = (by.fraction.high * times, by.fraction.low * times);
+        let (more, fraction) = Fraction::of(self.fraction.high + high, self.fraction.low + low);
+        // Eight times as much may be too many, though not for what was less than nothing.
+        let whole = self.whole as i128 + by.whole as i128 * times as i128 + more as i128;
+        let (most, least) = (i64::MAX as i128, i64::MIN as i128);
+        let whole = if whole > most {
+            most
+        } else if whole < least {
+            least
+        } else {
+            whole
+        };
+        Self { whole: whole as i64, fraction }
     }
 
     /// The angle without whole turns, radians, in [-pi, pi].
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
     pub fn angle(self) -> f64 {
-        self.fraction.hi.mul_add(TAU, self.fraction.lo * TAU)
+        self.fraction.angle()
     }
 
     /// The whole angle, radians; as exact as one number can be.
@@ -87,26 +155,28 @@ impl Turns {
 
     /// The angle between two amounts, radians; exact to rounding of what is between them.
     pub fn apart(self, other: Self) -> f64 {
-        let whole = self.whole.saturating_sub(other.whole) as f64;
-        let fraction =
-            (self.fraction.hi - other.fraction.hi) + (self.fraction.lo - other.fraction.lo);
-        ((whole + fraction) * TAU).abs()
+        let (one, two) = (self.fraction, other.fraction);
+        let between = Fraction::of(one.high - two.high, one.low - two.low);
+        Self::sum(self.whole.saturating_sub(other.whole), between).total().abs()
     }
 
     /// The amount as whole turns and the two parts of the fraction.
     pub const fn to_numbers(self) -> [f64; 3] {
-        [self.whole as f64, self.fraction.hi, self.fraction.lo]
+        let [high, low] = self.fraction.to_numbers();
+        [self.whole as f64, high, low]
     }
 
-    /// The amount that [`to_numbers`](Self::to_numbers) gave.
-    pub const fn from_numbers([whole, hi, lo]: [f64; 3]) -> Self {
-        Self { whole: whole as i64, fraction: Double { hi, lo } }
+    /// The amount that [`to_numbers`](Self::to_numbers) gave; of others whole turns alone are taken.
+    pub fn from_numbers([whole, high, low]: [f64; 3]) -> Self {
+        let is_part = high.abs() <= 1.0 && low.abs() <= 1.0;
+        Self::sum(whole as i64, Fraction::nearest(if is_part { [high, low] } else { [0.0; 2] }))
     }
 
     /// The amount nearest to this one that differs from `angle` by whole turns.
     #[must_use]
     pub fn pick_up(self, angle: f64) -> Self {
-        self.plus(Self { whole: 0, fraction: Double::quotient(wrap(angle - self.angle()), TAU) })
+        let on = quotient(wrap(angle - self.angle()), TAU);
+        self.plus(Self::sum(0, Fraction::nearest(on)))
     }
 }
 
@@ -139,6 +209,7 @@ pub(crate) fn simplest_fraction(t: f64, tolerance: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn after(n: usize, radians: f64) -> Turns {
         let step = Turns::from_radians(radians);
@@ -150,7 +221,7 @@ mod tests {
         for frames in [1, 2, 3, 7, 24, 36, 60, 90, 360, 1440] {
             for speed in [TAU, -TAU, 2.0 * TAU, 7.0 * TAU] {
                 let turns = after(frames, speed * (1.0 / frames as f64));
-                assert!(turns.angle().abs() < 1e-28, "{frames} frames at {speed}");
+                assert!(turns.angle().abs() < 1e-27, "{frames} frames at {speed}");
                 assert_eq!(turns.total(), speed);
             }
         }
@@ -192,6 +263,44 @@ mod tests {
         assert!((turns.apart(further) - 0.3).abs() < 1e-15);
         assert_eq!(turns.apart(turns), 0.0);
         assert_eq!(after(7, TAU).apart(Turns::default()), 7.0 * TAU);
+    }
+
+    #[test]
+    fn steps_at_once_lead_where_they_lead_one_by_one() {
+        let steps = [
+            1e-300,
+            1e-17,
+            0.1,
+            -0.1,
+            TAU / 360.0,
+            3.0,
+            -3.0,
+            PI,
+            -PI,
+            1e6 * TAU + 1.0,
+            1e25,
+            -1e300,
+        ];
+        for radians in steps {
+            let (from, step) = (after(5, 2.9 + radians), Turns::from_radians(radians));
+            let mut one_by_one = from;
+            for n in 1..=8 {
+                one_by_one = one_by_one.plus(step);
+                assert_eq!(from.plus_times(step, n), one_by_one, "{n} of {radians}");
+                assert!(one_by_one.angle().abs() <= PI);
+                assert_eq!(Turns::from_numbers(one_by_one.to_numbers()), one_by_one);
+            }
+        }
+    }
+
+    #[test]
+    fn other_numbers_are_read_as_something_near_or_as_whole_turns() {
+        let near = Turns::from_numbers([2.0, 0.3, -1e-18]);
+        assert!((near.total() - 2.3 * TAU).abs() < 1e-14);
+        for bad in [f64::NAN, f64::INFINITY, 1e300, -7.0] {
+            assert_eq!(Turns::from_numbers([1.0, bad, 0.0]).total(), TAU);
+            assert_eq!(Turns::from_numbers([1.0, 0.0, bad]).total(), TAU);
+        }
     }
 
     #[test]

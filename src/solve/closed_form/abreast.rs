@@ -130,6 +130,21 @@ impl<const N: usize> Abreast<N> {
         Found { worst: self.worst[l], least_side_squared: self.least_side_squared[l] }
     }
 
+    /// The worst of what all frames came to.
+    #[inline(always)]
+    pub fn found_in_all(&self) -> Found {
+        let (mut worst, mut least) = (self.worst, self.least_side_squared);
+        let mut n = N;
+        while n > 1 {
+            n /= 2;
+            for l in 0..n {
+                worst[l] = larger(worst[l], worst[l + n]);
+                least[l] = if least[l + n] < least[l] { least[l + n] } else { least[l] };
+            }
+        }
+        Found { worst: worst[0], least_side_squared: least[0] }
+    }
+
     /// Takes in what a check came to in each frame.
     #[inline(always)]
     pub fn check_each(&mut self, off: impl Fn(usize) -> f64) {

@@ -1,10 +1,10 @@
 //! Many frames at a time, where nothing but motors drives an island.
 
 use super::ClosedForm;
-use super::abreast::{Abreast, Places, WIDE};
+use super::abreast::{Abreast, Places, Turned, WIDE};
 use super::found::Found;
 use super::run::make;
-use crate::constraint::{Constraint, Heading, Point};
+use crate::constraint::{Constraint, Heading, Point, Turns};
 use crate::solve::island::Island;
 use crate::world::{ConstraintId, World};
 
@@ -17,12 +17,12 @@ pub(crate) struct Lanes {
     places: Vec<Places<WIDE>>,
     /// What drives them, and what they came to.
     abreast: Abreast<WIDE>,
-    /// How each of its cranks points in each.
-    headings: Vec<[Heading; WIDE]>,
     /// Where the free points were before the first.
     origin: Vec<Point>,
-    /// Where cranks pointed before the first.
-    before: Vec<Heading>,
+    /// Where cranks pointed before the first, and how far each turns in a frame.
+    before: Vec<(Heading, Turns)>,
+    /// Where the island set out: its free points, and how its cranks pointed.
+    start: (Vec<Point>, Vec<Heading>),
     /// Whether `places` are those at which the last of them ended.
     is_up_to_date: bool,
 }
@@ -39,18 +39,22 @@ impl Lanes {
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
             abreast,
-            headings: Vec::with_capacity(n_cranks),
             origin: Vec::with_capacity(island.n_free),
             before: Vec::with_capacity(n_cranks),
+            start: (Vec::with_capacity(island.n_free), Vec::with_capacity(n_cranks)),
             is_up_to_date: false,
         }
     }
 
-    /// Finds the next frames, of which each is as long as that; the island stays where it is.
+    /// Finds the next frames, of which each is as long as that. The island stays where it is, but for where its
+    /// motors point: that is where they do at the end of the last.
     pub fn find(&mut self, form: &mut ClosedForm, island: &mut Island, dt: f64) {
         self.origin.clear();
-        self.origin.extend_from_slice(&island.x[..island.n_free]);
-        if !std::mem::replace(&mut self.is_up_to_date, true) {
+        if std::mem::replace(&mut self.is_up_to_date, true) {
+            let last = self.places[..island.n_free].iter().map(|places| places.at(WIDE - 1));
+            self.origin.extend(last);
+        } else {
+            self.origin.extend_from_slice(&island.x[..island.n_free]);
             self.places.clear();
             self.places.extend(island.x.iter().map(|&at| Places::all(at)));
         }
@@ -81,19 +85,45 @@ impl Lanes {
     /// Turns the cranks on by all frames.
     #[inline(always)]
     fn turn_on(&mut self, form: &ClosedForm, constraints: &mut [Constraint], dt: f64) {
-        self.headings.clear();
         self.before.clear();
         for (crank, turned) in form.cranks.iter().zip(&mut self.abreast.turned) {
             let Some(motor) = crank.motor(constraints) else { continue };
-            let mut before = motor.heading();
-            self.before.push(before);
-            let headings = motor.advance_each::<WIDE>(dt);
-            for (l, &now) in headings.iter().enumerate() {
-                turned.set(l, now.target(), motor.way_between(before, now));
-                before = now;
-            }
-            self.headings.push(headings);
+            let before = motor.heading();
+            let (step, [x, y]) = motor.advance_each::<WIDE>(dt);
+            *turned = Turned { x, y, way: [motor.way_of(step); WIDE] };
+            self.before.push((before, step));
         }
+    }
+
+    /// How the cranks point at the end of a frame.
+    fn headings(&self, l: usize) -> impl Iterator<Item = Heading> + '_ {
+        self.before.iter().zip(&self.abreast.turned).map(move |((before, step), turned)| Heading {
+            turned: before.turned.plus_times(*step, l + 1),
+            target: turned.at(l).0,
+        })
+    }
+
+    /// Sets out from where an island is.
+    pub fn set_out(&mut self, form: &ClosedForm, island: &Island) {
+        let (x, headings) = &mut self.start;
+        x.clear();
+        x.extend_from_slice(&island.x[..island.n_free]);
+        headings.clear();
+        headings.extend(form.cranks.iter().filter_map(|crank| crank.heading(&island.constraints)));
+    }
+
+    /// Puts an island back where it set out.
+    pub fn go_back(&mut self, form: &mut ClosedForm, island: &mut Island) {
+        let (x, headings) = &self.start;
+        island.x[..x.len()].copy_from_slice(x);
+        point(form, &mut island.constraints, headings.iter().copied());
+        self.is_up_to_date = false;
+        form.look(&island.x);
+    }
+
+    /// The worst of what all frames came to.
+    pub fn found_in_all(&self) -> Found {
+        self.abreast.found_in_all()
     }
 
     /// What a frame came to.
@@ -118,14 +148,13 @@ impl Lanes {
         for (to, places) in island.x[..self.origin.len()].iter_mut().zip(&self.places) {
             *to = places.at(l);
         }
-        let headings = self.headings.iter().map(|of_crank| of_crank[l]);
-        point(form, &mut island.constraints, headings);
+        point(form, &mut island.constraints, self.headings(l));
     }
 
     /// Tells the world how the cranks point at the end of a frame.
     pub fn hand_over(&self, l: usize, form: &ClosedForm, ids: &[ConstraintId], world: &mut World) {
-        for (crank, of_crank) in form.cranks.iter().zip(&self.headings) {
-            crank.point_in(world, ids, of_crank[l]);
+        for (crank, heading) in form.cranks.iter().zip(self.headings(l)) {
+            crank.point_in(world, ids, heading);
         }
     }
 
@@ -137,7 +166,9 @@ impl Lanes {
         }
         match n.checked_sub(1) {
             Some(last) => self.show(last, form, island),
-            None => point(form, &mut island.constraints, self.before.iter().copied()),
+            None => {
+                point(form, &mut island.constraints, self.before.iter().map(|(before, _)| *before));
+            }
         }
         if n < WIDE {
             self.is_up_to_date = false;

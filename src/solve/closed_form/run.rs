@@ -145,8 +145,8 @@ impl ClosedForm {
     /// Points the motors of a world, which have these handles, as those here.
     pub fn hand_over(&self, constraints: &[Constraint], ids: &[ConstraintId], world: &mut World) {
         for crank in &self.cranks {
-            if let Constraint::Motor(here) = &constraints[crank.motor as usize] {
-                crank.point_in(world, ids, here.heading());
+            if let Some(heading) = crank.heading(constraints) {
+                crank.point_in(world, ids, heading);
             }
         }
     }
@@ -244,6 +244,14 @@ impl Crank {
     pub fn motor<'a>(&self, constraints: &'a mut [Constraint]) -> Option<&'a mut Motor> {
         match &mut constraints[self.motor as usize] {
             Constraint::Motor(motor) => Some(motor),
+            _ => None,
+        }
+    }
+
+    /// How its motor points.
+    pub fn heading(&self, constraints: &[Constraint]) -> Option<Heading> {
+        match &constraints[self.motor as usize] {
+            Constraint::Motor(motor) => Some(motor.heading()),
             _ => None,
         }
     }

@@ -15,7 +15,7 @@ use cores as work;
 use one_core as work;
 
 pub use work::limit_cores;
-pub(super) use work::{for_each_chunk, map_reduce};
+pub(super) use work::{for_each_chunk, map_reduce, n_cores};
 
 /// Less work than so many evaluations of constraints is done sooner than others are called; see
 /// docs/performance.md.
@@ -44,7 +44,7 @@ pub(super) struct Effort {
 pub(super) fn pays(last: &Effort) -> bool {
     last.n_evaluations >= ENOUGH
         && last.n_evaluations >= ENOUGH_EACH * last.n_constraints
-        && work::n_cores() > 1
+        && n_cores() > 1
 }
 
 #[cfg(test)]

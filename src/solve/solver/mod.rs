@@ -1,10 +1,12 @@
 //! The solver as the session knows it: a world goes in as it is driven and comes out solved.
 
 mod changes;
+mod rider;
 mod stretch;
 mod visits;
 
-pub use stretch::{Along, Stretch};
+pub use rider::Stretch;
+pub use stretch::Along;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

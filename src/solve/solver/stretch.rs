@@ -5,29 +5,15 @@
 //! kept of each.
 
 use super::Solver;
+use super::rider::{Course, Kept, Rider, Stretch};
 use crate::constraint::Vector;
 use crate::diag::Diagnostic;
-use crate::solve::closed_form::{ClosedForm, Compiled, Found, Lanes, WIDE};
-use crate::solve::dispatch::write_back;
-use crate::solve::frame::predict::may_exceed;
-use crate::solve::island::Island;
+use crate::solve::closed_form::WIDE;
+use crate::solve::parallel::{ISLANDS, map_reduce, n_cores};
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
 use crate::solve::velocity;
-use crate::world::{ConstraintId, Extremes, Measuring, PointId, Rates, World};
-
-/// What frames came to that passed at once. Each was solved.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stretch {
-    /// How many frames passed.
-    pub n_frames: u64,
-    /// The iterations of all together.
-    pub iterations: u64,
-    /// The largest distance to satisfaction in any, relative to the size.
-    pub residual: f64,
-    /// The largest position error that was found next to a singular pose; else what was known.
-    pub position_error: f64,
-}
+use crate::world::{ConstraintId, Extremes, Measuring, Rates, World};
 
 /// How far a stretch goes, and what is kept on the way.
 pub struct Along<'a> {
@@ -39,29 +25,64 @@ pub struct Along<'a> {
     pub goes_on: &'a dyn Fn() -> bool,
 }
 
-/// An island on its way through a stretch, with what it is driven by.
-struct Rider {
-    /// Its number.
-    k: u32,
-    island: Box<Island>,
-    form: Box<ClosedForm>,
-    /// What its size is at least.
-    least_size: f64,
-    /// How many motors turn in it.
-    n_turning: usize,
-    /// What the last frame came to.
-    found: Found,
-    /// Its next frames, once many pass.
-    lanes: Option<Box<Lanes>>,
-    /// Its points that are traced.
-    traced: Vec<(usize, PointId)>,
+/// How many constraints of riders are evaluated in eight frames each before it is asked whether to go on.
+const LEG: u64 = 1 << 20;
+
+/// So many islands are shared out to all cores.
+const MANY: usize = 100;
+
+/// Blocks of frames through which each island goes by itself, so that what it is made of is at hand.
+struct Leg {
+    /// How many there were to be in the last.
+    n_blocks: u64,
+    /// How many there may be.
+    most: u64,
+    /// Whether some island did not go through all of them.
+    has_ended: bool,
+    /// Whether it pays to do it on all cores.
+    is_shared: bool,
 }
 
-/// What is kept of each frame.
-#[derive(Clone, Copy)]
-struct Kept {
-    is_traced: bool,
-    is_measured: bool,
+impl Leg {
+    fn new(riders: &[Rider]) -> Self {
+        let n_constraints: u64 = riders.iter().map(Rider::n_constraints).sum();
+        let most = (LEG / n_constraints.max(1)).max(1);
+        Self {
+            n_blocks: 1,
+            most,
+            has_ended: false,
+            is_shared: riders.len() >= MANY && n_cores() > 1,
+        }
+    }
+
+    /// Whether there is a next one, of so many blocks at most: the block in which the last one ended is to be
+    /// looked at frame by frame.
+    fn is_on(&mut self, n_left: u64) -> bool {
+        if std::mem::take(&mut self.has_ended) {
+            self.n_blocks = 1;
+            return false;
+        }
+        self.n_blocks = (2 * self.n_blocks).min(self.most).min(n_left);
+        true
+    }
+
+    /// Lets all islands go through it; gives how many blocks passed.
+    fn ride(&mut self, course: &Course, riders: &mut [Rider], stretch: &mut Stretch) -> u64 {
+        let known = *stretch;
+        let n = if self.is_shared {
+            let ride = |rider: &mut Rider| rider.ride(self.n_blocks, course, &known);
+            map_reduce(riders, ISLANDS, ride, self.n_blocks, u64::min)
+        } else {
+            // None goes farther than those before it.
+            let ride = |n, rider: &mut Rider| rider.ride(n, course, &known).min(n);
+            riders.iter_mut().fold(self.n_blocks, ride)
+        };
+        for rider in riders {
+            rider.arrive(n, course, stretch);
+        }
+        self.has_ended = n < self.n_blocks;
+        n
+    }
 }
 
 impl Solver {
@@ -94,11 +115,16 @@ impl Solver {
         let is_measured = world.has_measures();
         let kept = Kept { is_traced: !world.traces().is_empty() || is_measured, is_measured };
         let mut failure = None;
-        let course = Course { dt, tolerance: budget.tolerance_of(settings), budget };
+        let tolerance = budget.tolerance_of(settings);
+        let course = Course { dt, tolerance, promised: budget.tolerance };
         let mut is_side_by_side = false;
+        let mut leg = Leg::new(&riders);
         while stretch.n_frames < on.n && failure.is_none() {
             let before = stretch.n_frames;
-            if is_side_by_side && on.n - before >= WIDE as u64 {
+            let n_blocks = (on.n - before) / WIDE as u64;
+            if is_side_by_side && n_blocks > 0 && !kept.is_traced && leg.is_on(n_blocks) {
+                stretch.n_frames += WIDE as u64 * leg.ride(&course, &mut riders, &mut stretch);
+            } else if is_side_by_side && n_blocks > 0 {
                 let n = course.find_side_by_side(&mut riders);
                 failure = course.accept(n, &mut riders, &mut stretch, world, kept, on).err();
                 is_side_by_side = n == WIDE;
@@ -197,19 +223,7 @@ fn measure(
     world.take_readings(false, &mut Measuring { extremes, is_met: true, rates: &mut rates })
 }
 
-/// What all frames of a stretch have in common.
-struct Course<'a> {
-    dt: f64,
-    tolerance: f64,
-    budget: &'a Budget<'a>,
-}
-
-impl Course<'_> {
-    /// Whether a pose keeps the tolerance that was promised, if one was, whatever rounding allows.
-    fn is_promised(&self, found: &Found, island: &Island) -> bool {
-        self.budget.tolerance.is_none_or(|tolerance| found.worst <= tolerance * island.wanted())
-    }
-
+impl Course {
     /// Lets a frame pass; false if it does not, and everything is as before.
     #[inline]
     fn frame(&self, riders: &mut [Rider], stretch: &mut Stretch) -> bool {
@@ -263,181 +277,5 @@ impl Course<'_> {
         riders.iter_mut().for_each(|rider| rider.end_side_by_side(n_done));
         stretch.n_frames += n_done as u64;
         result
-    }
-}
-
-impl Rider {
-    /// Makes an island ready, if nothing but motors drives it; gives it back otherwise.
-    fn mount(k: u32, mut island: Box<Island>, world: &World, dt: f64) -> Result<Self, Box<Island>> {
-        if !island.is_under_way() || !island.inputs.is_empty() {
-            return Err(island);
-        }
-        let Some(mut form) = island.take_closed_form() else { return Err(island) };
-        let there = |c: usize| world.constraint(island.ids[c]).map(|record| &record.constraint);
-        match form.begin(&island.x, &island.constraints, there, dt) {
-            Some(n_turning) if n_turning > 0 => {
-                island.prepare();
-                let traces = world.traces().iter();
-                let traced = traces
-                    .filter_map(|trace| island.local_point(trace.point).map(|p| (p, trace.point)));
-                let traced = traced.filter(|&(p, _)| p < island.n_free).collect();
-                let (lanes, found) = (None, Found::NOTHING);
-                Ok(Self {
-                    k,
-                    least_size: island.least_size(),
-                    island,
-                    form,
-                    n_turning,
-                    found,
-                    lanes,
-                    traced,
-                })
-            }
-            _ => {
-                island.closed_form = Compiled::List(form);
-                Err(island)
-            }
-        }
-    }
-
-    /// Finds the pose of the next frame; false if that is to be found in another way, and
-    /// everything is as before.
-    #[inline]
-    fn advance(&mut self, course: &Course) -> bool {
-        let Self { island, form, found, .. } = self;
-        form.turn_on(&mut island.constraints, course.dt);
-        match island.run_closed(form, course.tolerance) {
-            Some(now) if course.is_promised(&now, island) => *found = now,
-            Some(_) => {
-                self.take_back();
-                return false;
-            }
-            None => {
-                form.turn_back(&mut island.constraints);
-                return false;
-            }
-        }
-        true
-    }
-
-    /// Puts everything as it was before the frame.
-    fn take_back(&mut self) {
-        self.island.put_back(&mut self.form);
-        self.form.turn_back(&mut self.island.constraints);
-    }
-
-    /// The frame counts.
-    #[inline]
-    fn accept(&mut self, stretch: &mut Stretch) {
-        let Self { island, found, least_size, .. } = self;
-        island.history.advance();
-        island.accept_pose();
-        island.position_error = 0.0;
-        if found.is_sensitive() {
-            let size = island.size_before();
-            island.note_closed_form(found, size, stretch.position_error);
-            stretch.position_error = stretch.position_error.max(island.position_error);
-        }
-        // The size is at least that, and asked for only where it might matter.
-        if found.worst > stretch.residual * *least_size {
-            stretch.residual = stretch.residual.max(found.worst / island.size_before());
-        }
-    }
-
-    /// Finds its next frames side by side; gives how many count, as far as it is asked.
-    fn find_side_by_side(&mut self, course: &Course) -> usize {
-        let Self { island, form, lanes, .. } = self;
-        let lanes = lanes.get_or_insert_with(|| Box::new(Lanes::new(form, island)));
-        lanes.find(form, island, course.dt);
-        let enough = island.enough(form, course.tolerance).max(island.rounding());
-        let counts = |l: &usize| {
-            let found = lanes.found(*l);
-            found.worst <= enough && course.is_promised(&found, island)
-        };
-        (0..WIDE).take_while(counts).count()
-    }
-
-    /// Whether one of the first frames side by side has an error that may matter.
-    fn is_looked_at(&self, n: usize, stretch: &Stretch) -> bool {
-        let enough = stretch.residual * self.least_size;
-        let lanes = self.lanes.as_deref();
-        let found = |l: usize| lanes.map_or(Found::NOTHING, |lanes| lanes.found(l));
-        (0..n).map(found).any(|found| found.is_sensitive() || found.worst > enough)
-    }
-
-    /// A frame that was found beside others counts.
-    fn accept_side_by_side(&mut self, l: usize, stretch: &mut Stretch) {
-        let Self { island, form, lanes: Some(lanes), least_size, .. } = self else { return };
-        let found = lanes.found(l);
-        let is_large = found.worst > stretch.residual * *least_size;
-        if !found.is_sensitive() && !is_large {
-            return;
-        }
-        let size = island.size_at(lanes.origin(l));
-        let least_side = found.least_side_squared.sqrt();
-        if found.is_sensitive() && may_exceed(found.worst, least_side, size, stretch.position_error)
-        {
-            lanes.show(l, form, island);
-            island.position_error = 0.0;
-            island.note_closed_form(&found, size, stretch.position_error);
-            stretch.position_error = stretch.position_error.max(island.position_error);
-        }
-        if is_large {
-            stretch.residual = stretch.residual.max(found.worst / size);
-        }
-    }
-
-    /// Tells the world of the frame that the island is at what is kept of it.
-    fn write_back(&self, world: &mut World, kept: Kept) {
-        write_back(&self.island, world);
-        if kept.is_measured {
-            self.form.hand_over(&self.island.constraints, &self.island.ids, world);
-        }
-    }
-
-    /// Puts the island to where it is at the end of a frame that was found beside others.
-    fn show(&mut self, l: usize) {
-        if let Some(lanes) = &self.lanes {
-            lanes.show(l, &self.form, &mut self.island);
-        }
-    }
-
-    /// Tells the world of a frame that was found beside others what is kept of it: nothing in it has a
-    /// state but its motors.
-    fn tell(&self, l: usize, world: &mut World, kept: Kept) {
-        let Self { island, form, lanes: Some(lanes), traced, .. } = self else { return };
-        if kept.is_measured {
-            for (p, &id) in island.points[..island.n_free].iter().enumerate() {
-                world.set_position(id, lanes.at(p, l));
-            }
-            lanes.hand_over(l, form, &island.ids, world);
-        } else {
-            traced.iter().for_each(|&(p, id)| world.set_position(id, lanes.at(p, l)));
-        }
-    }
-
-    /// The first `n` frames that were found side by side count, and no other.
-    fn end_side_by_side(&mut self, n: usize) {
-        let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
-        lanes.accept(n, form, island);
-        if n > 0 {
-            // Nothing counts turns here, and the side of an angle is that of the last pose.
-            island.accept_pose();
-        }
-        if let Some(last) = n.checked_sub(1) {
-            *found = lanes.found(last);
-        }
-    }
-
-    /// Gives back the island after so many frames, and tells the world where it is.
-    fn dismount(self, n_frames: u64, world: &mut World) -> Box<Island> {
-        let Self { mut island, form, found, .. } = self;
-        if n_frames > 0 {
-            island.end_stretch(found.worst, form.n_constraints());
-            write_back(&island, world);
-            form.hand_over(&island.constraints, &island.ids, world);
-        }
-        island.closed_form = Compiled::List(form);
-        island
     }
 }
