@@ -191,9 +191,10 @@ impl World {
     /// Exchanges the name of what lives for a free one. Nothing else of it changes: all that refers to it
     /// does so by its handle.
     fn swap_name(&mut self, entity: Entity, name: &mut NameText) {
+        // In this order: it may stay a member of the same instance.
+        self.index.remove(&self.name_text_of(entity).clone(), entity);
         self.index.insert(name, entity);
         std::mem::swap(self.name_text_mut(entity), name);
-        self.index.remove(name, entity);
     }
 
     /// Empties the world; gives the edits that bring everything back, last first.
