@@ -19,8 +19,12 @@ import tempfile
 import time
 
 
+# What is included, in the folder of each session.
+PART = "let part = 3\nstep 5\n"
+
+
 def lines():
-    """What is typed: edits, motion, loops, undo, loads; each leaves something behind."""
+    """What is typed: edits, motion, loops, undo, files; each leaves something behind."""
     yield "point p[0] = (0, 0) frozen, q = (1, 0)"
     yield "spin: motor p[0] q speed 1rev"
     k = 0
@@ -35,13 +39,23 @@ def lines():
         if k % 7 == 0:
             yield "undo 2"
             yield "redo"
+        if k % 8 == 0:
+            yield 'include "part.link"'
+            yield "undo"
+            yield "redo"
         if k % 11 == 0:
             yield 'save "kept.link"'
             yield 'load "kept.link"'
 
 
+def write_part(folder):
+    with open(os.path.join(folder, "part.link"), "w", encoding="utf-8") as file:
+        file.write(PART)
+
+
 def session(program, folder, seconds):
     """Types until the time is up and kills; gives the lines carried out, and the one under way."""
+    write_part(folder)
     pid, fd = pty.fork()
     if pid == 0:
         os.chdir(folder)
@@ -65,6 +79,7 @@ def session(program, folder, seconds):
 def made(program, typed):
     """The script of what lines on a pipe make; none where one of them fails."""
     with tempfile.TemporaryDirectory() as folder:
+        write_part(folder)
         text = "\n".join([*typed, 'save "made.link"', ""])
         out = subprocess.run([program, "-q", "--allow-any-path"], input=text, cwd=folder, text=True,
                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

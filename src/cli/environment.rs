@@ -1,5 +1,5 @@
 //! Variables of the environment. One that is empty is as if it were not there: `NAME= command` takes one back
-//! for a single command.
+//! for a single command. Only an empty `PAGER` says something: that there is to be none.
 
 use std::ffi::OsString;
 
@@ -11,6 +11,11 @@ pub fn variable(name: &str) -> Option<OsString> {
 /// What a variable says, where that is text.
 pub fn text(name: &str) -> Option<String> {
     variable(name)?.into_string().ok()
+}
+
+/// Whether a variable is there and says nothing.
+pub fn is_empty(name: &str) -> bool {
+    std::env::var_os(name).is_some_and(|value| value.is_empty())
 }
 
 /// The name of a variable that says something.

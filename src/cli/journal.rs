@@ -2,7 +2,7 @@
 //! which does not end in order can be brought back.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -19,6 +19,9 @@ const MOST_KEPT: usize = 10;
 /// How a journal begins.
 const FIRST_LINE: &str = "# The journal of a linkwork session.\n";
 
+/// The line behind each text: what stands behind the last of them was being written.
+const MARK: &str = "#\n";
+
 /// What the name of one begins with that was told to the user.
 const TOLD: &str = "told-";
 
@@ -27,6 +30,8 @@ const TOLD: &str = "told-";
 pub struct Journal {
     path: PathBuf,
     file: File,
+    /// Where each text ends that was written since the last script of all there is, and where that does.
+    ends: Vec<u64>,
     synced: Instant,
 }
 
@@ -50,8 +55,8 @@ impl Journal {
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
         let path = folder.join(format!("{now}-{}.link", process::id()));
         let file = locked(&path)?;
-        let mut journal = Self { path, file, synced: Instant::now() };
-        journal.append(FIRST_LINE)?;
+        let mut journal = Self { path, file, ends: Vec::new(), synced: Instant::now() };
+        journal.begin_with("")?;
         Ok(journal)
     }
 
@@ -61,16 +66,19 @@ impl Journal {
     /// Where it cannot be written.
     pub fn keep(&mut self, kept: Kept<'_>) -> io::Result<()> {
         match kept {
-            Kept::Statement(text) => self.append(&format!("{text}\n"))?,
-            Kept::Stopped { text, n_done } => {
-                self.append(&format!("restore stop = {n_done}\n{text}\n"))?;
+            Kept::Done(text) => self.append(text)?,
+            Kept::First(n) => {
+                self.ends.truncate(n as usize + 1);
+                let end = self.ends.last().copied().unwrap_or_default();
+                self.file.set_len(end)?;
+                self.file.seek(SeekFrom::Start(end))?;
             }
             Kept::Whole(script) => {
                 // Beside it first: a journal is whole whenever the session ends.
                 let beside = self.path.with_extension("next");
                 let file = locked(&beside)?;
                 let before = std::mem::replace(&mut self.file, file);
-                self.append(&format!("{FIRST_LINE}{script}"))?;
+                self.begin_with(script)?;
                 fs::rename(&beside, &self.path)?;
                 drop(before);
             }
@@ -82,9 +90,18 @@ impl Journal {
         Ok(())
     }
 
-    fn append(&mut self, text: &str) -> io::Result<()> {
-        // In one piece, so that no half of a statement is there.
+    /// Begins an empty file.
+    fn begin_with(&mut self, script: &str) -> io::Result<()> {
+        let text = format!("{FIRST_LINE}{script}{MARK}");
+        self.ends = vec![text.len() as u64];
         self.file.write_all(text.as_bytes())
+    }
+
+    fn append(&mut self, text: &str) -> io::Result<()> {
+        let piece = format!("{text}\n{MARK}");
+        let end = self.ends.last().copied().unwrap_or_default();
+        self.ends.push(end + piece.len() as u64);
+        self.file.write_all(piece.as_bytes())
     }
 
     /// The session ended in order: there is nothing to bring back.
@@ -101,19 +118,29 @@ pub fn remains() -> Option<Remains> {
     left.sort_unstable();
     let mut found = None;
     for path in left {
-        let n_lines = fs::read_to_string(&path).map_or(0, |text| text.lines().count());
-        if n_lines < 2 {
+        let n_lines = mend(&path).unwrap_or(0);
+        if n_lines == 0 {
             drop(fs::remove_file(&path));
             continue;
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let told = folder.join(format!("{TOLD}{name}"));
         if fs::rename(&path, &told).is_ok() {
-            found = Some(Remains { path: told, n_lines: n_lines - 1 });
+            found = Some(Remains { path: told, n_lines });
         }
     }
     forget_old(&folder);
     found
+}
+
+/// Cuts off what was being written when the session ended; gives how many lines there are.
+fn mend(path: &Path) -> io::Result<usize> {
+    let text = fs::read_to_string(path)?;
+    let end = text.rfind(&format!("\n{MARK}")).map_or(0, |at| at + 1 + MARK.len());
+    if end < text.len() {
+        OpenOptions::new().write(true).open(path)?.set_len(end as u64)?;
+    }
+    Ok(text[..end].lines().filter(|line| !line.starts_with('#')).count())
 }
 
 /// Removes journals that were told of long ago.

@@ -178,7 +178,7 @@ pub fn page(lines: &[String]) {
     let text: Vec<String> = lines.iter().map(|line| wrapped(line, width.0.into())).collect();
     let lines: Vec<&str> = text.iter().flat_map(|line| line.split('\n')).collect();
     let fits = lines.len() < usize::from(height.0);
-    if fits || !is_capable() || show_pages(&lines).is_err() {
+    if fits || !is_capable() || environment::is_empty("PAGER") || show_pages(&lines).is_err() {
         lines.iter().for_each(|line| answer(line));
     }
 }

@@ -51,6 +51,11 @@ fn ask() {
     }
 }
 
+/// Asks the same of who puts everything back by themselves: whether the user wants to stop.
+pub fn is_to_stop(n: usize) -> bool {
+    catch(|| tick(n)).is_err()
+}
+
 /// What came before was not long: the next piece of work begins.
 pub fn rest() {
     if LEFT.get() < PATIENCE {

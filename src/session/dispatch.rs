@@ -4,9 +4,10 @@ use super::execution::{Execution, Flow};
 use super::quotas::{Quota, Quotas};
 use super::state::State;
 use super::undo::history::History;
+use super::undo::told::Walk;
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
-use crate::interrupt;
+use crate::interrupt::{self, Stopped};
 use crate::lang::ast::{
     Building, Changing, Command, Drawing, Expr, Looking, Making, Measuring, Running, Statement,
 };
@@ -195,21 +196,44 @@ impl Execution<'_> {
             Building::Restore { what, name, values } => {
                 self.restore(what, name.as_ref(), values, span)?;
             }
+            Building::RestoreFile { path, text } => self.restore_file(path, text),
         }
         Ok(Flow::On)
     }
 
     /// Goes back or forth in the history.
-    fn walk(&mut self, n: Option<&Expr>, span: Span, way: &Walk) -> Result<(), Diagnostic> {
+    fn walk(&mut self, n: Option<&Expr>, span: Span, way: &Way) -> Result<(), Diagnostic> {
         self.must_stand_alone(way.word, span)?;
-        self.input.is_unrepeatable = true;
         let n = n.map_or(Ok(1), |n| self.resolve().count(n, 1.0, 1e6, "commands"))?;
         let mut n_done = 0;
-        while n_done < n
-            && let Some(label) = (way.step)(self.history, self.state, &self.input.quotas)
-        {
-            self.note((way.told)(&label));
-            n_done += 1;
+        let mut is_stopped = false;
+        while n_done < n && !is_stopped {
+            match (way.step)(self.history, self.state, &self.input.quotas) {
+                Ok(Some(label)) => {
+                    self.note((way.told)(&label));
+                    n_done += 1;
+                    is_stopped = self.is_asked_to_stop();
+                }
+                Ok(None) => break,
+                Err(stopped) if n_done == 0 => interrupt::go_on(stopped),
+                Err(_) => is_stopped = true,
+            }
+        }
+        if let Err(late) = self.hold_time(span) {
+            let back = way.back();
+            interrupt::undisturbed(|| {
+                for _ in 0..n_done {
+                    drop((back.step)(self.history, self.state, &self.input.quotas));
+                }
+            });
+            return Err(late);
+        }
+        if n_done > 0 {
+            self.input.walk = Some((way.walk)(n_done as usize));
+        }
+        if is_stopped {
+            self.input.n_done = Some(n_done);
+            return Ok(());
         }
         if n_done == 0 {
             return Err(Diagnostic::error(
@@ -236,23 +260,33 @@ impl Execution<'_> {
 }
 
 /// A way through the history, and how it is told.
-struct Walk {
+struct Way {
     word: &'static str,
-    step: fn(&mut History, &mut State, &Quotas) -> Option<String>,
+    step: fn(&mut History, &mut State, &Quotas) -> Result<Option<String>, Stopped>,
+    walk: fn(usize) -> Walk,
     told: fn(&str) -> String,
     done: &'static str,
 }
 
-const UNDO: Walk = Walk {
+impl Way {
+    /// The way back.
+    fn back(&self) -> &'static Self {
+        if matches!((self.walk)(0), Walk::Back(_)) { &REDO } else { &UNDO }
+    }
+}
+
+const UNDO: Way = Way {
     word: "undo",
     step: History::undo,
+    walk: Walk::Back,
     told: |label| format!("undid `{label}`"),
     done: "taken back",
 };
 
-const REDO: Walk = Walk {
+const REDO: Way = Way {
     word: "redo",
     step: History::redo,
+    walk: Walk::Forth,
     told: |label| format!("did `{label}` again"),
     done: "done again",
 };

@@ -82,6 +82,7 @@ impl<'a> Execution<'a> {
         let n_printed_before = host.n_printed();
         input.is_change = false;
         input.n_done = None;
+        history.begin(state);
         Self {
             state,
             input,

@@ -14,16 +14,11 @@ use crate::world::World;
 /// What a journal is told of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kept<'a> {
-    /// The statement that was carried out: repeated, it does the same.
-    Statement(&'a str),
-    /// The same of one that the user stopped: it does the same where it comes as far, as
-    /// `restore stop = n_done` before it says.
-    Stopped {
-        /// The statement.
-        text: &'a str,
-        /// How far it came.
-        n_done: u64,
-    },
+    /// The text of statements which, repeated, do what a command did. To be kept whole or not at all.
+    Done(&'a str),
+    /// All but so many of the texts that were told since the last script of all there is were taken
+    /// back.
+    First(u64),
     /// The script that makes all there is; what was told before is not needed any more.
     Whole(&'a str),
 }

@@ -1,10 +1,11 @@
 //! What comes from outside: texts, where they lie, and values that win over theirs.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::quotas::Quotas;
+use super::undo::told::{FileRead, Walk};
 use crate::diag::{SourceId, Sources, Span};
 
 /// What a session was given to read. Nothing of it is ever taken back: places in diagnostics and
@@ -19,9 +20,19 @@ pub struct Input {
     pub overrides: BTreeMap<String, Override>,
     /// The statements that were typed and carried out, and whether they changed something.
     typed: Vec<(Span, bool)>,
-    /// Whether the statement under way depends on more than what was typed: on files, on the
-    /// clock, on what `undo` keeps.
+    /// Whether the statement under way depends on more than what was typed and read: on the clock, on
+    /// values from outside.
     pub is_unrepeatable: bool,
+    /// The files that the statement under way has read, where a journal is kept.
+    pub files_read: Vec<FileRead>,
+    /// The bytes of these.
+    pub n_bytes_read: u64,
+    /// What is to be read next in place of files: what was read when it was carried out first.
+    pub next_files: VecDeque<FileRead>,
+    /// Whether the statement under way has put what a file makes in the place of all there was.
+    pub has_loaded: bool,
+    /// How the last statement went through what was done, if it did.
+    pub walk: Option<Walk>,
     /// How far the last command came, where the user stopped it and what it did stays.
     pub stopped_after: Option<u64>,
     /// How far the next statement is to come, which was stopped when it was carried out first.
@@ -48,6 +59,11 @@ impl Default for Input {
             overrides: BTreeMap::new(),
             typed: Vec::new(),
             is_unrepeatable: false,
+            files_read: Vec::new(),
+            n_bytes_read: 0,
+            next_files: VecDeque::new(),
+            has_loaded: false,
+            walk: None,
             stopped_after: None,
             next_stop: None,
             is_change: false,
@@ -74,7 +90,7 @@ impl Input {
     pub fn add_piece(
         &mut self,
         name: &str,
-        text: &str,
+        text: impl Into<Arc<str>>,
         first_line: usize,
         folder: Option<PathBuf>,
     ) -> SourceId {
@@ -105,6 +121,16 @@ impl Input {
             Some((id, last)) if *last.name == *name && *last.text == *text => id,
             _ => self.add_piece(name, text, 1, None),
         }
+    }
+
+    /// A statement is about to be carried out.
+    pub fn begin_statement(&mut self) {
+        self.is_unrepeatable = false;
+        self.stopped_after = None;
+        self.files_read.clear();
+        self.n_bytes_read = 0;
+        self.has_loaded = false;
+        self.walk = None;
     }
 
     /// Remembers a statement that was typed and carried out.

@@ -29,6 +29,7 @@ mod fnv;
 mod host;
 mod input;
 mod json;
+mod keeping;
 mod output_file;
 mod overview;
 mod parcel;
@@ -163,7 +164,7 @@ impl Session {
     /// # Ok::<(), linkwork::Diagnostic>(())
     /// ```
     pub fn evaluate(&mut self, expression: &str) -> Result<Value, Diagnostic> {
-        let source = self.input.add_piece("<expression>", &format!("print {expression}"), 1, None);
+        let source = self.input.add_piece("<expression>", format!("print {expression}"), 1, None);
         let value = ask::value(source, &self.input, &mut self.state)?;
         // Nobody holds a place in what had a value.
         self.input.sources.forget_last();
@@ -286,8 +287,7 @@ impl Session {
         statement: &Statement,
         host: &mut dyn Host,
     ) -> Result<Flow, Diagnostic> {
-        self.input.is_unrepeatable = false;
-        self.input.stopped_after = None;
+        self.input.begin_statement();
         self.command(host).carry_out(statement)
     }
 
@@ -362,42 +362,6 @@ impl Session {
     /// Those of them from the `n`th on that changed something.
     pub fn changes_since(&self, n: usize) -> impl Iterator<Item = &str> {
         self.input.changes_since(n)
-    }
-
-    /// Tells the host's journal all there is: what follows is told statement by statement.
-    pub fn keep_whole(&mut self, host: &mut dyn Host) {
-        if host.is_keeping() {
-            host.keep(Kept::Whole(&self.to_script()));
-        }
-    }
-
-    /// Remembers a statement that was typed and carried out, for `history` and the host's journal.
-    fn note_typed(&mut self, statement: &Statement, flow: Flow, host: &mut dyn Host) {
-        if !self.has_stayed(flow) {
-            return;
-        }
-        // Who asks for a turn has it counted from then on.
-        let leaves_a_mark = transcript::leaves_a_mark(&statement.command) || self.input.is_change;
-        let done = self.input.n_done.and_then(|n| transcript::what_was_done(&statement.command, n));
-        let span = match done {
-            Some(text) => self.input.add_whole("stopped", &text),
-            None => statement.span,
-        };
-        self.input.note_typed(span, leaves_a_mark);
-        let is_unrepeatable = std::mem::take(&mut self.input.is_unrepeatable);
-        if !host.is_keeping() || !leaves_a_mark {
-            return;
-        }
-        let text = self.input.sources.slice(statement.span);
-        match (flow, self.input.stopped_after) {
-            _ if is_unrepeatable => {
-                // Who stops once more must not lose what a stopped command did.
-                host.forget_stop();
-                self.keep_whole(host);
-            }
-            (Flow::Stopped, Some(n_done)) => host.keep(Kept::Stopped { text, n_done }),
-            _ => host.keep(Kept::Statement(text)),
-        }
     }
 
     /// Ends the session: recordings still running are written.

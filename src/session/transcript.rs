@@ -166,6 +166,7 @@ pub(super) fn leaves_a_mark(command: &Command) -> bool {
 pub(super) fn what_was_done(command: &Command, n: u64) -> Option<String> {
     match command {
         Command::Running(it) => it.stopped_after(n),
+        Command::Changing(it) => it.stopped_after(n),
         _ => None,
     }
 }

@@ -27,4 +27,4 @@ pub use reference_run::freedoms;
 pub use repeatable_motion::{Leg, RepeatableMotion};
 pub use report::{RungResult, Study};
 pub use setting_ladder::ladder;
-pub use table::{CSV_HEADING, csv, json, table};
+pub use table::{CSV_HEADING, csv, table};

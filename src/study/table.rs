@@ -1,8 +1,8 @@
-//! A study as text: a table to read, CSV and JSON for programs.
+//! A study as text: a table to read, and CSV for programs.
 
 use std::fmt::Write;
 
-use super::report::{ErrorMeasure, RungResult, Study};
+use super::report::{ErrorMeasure, Study};
 use crate::diag::{format_digits, format_exponent, format_number, format_seconds};
 
 /// The table, a line a row; the efficient ones have a star.
@@ -62,26 +62,4 @@ pub fn csv(study: &Study) -> String {
         );
     }
     text
-}
-
-/// The rows as a JSON list of objects. All their texts are words of the language, which need
-/// no escaping, and all numbers are finite.
-pub fn json(study: &Study) -> String {
-    let object = |row: &RungResult| {
-        let position = row.position_error.map_or_else(|| "null".to_owned(), format_number);
-        format!(
-            "  {{\"method\": \"{}\", \"iterations\": {}, \"tolerance\": {}, \
-             \"seconds_per_frame\": {}, \"residual\": {}, \"position_error\": {position}, \
-             \"failed_frames\": {}, \"efficient\": {}}}",
-            row.rung.method.word(),
-            row.settings.iterations,
-            format_number(row.settings.tolerance),
-            format_digits(row.seconds_per_frame, 3),
-            format_number(row.residual),
-            row.n_failed,
-            row.is_efficient
-        )
-    };
-    let objects: Vec<String> = study.rows.iter().map(object).collect();
-    if objects.is_empty() { "[]".to_owned() } else { format!("[\n{}\n]", objects.join(",\n")) }
 }

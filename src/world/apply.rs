@@ -3,8 +3,8 @@
 use super::batch::{Batch, BatchRecords};
 use super::motion::whole_state;
 use super::{
-    ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
-    PointId, PointRecord, Record, Refreeze, World,
+    Clock, ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
+    PointId, PointRecord, Record, Refreeze, Touched, World,
 };
 use crate::constraint::Constraint;
 
@@ -96,6 +96,10 @@ impl World {
                 Edit::TurnCount(count)
             }
             Edit::Motion(motion) => Edit::Motion(Box::new(self.swap_motion(*motion))),
+            Edit::Everything(mut world) => {
+                self.swap_all(&mut world);
+                Edit::Everything(world)
+            }
         }
     }
 
@@ -105,7 +109,7 @@ impl World {
         record: Option<Box<PointRecord>>,
     ) -> Option<Box<PointRecord>> {
         self.touched.points.push(id);
-        let old = (id.idx() < self.points.at.len() && self.points.is_alive(id)).then(|| {
+        let old = self.points.is_alive(id).then(|| {
             let old = self.points.remove(id);
             self.index.remove(&old.name, Entity::Point(id));
             Box::new(old)
@@ -197,23 +201,42 @@ impl World {
         std::mem::swap(self.name_text_mut(entity), name);
     }
 
-    /// Empties the world; gives the edits that bring everything back, last first.
-    pub fn clear_edits(&self) -> Vec<Edit> {
-        let mut edits: Vec<Edit> = Vec::new();
-        edits.extend((0..self.traces.len()).rev().map(|k| Edit::Trace(k, None)));
-        edits.extend((0..self.ghosts.len()).map(|_| Edit::Ghost(None)));
-        edits.extend(self.turn_counts().map(|(t, _)| Edit::TurnCount(Box::new((t, None)))));
-        // They are used by parameters, and use all there is.
-        edits.extend(self.measures().map(|(id, _)| Edit::Measure(id, None)));
-        edits.extend(self.constraints().rev().map(|(id, _)| Edit::Constraint(id, None)));
-        let mut parameters: Vec<_> =
-            self.parameters().map(|(id, _)| Edit::Parameter(id, None)).collect();
-        parameters.reverse();
-        edits.extend(parameters);
-        edits.extend(self.points.ids().rev().map(|id| Edit::Point(id, None)));
-        edits.push(Edit::StartStates(Box::default()));
-        edits.push(Edit::Clock(Box::default()));
-        edits
+    /// Puts another world in the place of this one, and this one in that of the other. What is noted for
+    /// the command under way, and the count of edits, go on.
+    fn swap_all(&mut self, other: &mut Self) {
+        debug_assert!(!self.log.is_on(), "what is noted is of one world");
+        std::mem::swap(self, other);
+        std::mem::swap(&mut self.log, &mut other.log);
+        std::mem::swap(&mut self.revision, &mut other.revision);
+        *self.touched = Touched::everything();
+        *other.touched = Touched::default();
+    }
+
+    /// Whether there is nothing in it, and no time has passed.
+    pub(super) fn is_blank(&self) -> bool {
+        self.index.is_empty()
+            && self.traces.is_empty()
+            && self.ghosts.is_empty()
+            && self.turn_counts.is_empty()
+            && self.clock == Clock::default()
+    }
+
+    /// Roughly how many bytes it holds.
+    pub(super) fn n_bytes(&self) -> usize {
+        let constraints = self.constraints().map(|(_, record)| record.n_bytes());
+        let parameters = self.parameters().map(|(_, parameter)| parameter.n_bytes());
+        let measures = self.measures().map(|(_, measure)| measure.n_bytes());
+        let traces = self.traces.iter().map(|trace| size_of_val(trace) + trace.samples.n_bytes());
+        let ghosts = self.ghosts.iter().map(Ghost::n_bytes);
+        size_of::<Self>()
+            + self.points.n_bytes()
+            + BESIDE * self.index.len()
+            + constraints.sum::<usize>()
+            + parameters.sum::<usize>()
+            + measures.sum::<usize>()
+            + traces.sum::<usize>()
+            + ghosts.sum::<usize>()
+            + BESIDE * (self.start_states.len() + self.turn_counts.len())
     }
 
     /// The edit that keeps a ghost of the mechanism as it stands.
@@ -227,6 +250,9 @@ impl World {
         Edit::StartState(id, whole_state(constraint).map(Vec::into_boxed_slice))
     }
 }
+
+/// Bytes of a thing beside its own: its place among the names, and among what uses what.
+const BESIDE: usize = 64;
 
 impl World {
     fn delete_batch(&mut self, batch: Batch) -> BatchRecords {

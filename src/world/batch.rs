@@ -14,6 +14,16 @@ pub struct Batch {
     pub(super) constraints: HandleRange,
 }
 
+/// Handles in a batch at most: who goes through many looks between them whether that is still wanted.
+const MOST: u32 = 4096;
+
+impl Batch {
+    /// How many points and constraints they are.
+    pub(super) const fn len(self) -> usize {
+        self.points.len() + self.constraints.len()
+    }
+}
+
 /// Handles `first..end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct HandleRange {
@@ -27,11 +37,15 @@ impl HandleRange {
         self.first..self.end
     }
 
-    /// Takes in a handle; false, and no change, if it does not follow the last.
+    const fn len(self) -> usize {
+        (self.end - self.first) as usize
+    }
+
+    /// Takes in a handle; false, and no change, if it does not follow the last, or there are many.
     pub fn extend(&mut self, handle: u32) -> bool {
         if self.first == self.end {
             *self = Self { first: handle, end: handle + 1 };
-        } else if self.end == handle {
+        } else if self.end == handle && self.end - self.first < MOST {
             self.end += 1;
         } else {
             return false;
@@ -49,6 +63,11 @@ pub struct BatchRecords {
 }
 
 impl BatchRecords {
+    /// How many points and constraints they are.
+    pub(super) const fn len(&self) -> usize {
+        self.batch.len()
+    }
+
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
         size_of_val(&*self.points) + self.constraints.iter().map(Record::n_bytes).sum::<usize>()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::batch::{Batch, BatchRecords};
 use super::{
     Clock, ConstraintId, Entity, Ghost, Measure, MeasureId, Motion, NameText, Parameter,
-    ParameterId, PointId, PointRecord, Record, Trace, TurnCount, Turning,
+    ParameterId, PointId, PointRecord, Record, Trace, TurnCount, Turning, World,
 };
 use crate::constraint::Point;
 
@@ -53,6 +53,8 @@ pub enum Edit {
     TurnCount(Box<(Turning, Option<TurnCount>)>),
     /// Sets all that running changes.
     Motion(Box<Motion>),
+    /// Puts another world in the place of this one.
+    Everything(Box<World>),
 }
 
 /// Whether a point is frozen, and how constraints that measure it are bound then: what they are given
@@ -81,7 +83,8 @@ impl Edit {
             | Self::DeleteBatch(_)
             | Self::RestoreBatch(_)
             | Self::Parameter(..)
-            | Self::Measure(..) => true,
+            | Self::Measure(..)
+            | Self::Everything(_) => true,
             Self::Move(..)
             | Self::Clock(_)
             | Self::Trace(..)
@@ -116,6 +119,7 @@ impl Edit {
             Self::StartStates(states) => 80 * states.len(),
             Self::TurnCount(count) => size_of_val(&**count),
             Self::Motion(motion) => motion.n_bytes(),
+            Self::Everything(world) => world.n_bytes(),
             Self::Point(_, None)
             | Self::Move(..)
             | Self::Freeze(..)
@@ -129,6 +133,17 @@ impl Edit {
             | Self::Ghost(None)
             | Self::Start(..)
             | Self::StartState(_, None) => 0,
+        }
+    }
+
+    /// Roughly how many things it goes through.
+    pub fn n_things(&self) -> usize {
+        match self {
+            Self::DeleteBatch(batch) => batch.len(),
+            Self::RestoreBatch(records) => records.len(),
+            Self::Motion(motion) => motion.n_things(),
+            Self::StartStates(states) => states.len(),
+            _ => 1,
         }
     }
 

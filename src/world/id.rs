@@ -1,4 +1,5 @@
-//! Handles of what a world holds; never reused in a session.
+//! Handles of what a world holds, in the order in which it was made. One is given out again only where
+//! nothing can have it any more.
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {

@@ -38,6 +38,11 @@ pub(super) struct Start {
 }
 
 impl Motion {
+    /// Roughly how many things it puts back.
+    pub fn n_things(&self) -> usize {
+        self.points.len() + self.motors.len() + self.constraints.len()
+    }
+
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
         let Self { points, at, motors, headings, constraints, start, turn_counts, .. } = self;
@@ -91,6 +96,13 @@ pub(super) struct Log {
     pub n_points: usize,
     /// Whether the headings of all motors that are running now are noted.
     pub has_headings: bool,
+}
+
+impl Log {
+    /// Whether anything is noted now.
+    pub const fn is_on(&self) -> bool {
+        self.motion.is_some()
+    }
 }
 
 /// A copy of a world notes nothing until it is asked to.

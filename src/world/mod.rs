@@ -33,6 +33,7 @@ mod driving;
 mod environments;
 mod evaluate;
 mod formula;
+mod handles;
 mod member;
 mod rate_function;
 mod value;
@@ -62,6 +63,7 @@ pub use edit::{Edit, Refreeze};
 #[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
+pub use handles::Handles;
 pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 #[doc(hidden)]
 pub use log::Motion;

@@ -57,6 +57,16 @@ impl Slot {
 }
 
 impl NameIndex {
+    /// How many names there are.
+    pub const fn len(&self) -> usize {
+        self.n_taken
+    }
+
+    /// Whether there is none.
+    pub const fn is_empty(&self) -> bool {
+        self.n_taken == 0
+    }
+
     /// The first that `is_it` among those with the hash of this name.
     pub fn find(&self, name: &str, is_it: impl Fn(Entity) -> bool) -> Option<Entity> {
         let hash = hash_of(name);

@@ -44,6 +44,15 @@ impl Points {
         self.n_alive == 0
     }
 
+    /// Roughly how many bytes they hold.
+    pub(super) fn n_bytes(&self) -> usize {
+        size_of_val(&*self.at)
+            + size_of_val(&*self.start)
+            + size_of_val(&*self.is_frozen)
+            + size_of_val(&*self.weight)
+            + size_of_val(&*self.name)
+    }
+
     /// The positions of all handles given out so far; entries of deleted points mean nothing.
     pub fn column(&self) -> &[Point] {
         &self.at
@@ -69,9 +78,9 @@ impl Points {
         self.is_frozen[id.idx()]
     }
 
-    /// Whether it exists.
+    /// Whether it exists; what has a handle from before a `clear` may ask.
     pub fn is_alive(&self, id: PointId) -> bool {
-        self.name[id.idx()].is_some()
+        self.name.get(id.idx()).is_some_and(Option::is_some)
     }
 
     /// How strongly it resists being moved, against 1 for an ordinary point.
@@ -88,6 +97,11 @@ impl Points {
             self.weight.resize(id.idx() + 1, 1.0);
         }
         std::mem::replace(&mut self.weight[id.idx()], weight)
+    }
+
+    /// Forgets the weights of all but the first `n` handles.
+    pub(super) fn cut_weights(&mut self, n: usize) {
+        self.weight.truncate(n);
     }
 
     /// The inverse masses of all points by handle; 0 for what is frozen and what is no more.

@@ -244,9 +244,9 @@ impl<T> Table<T> {
         })
     }
 
-    /// Puts a row in a place, or empties it; gives what was there.
-    pub fn swap(&mut self, idx: usize, row: Option<T>) -> Option<T> {
-        while self.n_handles <= idx {
+    /// Makes it as long as that: rows beyond are empty.
+    pub fn set_handles(&mut self, n: usize) {
+        while self.n_handles < n {
             if self.n_handles.is_multiple_of(PIECE) {
                 // The first piece grows with what is in it: most scenes are small.
                 let room = if self.n_handles == 0 { 0 } else { PIECE };
@@ -255,6 +255,19 @@ impl<T> Table<T> {
             self.pieces[self.n_handles / PIECE].push(None);
             self.n_handles += 1;
         }
+        if self.n_handles > n {
+            self.pieces.truncate(n.div_ceil(PIECE));
+            if let Some(last) = self.pieces.last_mut() {
+                debug_assert!(last.iter().skip((n - 1) % PIECE + 1).all(Option::is_none), "a row");
+                last.truncate((n - 1) % PIECE + 1);
+            }
+            self.n_handles = n;
+        }
+    }
+
+    /// Puts a row in a place, or empties it; gives what was there.
+    pub fn swap(&mut self, idx: usize, row: Option<T>) -> Option<T> {
+        self.set_handles(self.n_handles.max(idx + 1));
         std::mem::replace(&mut self.pieces[idx / PIECE][idx % PIECE], row)
     }
 }

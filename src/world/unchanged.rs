@@ -30,6 +30,7 @@ impl World {
             }
             Edit::StartStates(states) => are_same_states(states, &self.start_states),
             Edit::Motion(motion) => self.is_at(motion),
+            Edit::Everything(world) => world.is_blank() && self.is_blank(),
             _ => false,
         }
     }

@@ -179,12 +179,17 @@ fn timed(talking: &mut Talking, statement: &str, most: u64) -> (Result<Flow, Dia
 #[test]
 fn a_command_whose_time_is_up_is_left_and_taken_back() {
     const CRANK: &str = "point p[0] = (0, 0) frozen, p[1] = (1, 0); motor p[0] p[1] speed 1rev";
-    const OTHERS: [(&str, &str, &str); 6] = [
+    const OTHERS: [(&str, &str, &str); 7] = [
         ("a loop", "", "for i in 1..1000 { let q = i }"),
         ("frames", "expose every 100", "step 1000"),
         ("frames at once", "", "step 100000"),
         ("a hand", "", "drag p[1] through (1, 1), (0, 1), (1, 1), (0, 1) over 0"),
         ("sweeps", "", "relax 10000"),
+        (
+            "a way back",
+            "let a = 1; let a = 2; let a = 3; let a = 4; let a = 5; let a = 6",
+            "undo 6",
+        ),
         ("a study", "step 20", "accuracy"),
     ];
     let others =
@@ -283,10 +288,8 @@ impl Host for Hasty {
 
     fn keep(&mut self, kept: Kept<'_>) {
         match kept {
-            Kept::Statement(text) => self.kept.extend([text, "\n"]),
-            Kept::Stopped { text, n_done } => {
-                self.kept.extend([&*format!("restore stop = {n_done}\n"), text, "\n"]);
-            }
+            Kept::Done(text) => self.kept.extend([text, "\n"]),
+            Kept::First(_) => panic!("nothing is taken back"),
             Kept::Whole(script) => {
                 self.is_ended |= self.is_asked.replace(true);
                 script.clone_into(&mut self.kept);
@@ -341,14 +344,14 @@ fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
 /// is the session as it is.
 fn assert_kept(statements: &[(&str, u64)]) {
     let mut talking = Talking::default();
-    talking.talk.journal = Some(String::new());
+    talking.talk.journal = Some(vec![String::new()]);
     let mut typed = Transcript::new("typed");
     for (statement, most) in statements {
         talking.talk.n_polls.set(0);
         talking.talk.most_polls = Some(*most);
         typed.enter(statement, &mut talking.session, &mut talking.talk);
     }
-    let journal = talking.talk.journal.clone().expect("it is kept");
+    let journal = talking.talk.journal.clone().expect("it is kept").concat();
     let mut loaded = Talking::default();
     loaded.talk.files.insert("journal.link".into(), journal.clone());
     loaded.run("load \"journal.link\"");
@@ -385,7 +388,7 @@ fn a_stop_is_repeated_where_it_was() {
 #[test]
 fn a_frame_that_is_left_on_its_way_is_kept_as_it_is() {
     let mut talking = Talking::default();
-    talking.talk.journal = Some(String::new());
+    talking.talk.journal = Some(vec![String::new()]);
     let mut typed = Transcript::new("typed");
     for (text, most) in [
         ("point A = (0, 0) frozen, B = (1, 0), C = (3, 0); motor A B speed 1rev", u64::MAX),
@@ -397,8 +400,48 @@ fn a_frame_that_is_left_on_its_way_is_kept_as_it_is() {
         talking.talk.most_polls = Some(most);
         typed.enter(text, &mut talking.session, &mut talking.talk);
     }
-    let journal = talking.talk.journal.take().expect("it is kept");
+    let journal = talking.talk.journal.take().expect("it is kept").concat();
     check_same(&Talking::after(&journal).script(), &talking.script(), "its journal");
+}
+
+#[test]
+fn commands_that_are_taken_back_or_done_again_are_so_whole_or_not_at_all() {
+    for walk in ["undo", "redo"] {
+        let ready = || {
+            let mut talking = Talking::after(&rods(20_000));
+            if walk == "redo" {
+                talking.run("undo");
+            }
+            talking
+        };
+        let mut whole = ready();
+        let n = asked(&mut whole, walk, None).1;
+        assert!(n > 3, "`{walk}` asked {n} times");
+        for most in [0, 1, n / 2, n - 2] {
+            let mut talking = ready();
+            let before = talking.script();
+            let (flow, n_asked) = asked(&mut talking, walk, Some(most));
+            assert_eq!(flow, Flow::Stopped, "`{walk}` told after {most}");
+            assert!(n_asked <= most + MOST_AFTER, "`{walk}` asked {n_asked}, told after {most}");
+            talking.talk.most_polls = None;
+            if talking.script() == before {
+                talking.run(walk);
+            }
+            check_same(&talking.script(), &whole.script(), walk);
+            talking.run(if walk == "undo" { "redo" } else { "undo" });
+            check_same(&talking.script(), &before, &format!("`{walk}` taken back"));
+        }
+    }
+}
+
+#[test]
+fn of_many_commands_that_are_taken_back_those_stay_back_that_were() {
+    let lines: Vec<String> = (0..20).map(|k| format!("let r = {k}")).collect();
+    let lines = lines.join("\n");
+    for most in 0..12 {
+        assert_kept(&[(&lines, u64::MAX), ("undo 10", most), ("let after = r", u64::MAX)]);
+        assert_kept(&[(&lines, u64::MAX), ("undo 10", u64::MAX), ("redo 9", most)]);
+    }
 }
 
 #[test]

@@ -185,6 +185,17 @@ fn the_numbers_of_a_fit_and_the_name_of_a_path_are_data() {
 }
 
 #[test]
+fn what_examines_a_script_says_an_object_a_line() {
+    for command in ["check", "effects", "accuracy"] {
+        let (_, found) = objects(&[command, "--json", "-q", "four-bar.link"], "");
+        assert!(!found.is_empty() && (command == "accuracy" || found.len() == 1), "{found:?}");
+        for object in &found {
+            assert_eq!((&object["type"], &object["version"]), (&json!(command), &json!(1)));
+        }
+    }
+}
+
+#[test]
 fn a_script_that_fails_is_an_object_to_those_who_examine_it() {
     let folder = folder(&[("wrong.link", "point A = (0, 0)\nlenght A B\n")]);
     for command in ["check", "effects", "accuracy"] {

@@ -417,6 +417,66 @@ mod unix {
     }
 
     #[test]
+    fn a_session_in_objects_ends_in_order_too_and_does_nothing_more() {
+        for signal in ["-TERM", "-HUP"] {
+            let folder = folder(&[]);
+            let mut child = Command::new(PROGRAM)
+                .current_dir(folder.path())
+                .args(["--json", "--no-journal"])
+                .stdin(Stdio::piped())
+                .stdout(Stdio::piped())
+                .spawn()
+                .expect("the program starts");
+            let mut input = child.stdin.take().expect("piped");
+            let lines = format!(
+                "{RECORDED}\nsvg \"begun.svg\"\nstep 1e9\nsvg \"late.svg\"\n\
+                 {{\"run\": \"svg \\\"later.svg\\\"\"}}"
+            );
+            writeln!(input, "{lines}").expect("it reads");
+            wait_for(&folder.path().join("begun.svg"));
+            send(signal, &child);
+            let out = child.wait_with_output().expect("it ends");
+            let said = text(&out.stdout);
+            let status = if signal == "-TERM" { 143 } else { 129 };
+            assert_eq!(out.status.code(), Some(status), "{said}");
+            assert!(folder.path().join("paths.csv").exists(), "{said}");
+            assert!(!folder.path().join("late.svg").exists(), "{said}");
+            assert!(!folder.path().join("later.svg").exists(), "{said}");
+        }
+    }
+
+    #[test]
+    fn in_objects_ctrl_c_stops_a_run_and_in_a_session_the_statement_alone() {
+        let script = format!("{RECORDED}\nsvg \"begun.svg\"\nstep 1e9\nprint \"then\"");
+        for (args, status) in [(&["run", "--json", "a.link"][..], 130), (&["--json"], 0)] {
+            let folder = folder(&[("a.link", &script)]);
+            let mut child = Command::new(PROGRAM)
+                .current_dir(folder.path())
+                .env("HOME", folder.path())
+                .args(args)
+                .stdin(Stdio::piped())
+                .stdout(Stdio::piped())
+                .spawn()
+                .expect("the program starts");
+            let mut input = child.stdin.take().expect("piped");
+            writeln!(input, "{script}").expect("it reads");
+            wait_for(&folder.path().join("begun.svg"));
+            std::thread::sleep(std::time::Duration::from_millis(50));
+            send("-INT", &child);
+            std::thread::sleep(std::time::Duration::from_millis(50));
+            drop(input);
+            let out = child.wait_with_output().expect("it ends");
+            let said = text(&out.stdout);
+            assert_eq!(out.status.code(), Some(status), "{said}");
+            let step =
+                said.lines().find(|line| line.contains("\"text\":\"step 1e9\"")).expect("it");
+            // What it did stays.
+            assert!(step.contains("\"ok\":true"), "{step}");
+            assert_eq!(said.contains("\"text\":\"then\""), status == 0, "{said}");
+        }
+    }
+
+    #[test]
     fn a_session_that_waits_for_input_ends_in_order_when_it_is_asked_to() {
         let folder = folder(&[]);
         let mut child = Command::new(PROGRAM)

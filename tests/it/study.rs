@@ -4,6 +4,7 @@ use std::path::Path;
 
 use linkwork::diag::{Diagnostic, Kind};
 use linkwork::session::{Flow, Session, Telling};
+use serde_json::Value;
 
 use crate::support::notebook::Notebook;
 
@@ -75,24 +76,26 @@ fn json_has_these_keys_and_numbers() {
         .study_accuracy(Some(12), Telling::Json, &mut notebook)
         .expect("there is something to study");
     let printed = notebook.printed;
-    assert_eq!(printed.first().map(String::as_str), Some("["));
-    assert_eq!(printed.last().map(String::as_str), Some("]"));
-    assert_eq!(printed.len(), 72);
+    assert_eq!(printed.len(), 70);
     let keys = [
-        "method",
-        "iterations",
-        "tolerance",
-        "seconds_per_frame",
-        "residual",
-        "position_error",
-        "failed_frames",
         "efficient",
+        "failed_frames",
+        "iterations",
+        "method",
+        "position_error",
+        "residual",
+        "seconds_per_frame",
+        "tolerance",
+        "type",
+        "version",
     ];
-    for line in &printed[1..71] {
-        let found: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
-        let found: Vec<&str> = found.into_iter().filter(|word| keys.contains(word)).collect();
+    for line in &printed {
+        let row: Value = serde_json::from_str(line).expect("an object on a line");
+        let found: Vec<&String> = row.as_object().expect("an object").keys().collect();
         assert_eq!(found, keys, "in {line}");
-        assert!(!line.contains("NaN") && !line.contains("inf"), "in {line}");
+        let may_be_missing = ["position_error"];
+        let missing = keys.iter().filter(|key| row[**key].is_null());
+        assert!(missing.into_iter().all(|key| may_be_missing.contains(key)), "in {line}");
     }
 }
 

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use linkwork::diag::{Diagnostic, Paint, Sources, Span, render_within};
 use linkwork::errors;
-use linkwork::lang::catalogue::{TRADE, trade_words};
+use linkwork::lang::catalogue::{OUTSIDE, Outside, TRADE, trade_words};
 use linkwork::session::Transcript;
 
 use crate::support::talk::Talking;
@@ -28,6 +28,19 @@ fn each_word_of_the_trade_is_answered_by_a_statement() {
         let statement = suggested(&problem.helps);
         let trade = TRADE.iter().find(|trade| trade.words.contains(&word)).expect("it is there");
         assert_eq!(statement, trade.example, "for {word}");
+    }
+}
+
+#[test]
+fn what_a_shell_is_to_be_told_is_said_at_a_prompt() {
+    for Outside { word, example, .. } in OUTSIDE {
+        for typed in [(*word).to_owned(), format!("{word} a.link"), format!("{word} r=1..5")] {
+            let problem = Talking::default().execute(&typed).expect_err(word);
+            assert_eq!(suggested(&problem.helps), *example, "for {typed}");
+        }
+        let told = Talking::default().ask(&format!("help {word}")).join("\n");
+        assert!(told.starts_with(word) && told.contains(example), "{told}");
+        assert!(Talking::default().execute(&format!("let {word} = 3; {word} + 0")).is_ok());
     }
 }
 

@@ -1,12 +1,14 @@
 //! Every command of the language with what `help` says of it.
 
 mod constraints;
+mod outside;
 mod topics;
 mod trade;
 
 use super::commands::{FAMILIES, Verb};
 use super::grammar::Rule;
 pub use constraints::{ConstraintWord, Pattern, Slot};
+pub use outside::{OUTSIDE, Outside, outside};
 pub use trade::{TRADE, Trade, trade, trade_words};
 
 /// A command, or a subject that `help` knows.

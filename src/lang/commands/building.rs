@@ -53,6 +53,13 @@ pub enum Building {
         /// Its values, constant expressions.
         values: Vec<Expr>,
     },
+    /// `restore file "leg.link" = "point A = (0, 0)"`: what is read next, in place of a file.
+    RestoreFile {
+        /// Where it was.
+        path: Text,
+        /// What was in it.
+        text: Text,
+    },
 }
 
 /// A named group of statements with parameters.
@@ -177,6 +184,9 @@ impl Building {
                 if c.flag(Rule::kw_history) { Self::SaveHistory(path) } else { Self::Save(path) }
             }
             Rule::load => Self::Load(c.text()?),
+            Rule::restore if c.flag(Rule::kw_file) => {
+                Self::RestoreFile { path: c.text()?, text: c.text()? }
+            }
             Rule::restore => {
                 Self::Restore { what: c.ident(), name: c.name_if_any()?, values: c.exprs()? }
             }
@@ -207,6 +217,7 @@ impl Building {
                 write!(f, "restore {what}{}", Clause(" ", name))?;
                 if values.is_empty() { Ok(()) } else { write!(f, " = {}", commas(values)) }
             }
+            Self::RestoreFile { path, text } => write!(f, "restore file {path} = {text}"),
         }
     }
 }

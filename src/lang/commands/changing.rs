@@ -191,6 +191,15 @@ impl Changing {
         !matches!(self, Self::Settings(_))
     }
 
+    /// The statement that does what it did when it was stopped after so many commands.
+    pub fn stopped_after(&self, n: u64) -> Option<String> {
+        match self {
+            Self::Undo(_) => Some(format!("undo {n}")),
+            Self::Redo(_) => Some(format!("redo {n}")),
+            _ => None,
+        }
+    }
+
     /// Whether it makes or changes things, without letting time pass.
     pub(super) fn is_edit(&self) -> bool {
         matches!(

@@ -127,6 +127,9 @@ impl<'a> Reader<'a> {
         if let Some(called) = called(word, rest).filter(|_| !expects_constraint) {
             return problem.help(called);
         }
+        if let Some(outside) = catalogue::outside(word).filter(|_| !expects_constraint) {
+            return problem.help(outside.advice());
+        }
         match meant(word, command_words().filter(|word| fits(word))) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
             None if rest.starts_with('(') => {

@@ -1,13 +1,18 @@
 //! Draws documents in pixels; the only file that knows `resvg` and `gif`.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, LazyLock};
+use std::thread;
+use std::time::Duration;
 
 use gif::{AnyExtension, DisposalMethod, Encoder, Frame, Repeat};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
 
+use crate::interrupt;
 use crate::render::push_chunk;
 
 /// How much the colours of a frame are thinned out while they are chosen, from 1 to 30: 10 is what
@@ -27,6 +32,55 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
+/// Whether something is being drawn, wanted still or not.
+static IS_BUSY: AtomicBool = AtomicBool::new(false);
+
+/// Holds the place of what is being drawn.
+struct Place;
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        IS_BUSY.store(false, Ordering::Release);
+    }
+}
+
+/// How long is waited until it is asked whether a picture is still wanted.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// Draws on a thread of its own: `resvg` asks nobody while it draws, so that who does not want the picture
+/// any more leaves it behind. What is left behind is drawn to its end, and the next waits for that: no
+/// more than one is ever in memory.
+fn apart<T: Send + 'static>(
+    draw: impl FnOnce() -> io::Result<T> + Send + 'static,
+    is_left: &dyn Fn() -> bool,
+) -> io::Result<T> {
+    while IS_BUSY.swap(true, Ordering::Acquire) {
+        if is_left() {
+            return Err(io::ErrorKind::Interrupted.into());
+        }
+        thread::sleep(LOOK);
+    }
+    let place = Place;
+    let (to, picture) = sync_channel(1);
+    thread::Builder::new().spawn(move || {
+        let result = draw();
+        drop(place);
+        drop(to.send(result));
+    })?;
+    loop {
+        match picture.recv_timeout(LOOK) {
+            Ok(result) => return result,
+            Err(RecvTimeoutError::Timeout) if is_left() => {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(io::Error::other("it cannot be drawn"));
+            }
+        }
+    }
+}
+
 fn drawn(svg: &str, scale: f32) -> io::Result<Pixmap> {
     let options = Options { fontdb: FONTS.clone(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(io::Error::other)?;
@@ -42,8 +96,14 @@ fn drawn(svg: &str, scale: f32) -> io::Result<Pixmap> {
 ///
 /// # Errors
 /// Where the document cannot be drawn.
-pub fn png(svg: &str, scale: f32, notes: &[(String, String)]) -> io::Result<Vec<u8>> {
-    let bytes = drawn(svg, scale)?.encode_png().map_err(io::Error::other)?;
+pub fn png(svg: String, scale: f32, notes: &[(String, String)]) -> io::Result<Vec<u8>> {
+    let draw = move || drawn(&svg, scale)?.encode_png().map_err(io::Error::other);
+    let is_left = || {
+        // Whoever wants to stop is unwound to.
+        interrupt::tick(usize::MAX);
+        false
+    };
+    let bytes = apart(draw, &is_left)?;
     // Behind the signature and the header, which are always as long.
     let (head, rest) = bytes.split_at(33);
     let mut all = head.to_vec();
@@ -81,9 +141,10 @@ impl<'a> Motion<'a> {
     /// Adds a document, shown for so many seconds.
     ///
     /// # Errors
-    /// Where it cannot be drawn or written.
-    pub fn add(&mut self, svg: &str, seconds: f64) -> io::Result<()> {
-        let pixels = drawn(svg, 1.0)?;
+    /// Where it cannot be drawn or written; [`Interrupted`](io::ErrorKind::Interrupted) where it is not
+    /// wanted any more.
+    pub fn add(&mut self, svg: String, seconds: f64, is_left: &dyn Fn() -> bool) -> io::Result<()> {
+        let pixels = apart(move || drawn(&svg, 1.0), is_left)?;
         let (width, height) = (side(pixels.width())?, side(pixels.height())?);
         if let Some(out) = self.out.take() {
             let mut encoder = Encoder::new(out, width, height, &[]).map_err(io::Error::other)?;
@@ -149,4 +210,42 @@ fn changed(last: &Pixmap, next: &Pixmap) -> Part {
     });
     let [left, top, right, bottom] = bounds.unwrap_or_default();
     Part { left, top, width: right - left + 1, height: bottom - top + 1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+    use std::rc::Rc;
+
+    use super::*;
+    use crate::interrupt::{Stopped, listening};
+
+    /// So many strokes across a picture.
+    fn strokes(n: usize) -> String {
+        let mut svg =
+            "<svg xmlns='http://www.w3.org/2000/svg' width='800' height='800'>".to_owned();
+        for k in 0..n {
+            write!(svg, "<path stroke='#000' d='M0 {}L800 {}'/>", k % 800, (7 * k) % 800)
+                .expect("writing to a string");
+        }
+        svg + "</svg>"
+    }
+
+    #[test]
+    fn who_does_not_want_a_picture_any_more_leaves_it() {
+        let small = png(strokes(1), 1.0, &[]).expect("a picture");
+        let stopped = listening(Some(Rc::new(|| true)), || png(strokes(20_000), 2.0, &[]));
+        assert_eq!(stopped.map(|_| ()), Err(Stopped));
+        assert!(IS_BUSY.load(Ordering::Acquire), "it is drawn to its end");
+        // Who comes next may leave before it is their turn.
+        let mut file = Vec::new();
+        let left = Motion::new(&mut file, false).add(strokes(1), 1.0, &|| true);
+        assert_eq!(left.map_err(|e| e.kind()), Err(io::ErrorKind::Interrupted));
+        assert_eq!(
+            png(strokes(1), 1.0, &[]).expect("a picture"),
+            small,
+            "what comes next is whole"
+        );
+        assert!(!IS_BUSY.load(Ordering::Acquire));
+    }
 }

@@ -10,7 +10,7 @@ fn missing() -> io::Error {
 ///
 /// # Errors
 /// Always.
-pub fn png(_svg: &str, _scale: f32, _notes: &[(String, String)]) -> io::Result<Vec<u8>> {
+pub fn png(_svg: String, _scale: f32, _notes: &[(String, String)]) -> io::Result<Vec<u8>> {
     Err(missing())
 }
 
@@ -27,7 +27,12 @@ impl Motion {
     ///
     /// # Errors
     /// Always.
-    pub fn add(&mut self, _svg: &str, _seconds: f64) -> io::Result<()> {
+    pub fn add(
+        &mut self,
+        _svg: String,
+        _seconds: f64,
+        _is_left: &dyn Fn() -> bool,
+    ) -> io::Result<()> {
         Err(missing())
     }
 }

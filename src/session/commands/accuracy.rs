@@ -8,9 +8,10 @@ use crate::lang::ast::Promise;
 use crate::session::execution::{Execution, Flow};
 use crate::session::file_kind::FileKind;
 use crate::session::host::NO_CLOCK;
+use crate::session::json::study_alone;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::study::{
-    Advice, CSV_HEADING, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, json, ladder,
+    Advice, CSV_HEADING, RepeatableMotion, RungResult, Study, StudyHost, Wish, csv, ladder,
     picture, study, table,
 };
 
@@ -132,7 +133,7 @@ impl Execution<'_> {
     fn tell_study(&mut self, study: &Study, telling: Telling, span: Span) {
         match telling {
             Telling::Table => table(study).iter().for_each(|line| self.host.print(line)),
-            Telling::Json => json(study).lines().for_each(|line| self.host.print(line)),
+            Telling::Json => study_alone(study).iter().for_each(|line| self.host.print(line)),
         }
         let notes = study.notes.iter().cloned().chain(study.cut_notes());
         notes.for_each(|text| self.note(text));

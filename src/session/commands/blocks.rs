@@ -14,6 +14,7 @@ use crate::session::quotas::{LONGEST_ARGUMENT, Quota};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::{Bound, Meaning, Scope};
 use crate::session::undo::journal::Change;
+use crate::session::undo::told::FileRead;
 use crate::terms::Shape;
 use crate::world::{Depends, Entity, Formula, Node, Value};
 
@@ -241,8 +242,10 @@ impl Execution<'_> {
     }
 
     pub(crate) fn include(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
-        self.input.is_unrepeatable = true;
-        let file = self.find(path)?;
+        let (file, known) = match self.input.next_files.pop_front() {
+            Some(FileRead { path, text }) => (path, Some(text)),
+            None => (self.find(path)?, None),
+        };
         if self.included.contains(&file) {
             return Err(Diagnostic::error(
                 errors::INCLUDES_ITSELF,
@@ -250,29 +253,49 @@ impl Execution<'_> {
             )
             .at(path.span, "this file is being included already"));
         }
-        let text = self.read(&file, path)?;
+        let text = match known {
+            Some(text) => text,
+            None => self.read(&file, path)?.text,
+        };
         self.included.push(file.clone());
-        let result = self.perform_text(&file, &text, span, As::Part);
+        let result = self.perform_text(&FileRead { path: file, text }, span, As::Part);
         self.included.pop();
         result
     }
 
     /// Reads what may have been written here: from where it would be, or from beside the text that
     /// names it.
-    pub(super) fn read_back(&mut self, path: &Text) -> Result<(PathBuf, String), Diagnostic> {
+    pub(super) fn read_back(&mut self, path: &Text) -> Result<FileRead, Diagnostic> {
+        if let Some(known) = self.input.next_files.pop_front() {
+            return Ok(known);
+        }
         if let Some(found) = self.saved(Path::new(&*path.value)) {
             return Ok(found);
         }
         let file = self.find(path)?;
-        let text = self.read(&file, path)?;
-        Ok((file, text))
+        self.read(&file, path)
     }
 
     /// What lies where `save` would put a file of this name.
-    fn saved(&mut self, path: &Path) -> Option<(PathBuf, String)> {
+    fn saved(&mut self, path: &Path) -> Option<FileRead> {
         let file = self.host.resolve(path).ok()?;
         let text = self.host.read(&file).ok()?;
-        Some((file, text))
+        Some(self.note_read(file, text))
+    }
+
+    /// A file was read: who repeats the statement has to find the same.
+    fn note_read(&mut self, path: PathBuf, text: String) -> FileRead {
+        let read = FileRead { path, text: text.into() };
+        let input = &mut *self.input;
+        input.n_bytes_read += read.text.len() as u64;
+        if input.n_bytes_read > input.quotas.of(Quota::SourceBytes) / 2 {
+            // A journal with all of it could not be read.
+            input.is_unrepeatable = true;
+            input.files_read.clear();
+        } else if self.host.is_keeping() {
+            input.files_read.push(read.clone());
+        }
+        read
     }
 
     /// Where a file lies that is to be read.
@@ -284,20 +307,20 @@ impl Execution<'_> {
         })
     }
 
-    fn read(&mut self, file: &Path, path: &Text) -> Result<String, Diagnostic> {
-        self.host.read(file).map_err(|e| unreadable(path, &e))
+    fn read(&mut self, file: &Path, path: &Text) -> Result<FileRead, Diagnostic> {
+        let text = self.host.read(file).map_err(|e| unreadable(path, &e))?;
+        Ok(self.note_read(file.to_path_buf(), text))
     }
 
     /// Carries out the statements of a file as part of the command under way.
     fn perform_text(
         &mut self,
-        file: &Path,
-        text: &str,
+        FileRead { path: file, text }: &FileRead,
         span: Span,
         how: As,
     ) -> Result<Flow, Diagnostic> {
         let folder = file.parent().map(Path::to_path_buf);
-        let source = self.input.add_piece(&file.to_string_lossy(), text, 1, folder);
+        let source = self.input.add_piece(&file.to_string_lossy(), text.clone(), 1, folder);
         let mut n_done = 0;
         let result = self.nested(span, |execution| {
             for statement in crate::lang::parse(source, text) {
@@ -326,10 +349,14 @@ impl Execution<'_> {
     /// then beside the text that loads it.
     pub(crate) fn load(&mut self, path: &Text, span: Span) -> Result<Flow, Diagnostic> {
         self.must_stand_alone("load", span)?;
-        self.input.is_unrepeatable = true;
-        let (file, text) = self.read_back(path)?;
+        let file = self.read_back(path)?;
         self.clear();
-        self.perform_text(&file, &text, span, As::Typed)
+        self.input.has_loaded = true;
+        let result = self.perform_text(&file, span, As::Typed);
+        // A journal may end between what stands before a statement and the statement.
+        self.input.next_files.clear();
+        self.input.next_stop = None;
+        result
     }
 }
 

@@ -100,9 +100,7 @@ impl Execution<'_> {
 
     pub(crate) fn clear(&mut self) {
         self.stop_everything();
-        for edit in self.state.world.clear_edits() {
-            self.edit(edit);
-        }
+        self.history.clear(self.state);
     }
 
     /// Ends recordings, forgets definitions and settings, and what the solver remembers.

@@ -10,6 +10,7 @@ use crate::session::curve::{WRITES_ONE, read_curve};
 use crate::session::execution::Execution;
 use crate::session::finding::{Finding, Fit};
 use crate::session::quotas::Quota;
+use crate::session::undo::told::FileRead;
 use crate::terms::Shape;
 use crate::world::{Entity, Formula, NameText, ParameterId};
 
@@ -165,8 +166,8 @@ impl Execution<'_> {
         file: &Text,
         n_frames: Option<u64>,
     ) -> Result<Found, Diagnostic> {
-        let (_, text) = self.read_back(file).map_err(|problem| problem.help(WRITES_ONE))?;
-        self.input.is_unrepeatable = true;
+        let FileRead { text, .. } =
+            self.read_back(file).map_err(|problem| problem.help(WRITES_ONE))?;
         let curve = read_curve(&self.state.world, &text, file.span)?;
         let n_needed = curve.places.iter().map(|(frame, _)| *frame).max().unwrap_or(0);
         if n_frames.is_some_and(|n| n < n_needed) {

@@ -6,7 +6,7 @@ use super::setting_table::{SETTINGS, Setting};
 use crate::diag::{Diagnostic, suggest};
 use crate::errors;
 use crate::lang::ast::Ident;
-use crate::lang::catalogue::{self, Entry, Trade};
+use crate::lang::catalogue::{self, Entry, Outside, Trade};
 use crate::session::examples::Example;
 use crate::session::execution::Execution;
 use crate::session::state::State;
@@ -63,6 +63,9 @@ impl State {
         }
         if let Some(trade) = catalogue::trade(word) {
             text.push_str(&trade_explained(word, trade));
+        }
+        if let Some(Outside { says, example, .. }) = catalogue::outside(word) {
+            let _ = writeln!(text, "{word} {says}, from a shell:\n  {example}");
         }
         if text.is_empty() {
             let problem = Diagnostic::error(errors::NO_HELP, format!("no help on `{word}`"))

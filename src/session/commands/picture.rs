@@ -62,7 +62,7 @@ impl Execution<'_> {
     ) -> Result<(), Diagnostic> {
         let bytes = if kind == FileKind::Pixels {
             let scale = if options.width.is_some() { 1.0 } else { PIXELS };
-            png(&picture, scale, &options.receipt).map_err(|e| unwritable(&file, span, &e))?
+            png(picture, scale, &options.receipt).map_err(|e| unwritable(&file, span, &e))?
         } else {
             picture.into_bytes()
         };

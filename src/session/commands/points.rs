@@ -31,6 +31,7 @@ impl Execution<'_> {
         let mut formula = self.resolve().live(value)?.into_formula(value.span);
         if let Some(given) = self.input.overrides.get_mut(&text) {
             given.is_used = true;
+            self.input.is_unrepeatable = true;
             formula = Formula::constant(given.value);
         }
         if let Some(Entity::Parameter(id)) = self.state.world.names().get(&text) {

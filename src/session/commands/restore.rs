@@ -1,12 +1,15 @@
 //! `restore`: state that no other statement can bring back; `save` writes it.
 
+use std::path::PathBuf;
+
 use super::restorable::{Restorable, VERSION, ordinals};
 use crate::constraint::{ConstraintKind as _, Point, Winding};
 use crate::diag::{Diagnostic, Span, format_number};
 use crate::errors;
-use crate::lang::ast::{Expr, Ident, Name};
+use crate::lang::ast::{Expr, Ident, Name, Text};
 use crate::session::execution::Execution;
 use crate::session::undo::journal::Change;
+use crate::session::undo::told::FileRead;
 use crate::world::{
     Clock, Edit, Entity, Ghost, Measure, Record, Sample, SampleList, Tally, Trace, TurnCount,
     Turning, Value,
@@ -67,6 +70,12 @@ impl Execution<'_> {
                     .at(span, "written by `save` only")
             }
         })
+    }
+
+    /// What is read next in place of a file.
+    pub(crate) fn restore_file(&mut self, path: &Text, text: &Text) {
+        let (path, text) = (PathBuf::from(&*path.value), text.value.clone());
+        self.input.next_files.push_back(FileRead { path, text });
     }
 
     fn bring_back(&mut self, what: Restorable, name: Option<&Name>, values: &[Value]) -> Restored {

@@ -81,6 +81,9 @@ impl Execution<'_> {
                 if is_free && let Some(Trade { says, example, .. }) = catalogue::trade(word) {
                     return problem.help(format!("`{word}` {says}: `{example}`"));
                 }
+                if is_free && let Some(outside) = catalogue::outside(word) {
+                    return problem.help(outside.advice());
+                }
                 match nearest_command(word) {
                     Some(near) if is_free => {
                         problem.help(format!("did you mean the command `{near}`?"))

@@ -3,14 +3,15 @@
 use serde_json::{Value, json};
 
 use super::{VERSION, objects};
-use crate::diag::{Diagnostic, Sources};
+use crate::diag::{Diagnostic, Sources, format_digits};
 use crate::session::check::Check;
 use crate::session::effects::{EffectRow, Effects};
+use crate::study::{RungResult, Study};
 
 impl Check {
-    /// The findings as one JSON object, indented.
+    /// The findings as one JSON object, on one line.
     pub fn to_json(&self) -> String {
-        indented(&alone(self.object()))
+        alone(self.object()).to_string()
     }
 
     /// The findings as an object.
@@ -42,9 +43,9 @@ impl Check {
 }
 
 impl Effects {
-    /// The effects as one JSON object, indented.
+    /// The effects as one JSON object, on one line.
     pub fn to_json(&self) -> String {
-        indented(&alone(self.object()))
+        alone(self.object()).to_string()
     }
 
     /// The effects as an object.
@@ -69,6 +70,25 @@ impl Effects {
     }
 }
 
+/// What a study found, as JSON objects, one for each of its rows.
+pub fn study_alone(study: &Study) -> Vec<String> {
+    let row = |row: &RungResult| {
+        let object = json!({
+            "type": "accuracy",
+            "method": row.rung.method.word(),
+            "iterations": row.settings.iterations,
+            "tolerance": row.settings.tolerance,
+            "seconds_per_frame": format_digits(row.seconds_per_frame, 3).parse::<f64>().ok(),
+            "residual": row.residual,
+            "position_error": row.position_error,
+            "failed_frames": row.n_failed,
+            "efficient": row.is_efficient,
+        });
+        alone(object).to_string()
+    };
+    study.rows.iter().map(row).collect()
+}
+
 /// A problem as an object that stands alone.
 pub fn problem_alone(problem: &Diagnostic, sources: &Sources) -> String {
     alone(objects::diagnostic(problem, sources)).to_string()
@@ -78,8 +98,4 @@ pub fn problem_alone(problem: &Diagnostic, sources: &Sources) -> String {
 fn alone(mut object: Value) -> Value {
     object["version"] = VERSION.into();
     object
-}
-
-fn indented(value: &Value) -> String {
-    format!("{value:#}")
 }

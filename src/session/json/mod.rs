@@ -5,7 +5,7 @@ mod host;
 mod objects;
 mod request;
 
-pub use answers::problem_alone;
+pub use answers::{problem_alone, study_alone};
 pub use host::Objects;
 pub(super) use objects::variant;
 pub use request::{answer_request, is_request};

@@ -2,6 +2,7 @@
 
 use super::journal::Journal;
 use super::last_motion::LastMotion;
+use super::told::Place;
 use crate::session::summary::Summary;
 
 /// What a session keeps of the commands it carried out.
@@ -13,4 +14,6 @@ pub struct History {
     pub last_motion: LastMotion,
     /// Receipt of the last command that let time pass.
     pub last_run: Option<Summary>,
+    /// How far the host's journal has been told.
+    pub told: Place,
 }

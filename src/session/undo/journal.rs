@@ -4,13 +4,14 @@ use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use super::recorder::{Recorder, Reel};
+use super::told::Told;
 use crate::lang::ast::Definition;
 use crate::session::preferences::Preferences;
 use crate::session::quotas::{Quota, Quotas};
 use crate::session::results::Results;
 use crate::session::series::{SeriesList, n_bytes};
 use crate::solve::Recall;
-use crate::world::{ConstraintId, Edit, ParameterId, PointId};
+use crate::world::{ConstraintId, Edit, Handles, ParameterId, PointId};
 
 /// One reversible change of a session, small: a loop makes millions. Making it gives the change
 /// that takes it back.
@@ -39,6 +40,11 @@ pub enum Change {
 }
 
 impl Change {
+    /// Roughly how many things it goes through.
+    pub fn n_things(&self) -> usize {
+        if let Self::World(edit) = self { edit.n_things() } else { 1 }
+    }
+
     /// Roughly how many bytes it holds.
     fn n_bytes(&self) -> usize {
         let inside = match self {
@@ -89,10 +95,15 @@ pub struct Entry {
     pub label: String,
     /// What takes it back, in the order it was made.
     pub changes: Vec<Change>,
+    /// What the host's journal was told of it, where that repeats it.
+    pub told: Option<Told>,
+    /// The handles that are given out once it is taken back, or done again.
+    pub handles: Handles,
 }
 
 impl Entry {
     fn n_bytes(&self) -> usize {
+        // Texts that it read are kept as what errors point into.
         size_of::<Self>()
             + self.label.len()
             + self.changes.iter().map(Change::n_bytes).sum::<usize>()
@@ -108,6 +119,8 @@ pub struct Journal {
     pub motion: Option<usize>,
     /// Whether the solver notes what it remembered.
     pub has_memory: bool,
+    /// The handles that were given out before the command under way.
+    pub handles: Handles,
     /// What `current` takes back already; anew once the world notes what running changes.
     pub covered: BTreeSet<Part>,
     /// Each with the bytes it holds.
@@ -129,7 +142,8 @@ impl Journal {
             changes.shrink_to_fit();
             let number = self.n_commands;
             self.n_commands += 1;
-            self.keep(Entry { number, label: label.to_owned(), changes });
+            let handles = self.handles;
+            self.keep(Entry { number, label: label.to_owned(), changes, told: None, handles });
             self.forget_oldest(quotas);
         }
     }
@@ -137,6 +151,27 @@ impl Journal {
     /// The texts of the command that would be taken back next, and of the one that would be done again.
     pub fn next_labels(&self) -> [Option<&str>; 2] {
         [&self.done, &self.undone].map(|list| list.back().map(|(entry, _)| &*entry.label))
+    }
+
+    /// Whether the command under way has done nothing yet.
+    pub fn is_idle(&self) -> bool {
+        self.current.is_empty() && self.motion.is_none() && !self.has_memory
+    }
+
+    /// What the host's journal was told of the last command done.
+    pub fn told_of_last(&mut self) -> Option<&mut Option<Told>> {
+        self.done.back_mut().map(|(entry, _)| &mut entry.told)
+    }
+
+    /// The same of the one that would be done again next.
+    pub fn told_of_next(&self) -> Option<&Told> {
+        self.undone.back()?.0.told.as_ref()
+    }
+
+    /// The same of the last commands done, the oldest first.
+    pub fn told_of_last_ones(&mut self, n: usize) -> impl Iterator<Item = &mut Option<Told>> {
+        let first = self.done.len().saturating_sub(n);
+        self.done.iter_mut().skip(first).map(|(entry, _)| &mut entry.told)
     }
 
     /// The number that the command under way will have.

@@ -5,4 +5,5 @@ pub mod journal;
 pub mod last_motion;
 pub mod recorder;
 mod repeat;
+pub mod told;
 pub mod transaction;

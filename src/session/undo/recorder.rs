@@ -329,7 +329,11 @@ impl Recorder {
             if is_stopped() {
                 return Ok(false);
             }
-            motion.add(&svg_with_view(&self.scene(frame)?, &view, options), seconds)?;
+            let picture = svg_with_view(&self.scene(frame)?, &view, options);
+            match motion.add(picture, seconds, &is_stopped) {
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => return Ok(false),
+                added => added?,
+            }
         }
         Ok(true)
     }

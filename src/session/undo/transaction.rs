@@ -3,7 +3,7 @@
 use super::history::History;
 use super::journal::{Change, Entry, Part};
 use super::recorder::Recorder;
-use crate::interrupt;
+use crate::interrupt::{self, Stopped};
 use crate::session::quotas::Quotas;
 use crate::session::series::swap_sample;
 use crate::session::state::State;
@@ -198,6 +198,21 @@ impl History {
         }
     }
 
+    /// Puts an empty world in the place of the one there is, as part of the command under way.
+    pub fn clear(&mut self, state: &mut State) {
+        self.end_motion(state);
+        self.journal.covered.clear();
+        self.edit(state, Edit::Everything(Box::default()));
+    }
+
+    /// What running changed so far is kept; what it changes from here on is another matter.
+    fn end_motion(&mut self, state: &mut State) {
+        if let (Some(place), Some(motion)) = (self.journal.motion.take(), state.world.end_motion())
+        {
+            self.journal.current.insert(place, Change::World(Edit::Motion(motion)));
+        }
+    }
+
     /// Keeps what the solver remembers from here on, before the command under way has it take in an
     /// edit.
     fn note_memory(&mut self, state: &mut State) {
@@ -214,14 +229,11 @@ impl History {
 
     /// All that takes back the command under way, in the order it was made.
     fn gather(&mut self, state: &mut State) {
-        let journal = &mut self.journal;
-        if let (Some(place), Some(motion)) = (journal.motion.take(), state.world.end_motion()) {
-            journal.current.insert(place, Change::World(Edit::Motion(motion)));
-        }
-        if std::mem::take(&mut journal.has_memory)
+        self.end_motion(state);
+        if std::mem::take(&mut self.journal.has_memory)
             && let Some(recall) = state.solver.end_recall(None)
         {
-            journal.current.push(Change::Memory(Box::new(recall)));
+            self.journal.current.push(Change::Memory(Box::new(recall)));
         }
     }
 
@@ -248,17 +260,31 @@ impl History {
             }
             state.apply(change);
         }
+        state.world.set_handles(self.journal.handles);
+    }
+
+    /// A command begins, or goes on that has begun.
+    pub fn begin(&mut self, state: &State) {
+        if self.journal.is_idle() {
+            self.journal.handles = state.world.handles();
+        }
     }
 
     /// Takes back the last command; gives its text, if there was one.
-    pub fn undo(&mut self, state: &mut State, quotas: &Quotas) -> Option<String> {
+    ///
+    /// # Errors
+    /// Where the user stopped that: everything is as it was.
+    pub fn undo(&mut self, state: &mut State, quotas: &Quotas) -> Result<Option<String>, Stopped> {
         let label = self.step_back(state);
         self.journal.forget_oldest(quotas);
         label
     }
 
     /// Does the command that was taken back last again; gives its text, if there was one.
-    pub fn redo(&mut self, state: &mut State, quotas: &Quotas) -> Option<String> {
+    ///
+    /// # Errors
+    /// Where the user stopped that: everything is as it was.
+    pub fn redo(&mut self, state: &mut State, quotas: &Quotas) -> Result<Option<String>, Stopped> {
         let label = self.step_forth(state);
         self.journal.forget_oldest(quotas);
         label
@@ -266,23 +292,32 @@ impl History {
 
     /// Takes back the last command as if it had never been.
     pub fn revoke(&mut self, state: &mut State) {
-        if let Some(entry) = self.journal.pop_done() {
-            invert(state, entry);
+        if let Some(mut entry) = self.journal.pop_done() {
+            let done = interrupt::undisturbed(|| invert(state, &mut entry, Way::Back));
+            debug_assert!(done.is_ok(), "nobody is asked");
         }
     }
 
-    fn step_back(&mut self, state: &mut State) -> Option<String> {
-        let inverse = invert(state, self.journal.pop_done()?);
-        let label = inverse.label.clone();
-        self.journal.push_undone(inverse);
-        Some(label)
+    fn step_back(&mut self, state: &mut State) -> Result<Option<String>, Stopped> {
+        let Some(mut entry) = self.journal.pop_done() else { return Ok(None) };
+        let result = invert(state, &mut entry, Way::Back);
+        let label = result.map(|()| Some(entry.label.clone()));
+        match label {
+            Ok(_) => self.journal.push_undone(entry),
+            Err(_) => self.journal.keep(entry),
+        }
+        label
     }
 
-    fn step_forth(&mut self, state: &mut State) -> Option<String> {
-        let inverse = invert(state, self.journal.pop_undone()?);
-        let label = inverse.label.clone();
-        self.journal.keep(inverse);
-        Some(label)
+    fn step_forth(&mut self, state: &mut State) -> Result<Option<String>, Stopped> {
+        let Some(mut entry) = self.journal.pop_undone() else { return Ok(None) };
+        let result = invert(state, &mut entry, Way::Forth);
+        let label = result.map(|()| Some(entry.label.clone()));
+        match label {
+            Ok(_) => self.journal.keep(entry),
+            Err(_) => self.journal.push_undone(entry),
+        }
+        label
     }
 
     /// Asks something of the state as it was before a command, or would be once it is the next to be
@@ -297,17 +332,53 @@ impl History {
             return None;
         }
         let (n_back, n_forth) = self.journal.way_before(number)?;
-        (0..n_back).for_each(|_| drop(self.step_back(state)));
-        (0..n_forth).for_each(|_| drop(self.step_forth(state)));
+        interrupt::undisturbed(|| {
+            (0..n_back).for_each(|_| drop(self.step_back(state)));
+            (0..n_forth).for_each(|_| drop(self.step_forth(state)));
+        });
         let answer = ask(state);
-        (0..n_forth).for_each(|_| drop(self.step_back(state)));
-        (0..n_back).for_each(|_| drop(self.step_forth(state)));
+        interrupt::undisturbed(|| {
+            (0..n_forth).for_each(|_| drop(self.step_back(state)));
+            (0..n_back).for_each(|_| drop(self.step_forth(state)));
+        });
         Some(answer)
     }
 }
 
-/// Takes back one command, or does it again; gives what takes that back.
-fn invert(state: &mut State, entry: Entry) -> Entry {
-    let changes = entry.changes.into_iter().rev().map(|change| state.apply(change)).collect();
-    Entry { changes, ..entry }
+/// Whether a command is taken back, or done again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Back,
+    Forth,
+}
+
+/// What the change of a thing takes, in ticks.
+const THING: usize = 200;
+
+/// Takes back one command, or does it again: what it then holds takes that back. Where the user wants to
+/// stop before half of it is done, everything is put back as it was; from there on the way to the end is
+/// the shorter one.
+fn invert(state: &mut State, entry: &mut Entry, way: Way) -> Result<(), Stopped> {
+    let before = state.world.handles();
+    if way == Way::Forth {
+        // Where things move is put back before they are.
+        state.world.set_handles(before.max(entry.handles));
+    }
+    let changes = &mut entry.changes;
+    let mut inverse = Vec::with_capacity(changes.len());
+    while let Some(change) = changes.pop() {
+        let n_things = change.n_things();
+        inverse.push(state.apply(change));
+        if inverse.len() <= changes.len() && interrupt::is_to_stop(THING * n_things) {
+            while let Some(change) = inverse.pop() {
+                changes.push(state.apply(change));
+            }
+            state.world.set_handles(before);
+            return Err(Stopped);
+        }
+    }
+    entry.changes = inverse;
+    state.world.set_handles(entry.handles);
+    entry.handles = before;
+    Ok(())
 }

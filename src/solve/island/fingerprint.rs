@@ -32,12 +32,7 @@ pub(crate) fn of_content(constraint: &Constraint) -> u64 {
 impl Island {
     /// What later results depend on besides what is remembered.
     pub fn fingerprint(&self) -> Fingerprint {
-        let mut structure = Hasher::default();
-        structure.add(self.n_free as u64);
-        for (c, constraint) in self.constraints.iter().enumerate() {
-            let rho = self.own_rho.get(c).copied().flatten();
-            Structure { constraint, rho }.words(|p| p).for_each(|word| structure.add(word));
-        }
+        let structure = *self.structure.get_or_init(|| self.hash_of_structure());
         let mut inputs = Hasher::default();
         self.w.iter().for_each(|w| inputs.add(w.to_bits()));
         self.constraints.iter().for_each(|c| c.content(&mut |word| inputs.add(word)));
@@ -47,6 +42,16 @@ impl Island {
             hasher.add(at.x.to_bits());
             hasher.add(at.y.to_bits());
         }
-        Fingerprint { structure: structure.0, inputs: inputs.0, pose: pose.0 }
+        Fingerprint { structure, inputs: inputs.0, pose: pose.0 }
+    }
+
+    fn hash_of_structure(&self) -> u64 {
+        let mut structure = Hasher::default();
+        structure.add(self.n_free as u64);
+        for (c, constraint) in self.constraints.iter().enumerate() {
+            let rho = self.own_rho.get(c).copied().flatten();
+            Structure { constraint, rho }.words(|p| p).for_each(|word| structure.add(word));
+        }
+        structure.0
     }
 }

@@ -107,6 +107,8 @@ pub(crate) struct Island {
     pub part_workspaces: Vec<Workspace>,
     /// What is remembered of it, once asked for since the last visit.
     pub remembered: OnceLock<Arc<Snapshot>>,
+    /// The hash of what it is built on, which stays; once asked for.
+    pub(super) structure: OnceLock<u64>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }
@@ -221,6 +223,7 @@ impl Island {
             workspace: None,
             part_workspaces: Vec::new(),
             remembered: OnceLock::new(),
+            structure: OnceLock::new(),
             spectrum: None,
         };
         for block in &island.plan.blocks {

@@ -137,10 +137,12 @@ impl Partition {
         world: &World,
         leave: &mut dyn FnMut(&Island),
     ) -> Vec<u32> {
-        let n_points = world.points().column().len();
+        // Islands of what was taken back may be there yet.
+        let n_points = world.points().column().len().max(self.of_point.len());
+        let n_constraints = world.next_constraint().idx().max(self.of_constraint.len());
         self.of_point.resize(n_points, NONE);
-        self.of_constraint.resize(world.next_constraint().idx(), NONE);
-        self.local_constraint.resize(world.next_constraint().idx(), NONE);
+        self.of_constraint.resize(n_constraints, NONE);
+        self.local_constraint.resize(n_constraints, NONE);
         self.by_point.resize(n_points, NONE);
         let mut loose = Loose { constraints: Vec::new(), leave };
         if touched.all {

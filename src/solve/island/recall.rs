@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Island;
 use super::memory::snapshot_of;
-use super::packed::Packed;
+use super::packed::{Packed, Poses};
 use super::snapshot::Snapshot;
 use crate::solve::settings::Settings;
 use crate::world::PointId;
@@ -27,18 +27,18 @@ impl From<Option<Arc<Snapshot>>> for Kept {
     }
 }
 
-/// The same in a list of many.
-#[derive(Debug, Clone)]
-enum Noted {
-    Kept(Kept),
-    /// It begins there in the column.
-    Packed(u32),
-}
+/// Where in a list of many it is: in the column, or, with the highest bit, among those that are kept one
+/// by one.
+#[derive(Debug, Clone, Copy)]
+struct Noted(u32);
+
+const IS_KEPT: u32 = 1 << 31;
 
 /// What was remembered of some islands, each filed under its first free point, in their order.
 #[derive(Debug, Clone, Default)]
 pub struct Recall {
     islands: Vec<(PointId, Noted)>,
+    kept: Vec<Kept>,
     packed: Packed,
     /// The settings of the last call then.
     pub(crate) settings: Option<Settings>,
@@ -47,27 +47,33 @@ pub struct Recall {
 impl Recall {
     /// What brings this back, of islands in the order of their first points.
     pub(crate) fn new(islands: Vec<(PointId, Kept)>, settings: Option<Settings>) -> Self {
-        let islands = islands.into_iter().map(|(first, kept)| (first, Noted::Kept(kept)));
-        Self { islands: islands.collect(), packed: Packed::default(), settings }
+        let mut recall = Self { settings, ..Self::default() };
+        islands.into_iter().for_each(|(first, kept)| recall.keep(first, kept));
+        recall
     }
 
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        let kept = self.islands.iter().map(|(_, noted)| match noted {
-            Noted::Kept(kept) => kept.n_bytes as usize,
-            Noted::Packed(_) => 0,
-        });
+        let kept = self.kept.iter().map(|kept| size_of_val(kept) + kept.n_bytes as usize);
         size_of::<Self>()
             + size_of_val(&*self.islands)
             + self.packed.n_bytes()
             + kept.sum::<usize>()
     }
 
+    fn keep(&mut self, first: PointId, kept: Kept) {
+        self.islands.push((first, Noted(self.kept.len() as u32 | IS_KEPT)));
+        self.kept.push(kept);
+    }
+
     /// What was remembered, in the order of the first points.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (PointId, Kept)> {
-        self.islands.iter().map(|(first, noted)| match noted {
-            Noted::Kept(kept) => (*first, kept.clone()),
-            Noted::Packed(at) => (*first, Some(Arc::new(self.packed.get(*at))).into()),
+        self.islands.iter().map(|&(first, Noted(at))| {
+            if at & IS_KEPT == 0 {
+                (first, Some(Arc::new(self.packed.get(at))).into())
+            } else {
+                (first, self.kept[(at & !IS_KEPT) as usize].clone())
+            }
         })
     }
 }
@@ -78,8 +84,10 @@ pub(crate) struct Notes {
     /// What was noted; none while nobody asks.
     recall: Option<Recall>,
     firsts: Marks,
-    /// How many islands changed last, and how many words were kept of them.
-    n_last: (usize, usize),
+    /// How many islands changed last, and how much room that took.
+    n_last: (usize, (usize, usize)),
+    /// The poses that the last commands kept.
+    older: [Poses; 2],
 }
 
 impl Notes {
@@ -87,21 +95,25 @@ impl Notes {
     pub fn begin(&mut self, settings: Option<Settings>) -> Option<Recall> {
         self.firsts.begin();
         // As many as changed last often change again.
-        let (n_islands, n_words) = self.n_last;
+        let (n_islands, room) = self.n_last;
         let islands = Vec::with_capacity(n_islands);
-        let packed = Packed::with_capacity(n_words);
-        self.recall.replace(Recall { islands, packed, settings })
+        let packed = Packed::like(room, self.older.clone());
+        self.recall.replace(Recall { islands, kept: Vec::new(), packed, settings })
     }
 
     /// What was noted; `outer` goes on noting.
     pub fn end(&mut self, outer: Option<Recall>) -> Option<Recall> {
         let mut recall = std::mem::replace(&mut self.recall, outer)?;
-        self.n_last = (recall.islands.len(), recall.packed.n_words());
+        recall.packed.shrink_to_fit();
+        self.n_last = (recall.islands.len(), recall.packed.len());
+        if recall.packed.len().1 > 0 {
+            self.older = recall.packed.poses();
+        }
         // Of what was noted twice the first counts; a stable order keeps it in front.
         recall.islands.sort_by_key(|(first, _)| *first);
         recall.islands.dedup_by_key(|(first, _)| *first);
         recall.islands.shrink_to_fit();
-        recall.packed.shrink_to_fit();
+        recall.kept.shrink_to_fit();
         // What the outer one noted since it began was marked in a round that is over.
         self.firsts.begin();
         Some(recall)
@@ -121,8 +133,10 @@ impl Notes {
             // What was asked for since the last visit is shared.
             let is_shared = island.remembered.get().is_some();
             let packed = if is_shared { None } else { recall.packed.push(island) };
-            let kept = || Noted::Kept(Some(snapshot_of(island)).into());
-            recall.islands.push((island.points[0], packed.map_or_else(kept, Noted::Packed)));
+            match packed {
+                Some(at) => recall.islands.push((island.points[0], Noted(at))),
+                None => recall.keep(island.points[0], Some(snapshot_of(island)).into()),
+            }
         }
     }
 
@@ -131,7 +145,7 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(first.idx())
         {
-            recall.islands.push((first, Noted::Kept(kept)));
+            recall.keep(first, kept);
         }
     }
 }

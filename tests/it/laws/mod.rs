@@ -2,6 +2,7 @@
 
 mod claims;
 mod constraint;
+mod journal;
 mod lang;
 mod linalg;
 mod ongoing;

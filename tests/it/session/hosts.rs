@@ -125,7 +125,7 @@ fn ask_all(host: &mut dyn Host) -> String {
     let path = Path::new("a");
     host.print("line");
     host.tell(&Diagnostic::note_only("note"), &Sources::new());
-    host.keep(Kept::Statement("step"));
+    host.keep(Kept::Done("step"));
     host.forget_stop();
     let wish = host.wish_to_stop().map(|wish| wish());
     let clock = host.clock().map(|clock| clock());

@@ -32,6 +32,78 @@ fn kept_by(talking: &mut Talking, command: &str) -> isize {
 }
 
 #[test]
+fn poses_that_the_commands_before_kept_are_not_kept_again() {
+    let n: isize = 50;
+    let mut talking = Talking::after(&format!(
+        "set dt 1/360
+         for i in 1..{n} {{
+           point A[i] = (0, 6 * i) frozen, D[i] = (4, 6 * i) frozen
+           point B[i] = (1, 6 * i), C[i] = (3, 6 * i + 2.9)
+           motor A[i] B[i] speed 1rev
+           length B[i] C[i] = 3.5
+           length C[i] D[i] = 3
+         }}"
+    ));
+    talking.run("step 4; step 4");
+    let alone = kept_by(&mut talking, "step 4");
+    talking.run("step; step; step; step");
+    let [first, second] = [(); 2].map(|()| kept_by(&mut talking, "step"));
+    assert_eq!(first, second);
+    // Two poses of two points of each, at least.
+    let shared = 2 * 2 * 16 * n;
+    assert!(alone - first >= shared, "{alone} bytes alone, {first} behind another");
+    let mut before = Vec::new();
+    for _ in 0..8 {
+        before.push(talking.script());
+        talking.run("step");
+    }
+    let end = talking.script();
+    for script in before.iter().rev() {
+        talking.run("undo");
+        check_same(&talking.script(), script, "taken back");
+    }
+    talking.run("redo 8");
+    check_same(&talking.script(), &end, "done again");
+}
+
+/// How many handles of each kind were given out.
+fn handles(talking: &Talking) -> [usize; 4] {
+    let world = talking.world();
+    [
+        world.points().column().len(),
+        world.next_constraint().idx(),
+        world.next_parameter().idx(),
+        world.next_measure().idx(),
+    ]
+}
+
+#[test]
+fn handles_that_nothing_has_any_more_are_given_out_again() {
+    const MAKES: &str = "for i in 1..3 {
+        point P[i] = (i, 0); let q[i] = i; measure d[i] = P[i].x; step; length P[i] Z; step
+      }";
+    let mut talking = scene(3);
+    let before = handles(&talking);
+    for k in 0..20 {
+        assert!(talking.execute(&MAKES.replace("length", "print nowhere; length")).is_err());
+        assert_eq!(handles(&talking), before, "{k} failed");
+        talking.run(MAKES);
+        talking.run("delete P[2] cascade");
+        let after = handles(&talking);
+        talking.run("undo 2; redo 2");
+        assert_eq!(handles(&talking), after, "{k} done again");
+        let script = talking.script();
+        talking.run("undo 2");
+        assert_eq!(handles(&talking), before, "{k} taken back");
+        talking.run("redo 2");
+        check_same(&talking.script(), &script, "done again");
+        talking.run("step; undo 3; clear; point P = (0, 0), Q = (1, 0)");
+        assert_eq!(handles(&talking), [2, 0, 0, 0], "{k} cleared");
+        talking.run("length P Q; solve; undo 4");
+    }
+}
+
+#[test]
 fn a_command_keeps_what_it_changes_however_large_the_scene() {
     let kept = |n: usize| {
         let mut talking = scene(n);

@@ -37,7 +37,7 @@ pub struct Notebook {
     /// Whether notes and warnings reach nobody.
     pub is_deaf: bool,
     /// What brings the session back, where that is kept.
-    pub journal: Option<String>,
+    pub journal: Option<Vec<String>>,
 }
 
 impl Default for Notebook {
@@ -95,14 +95,10 @@ impl Host for Notebook {
     fn keep(&mut self, kept: Kept<'_>) {
         let Some(journal) = &mut self.journal else { return };
         match kept {
-            Kept::Statement(text) => writeln!(journal, "{text}"),
-            Kept::Stopped { text, n_done } => writeln!(journal, "restore stop = {n_done}\n{text}"),
-            Kept::Whole(script) => {
-                journal.clear();
-                write!(journal, "{script}")
-            }
+            Kept::Done(text) => journal.push(format!("{text}\n")),
+            Kept::First(n) => journal.truncate(n as usize + 1),
+            Kept::Whole(script) => *journal = vec![script.to_owned()],
         }
-        .expect("writing to a string");
     }
 
     fn is_interrupted(&self) -> bool {

@@ -57,7 +57,7 @@ fn whenever_a_session_is_killed_all_that_was_carried_out_is_there() {
 }
 
 #[test]
-fn what_cannot_be_repeated_is_kept_as_what_came_of_it() {
+fn what_is_read_taken_back_or_told_by_a_clock_is_kept() {
     let home = tempdir().expect("a folder");
     let terminal = Terminal::session(home.path());
     LINES.iter().for_each(|line| terminal.enter(line));
@@ -178,6 +178,28 @@ fn sessions_of_programs_are_brought_back_too() {
     silent.say("let r = 3");
     silent.kill();
     assert_eq!(journals(home.path()).len(), 0);
+}
+
+#[test]
+fn what_was_being_written_when_a_session_ended_is_cut_off() {
+    let home = tempdir().expect("a folder");
+    let terminal = Terminal::session(home.path());
+    LINES.iter().for_each(|line| terminal.enter(line));
+    terminal.kill();
+    let [journal] = &journals(home.path())[..] else { panic!("{:?}", journals(home.path())) };
+    let whole = fs::read_to_string(journal).expect("a journal");
+    for torn in
+        ["restore file \"long.link\" = \"let r = 3", "for i in 1..3 {\n", "restore stop = 0\n"]
+    {
+        fs::write(journal, format!("{whole}{torn}")).expect("it is there");
+        let mut next = Spoken::begin(home.path(), &["--json"]);
+        assert!(next.say("1").contains("to bring back its 9 lines"));
+        drop(next.to);
+        assert!(next.program.wait().expect("it ends").success());
+        let [told] = &journals(home.path())[..] else { panic!("{:?}", journals(home.path())) };
+        assert_eq!(fs::read_to_string(told).expect("it was told of"), whole);
+        fs::rename(told, journal).expect("it is there");
+    }
 }
 
 #[test]

@@ -122,12 +122,18 @@ fn long_answers_go_to_the_pager_and_short_ones_do_not() {
     terminal.wait_for_prompt();
     assert!(!String::from_utf8_lossy(&terminal.bytes()).contains("paged:motor O P"));
     drop(terminal);
-    let start = Start { env: &[pager], args: &["--no-pager"], ..Start::default() };
-    let terminal = Terminal::start(home.path(), &start);
-    terminal.wait_for_prompt();
-    terminal.press("help\r");
-    terminal.wait_for("says more");
-    assert!(!String::from_utf8_lossy(&terminal.bytes()).contains("paged:"));
+    for start in [
+        Start { env: &[pager], args: &["--no-pager"], ..Start::default() },
+        // No pager, and not `less`, which would wait for a key.
+        Start { env: &[("PAGER", "")], ..Start::default() },
+    ] {
+        let terminal = Terminal::start(home.path(), &start);
+        terminal.wait_for_prompt();
+        terminal.press("help\r");
+        terminal.wait_for("says more");
+        terminal.wait_for_prompt();
+        assert!(!String::from_utf8_lossy(&terminal.bytes()).contains("paged:"));
+    }
 }
 
 #[test]

@@ -171,6 +171,7 @@ pub(crate) fn keyword(rule: Rule) -> Option<&'static str> {
         Rule::kw_cascade => "cascade",
         Rule::kw_for => "for",
         Rule::kw_stop => "stop",
+        Rule::kw_file => "file",
         Rule::kw_off => "off",
         Rule::kw_as | Rule::as_text => "as",
         Rule::kw_of | Rule::columns => "of",
