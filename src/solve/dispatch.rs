@@ -1,7 +1,8 @@
 //! What a call of the solver does with one island.
 
 use super::closed_form::Found;
-use super::frame::{predict, settle};
+use super::frame::predict::{self, Doubt};
+use super::frame::settle;
 use super::island::{Island, rounding};
 use super::method::{self, Limits, Outcome};
 use super::report::{Budget, Counters, NoStep, Status};
@@ -73,10 +74,14 @@ pub(super) fn visit(
     }
     island.prepare();
     if task == Task::Frame && settings.method == Method::Auto {
-        let found = island.closed_frame(budget.tolerance_of(settings));
+        let tolerance = budget.tolerance_of(settings);
+        let found = island.closed_frame(tolerance);
         visit.by_steps = is_driven.then_some(found.map(|_| ()));
         if let Ok(found) = found {
-            return end_closed(island, &found, budget, work, visit);
+            let size = island.size_before();
+            let doubt = Doubt { known: budget.known_error, tolerance: tolerance * size };
+            island.note_closed_form(&found, size, &doubt);
+            return end_closed(island, &found, size, work, visit);
         }
     }
     island.leave_closed_form();
@@ -121,12 +126,10 @@ pub(super) fn visit(
 fn end_closed(
     island: &mut Island,
     found: &Found,
-    budget: &Budget,
+    size: f64,
     work: &mut Counters,
     visit: Visit,
 ) -> Visit {
-    let size = island.size_before();
-    island.note_closed_form(found, size, budget.known_error);
     let n = island.n_closed();
     work.evaluations += u64::from(n);
     island.n_evaluations = n;

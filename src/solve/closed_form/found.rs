@@ -15,6 +15,11 @@ impl Found {
     /// What no step has added to.
     pub const NOTHING: Self = Self { worst: 0.0, least_side_squared: 1.0 };
 
+    /// How near the pose is to a singular one, as the sine of an angle.
+    pub fn least_side(&self) -> f64 {
+        self.least_side_squared.sqrt()
+    }
+
     /// Whether errors grow at the pose, so that they are to be looked at.
     pub fn is_sensitive(&self) -> bool {
         self.least_side_squared < SENSITIVE * SENSITIVE

@@ -212,29 +212,46 @@ fn accept(island: &mut Island, attempt: Attempt, limits: &Limits) -> Outcome {
     island.keep_sides();
     island.accept_pose();
     let Attempt { worst, n_iterations, least_side, .. } = attempt;
-    let known_error = limits.budget.known_error;
-    island.position_error = position_error(island, worst, least_side, limits.size, known_error);
+    let doubt = Doubt { known: limits.budget.known_error, tolerance: limits.tolerance };
+    island.position_error = position_error(island, worst, least_side, limits.size, &doubt);
     Outcome { status: Status::Converged, worst, energy: 0.5 * worst * worst, n_iterations }
 }
 
-/// How far points may be from where they belong at a pose this near to a singular one; 0 where that
-/// is no matter, or no more than is known already.
+/// How far points may be from where they belong: what is known of it already, and what matters.
+#[derive(Clone, Copy)]
+pub(crate) struct Doubt {
+    /// The largest position error that is known.
+    pub known: f64,
+    /// The distance to satisfaction that is met.
+    pub tolerance: f64,
+}
+
+impl Doubt {
+    /// What is said, without working it out, of the position error at a pose this near to a singular one: 0
+    /// where it is no matter, or no more than is known already, and roughly how large it is where that is
+    /// within the tolerance. None where it is to be worked out.
+    pub fn roughly(&self, worst: f64, least_side: f64, size: f64) -> Option<f64> {
+        if least_side >= SENSITIVE {
+            return Some(0.0);
+        }
+        let rough = worst.max(f64::EPSILON * size) / least_side;
+        let most = ROUGHLY * rough;
+        let is_small = most <= self.tolerance;
+        (is_small || most <= self.known).then_some(if is_small { rough } else { 0.0 })
+    }
+}
+
+/// How far points may be from where they belong at a pose this near to a singular one, as far as
+/// [`Doubt`] asks for it.
 pub(crate) fn position_error(
     island: &mut Island,
     worst: f64,
     least_side: f64,
     size: f64,
-    known_error: f64,
+    doubt: &Doubt,
 ) -> f64 {
-    if least_side < SENSITIVE && may_exceed(worst, least_side, size, known_error) {
+    doubt.roughly(worst, least_side, size).unwrap_or_else(|| {
         island.know_sides();
-        return velocity::position_error(island);
-    }
-    0.0
-}
-
-/// Whether the position error at a pose this near to a singular one may be more than is known already.
-pub(crate) fn may_exceed(worst: f64, least_side: f64, size: f64, known_error: f64) -> bool {
-    let rough = worst.max(f64::EPSILON * size) / least_side;
-    ROUGHLY * rough > known_error
+        velocity::position_error(island)
+    })
 }

@@ -4,7 +4,7 @@
 use super::{Island, corners, rounding};
 use crate::constraint::Point;
 use crate::solve::closed_form::{ClosedForm, Compiled, Found, Given};
-use crate::solve::frame::predict;
+use crate::solve::frame::predict::{self, Doubt};
 use crate::solve::report::{NoStep, Status};
 
 impl Island {
@@ -117,12 +117,12 @@ impl Island {
     }
 
     /// The pose was reached by the list of steps, from one at which the island was of this size.
-    pub fn note_closed_form(&mut self, found: &Found, size: f64, known_error: f64) {
+    pub fn note_closed_form(&mut self, found: &Found, size: f64, doubt: &Doubt) {
         self.are_sides_old = true;
         if found.is_sensitive() {
-            let least_side = found.least_side_squared.sqrt();
+            let least_side = found.least_side();
             self.position_error =
-                predict::position_error(self, found.worst, least_side, size, known_error);
+                predict::position_error(self, found.worst, least_side, size, doubt);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::solve::closed_form::{ClosedForm, Compiled, Found, Lanes, WIDE};
 use crate::solve::dispatch::write_back;
-use crate::solve::frame::predict::may_exceed;
+use crate::solve::frame::predict::Doubt;
 use crate::solve::island::Island;
 use crate::world::{PointId, World};
 
@@ -35,6 +35,11 @@ pub(super) struct Course {
 }
 
 impl Course {
+    /// Which position errors of an island of this size are to be worked out.
+    fn doubt(&self, size: f64, known: &Stretch) -> Doubt {
+        Doubt { known: known.position_error, tolerance: self.tolerance * size }
+    }
+
     /// Whether a pose keeps the tolerance that was promised, if one was, whatever rounding allows.
     fn is_promised(&self, found: &Found, island: &Island) -> bool {
         self.promised.is_none_or(|tolerance| found.worst <= tolerance * island.wanted())
@@ -132,14 +137,14 @@ impl Rider {
 
     /// The frame counts.
     #[inline]
-    pub fn accept(&mut self, stretch: &mut Stretch) {
+    pub fn accept(&mut self, course: &Course, stretch: &mut Stretch) {
         let Self { island, found, least_size, .. } = self;
         island.history.advance();
         island.accept_pose();
         island.position_error = 0.0;
         if found.is_sensitive() {
             let size = island.size_before();
-            island.note_closed_form(found, size, stretch.position_error);
+            island.note_closed_form(found, size, &course.doubt(size, stretch));
             stretch.position_error = stretch.position_error.max(island.position_error);
         }
         // The size is at least that, and asked for only where it might matter.
@@ -158,7 +163,7 @@ impl Rider {
         let mut lanes = self.take_lanes();
         lanes.set_out(&self.form, &self.island);
         (self.ridden, self.noted) = ((0, false), *known);
-        let enough = self.enough(course);
+        let (enough, size) = (self.enough(course), self.island.size());
         while self.ridden.0 < n {
             lanes.find(&mut self.form, &mut self.island, course.dt);
             let all = lanes.found_in_all();
@@ -167,11 +172,14 @@ impl Rider {
                 break;
             }
             self.ridden.0 += 1;
-            if all.is_sensitive() || all.worst > self.noted.residual * self.least_size {
+            let error = course.doubt(size, &self.noted).roughly(all.worst, all.least_side(), size);
+            if error.is_none() || all.worst > self.noted.residual * self.least_size {
                 let mut noted = self.noted;
-                (0..WIDE).for_each(|l| self.note(l, &lanes, &mut noted));
+                (0..WIDE).for_each(|l| self.note(l, &lanes, course, &mut noted));
                 self.noted = noted;
                 lanes.show(WIDE - 1, &self.form, &mut self.island);
+            } else if let Some(error) = error {
+                self.noted.position_error = self.noted.position_error.max(error);
             }
         }
         self.lanes = Some(lanes);
@@ -229,15 +237,15 @@ impl Rider {
     }
 
     /// A frame that was found beside others counts.
-    pub fn accept_side_by_side(&mut self, l: usize, stretch: &mut Stretch) {
+    pub fn accept_side_by_side(&mut self, l: usize, course: &Course, stretch: &mut Stretch) {
         if let Some(lanes) = self.lanes.take() {
-            self.note(l, &lanes, stretch);
+            self.note(l, &lanes, course, stretch);
             self.lanes = Some(lanes);
         }
     }
 
     /// Takes in what a frame that was found beside others came to.
-    fn note(&mut self, l: usize, lanes: &Lanes, stretch: &mut Stretch) {
+    fn note(&mut self, l: usize, lanes: &Lanes, course: &Course, stretch: &mut Stretch) {
         let Self { island, form, least_size, .. } = self;
         let found = lanes.found(l);
         let is_large = found.worst > stretch.residual * *least_size;
@@ -245,14 +253,13 @@ impl Rider {
             return;
         }
         let size = island.size_at(lanes.origin(l));
-        let least_side = found.least_side_squared.sqrt();
-        if found.is_sensitive() && may_exceed(found.worst, least_side, size, stretch.position_error)
-        {
+        let doubt = course.doubt(size, stretch);
+        let error = doubt.roughly(found.worst, found.least_side(), size).unwrap_or_else(|| {
             lanes.show(l, form, island);
-            island.position_error = 0.0;
-            island.note_closed_form(&found, size, stretch.position_error);
-            stretch.position_error = stretch.position_error.max(island.position_error);
-        }
+            island.note_closed_form(&found, size, &doubt);
+            island.position_error
+        });
+        stretch.position_error = stretch.position_error.max(error);
         if is_large {
             stretch.residual = stretch.residual.max(found.worst / size);
         }

@@ -234,7 +234,7 @@ impl Course {
             }
         }
         for rider in riders {
-            rider.accept(stretch);
+            rider.accept(self, stretch);
         }
         true
     }
@@ -263,7 +263,7 @@ impl Course {
         let mut n_done = n;
         if is_looked_at || kept.is_traced {
             for l in 0..n {
-                riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, stretch));
+                riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, self, stretch));
                 if kept.is_traced {
                     riders.iter().for_each(|rider| rider.tell(l, world, kept));
                     result = keep(riders, Some(l), world, kept, on);
