@@ -91,6 +91,12 @@ impl Live {
         self.pace.is_some()
     }
 
+    /// How long there is nothing to be done while time passes, seconds; `now` is what a clock on the wall
+    /// shows.
+    pub fn until_due(&self, now: f64, session: &Session) -> f64 {
+        self.pace.as_ref().map_or(0.0, |pace| pace.until_due(now, session.world().clock().dt))
+    }
+
     /// The session is to be asked by others: what goes on is written, what was tried stays.
     pub fn hand_over(&mut self, session: &mut Session, host: &mut dyn Host) {
         self.rest(session, host);

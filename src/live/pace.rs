@@ -21,6 +21,8 @@ const LONGEST: f64 = 0.1;
 const MOST: u32 = 64;
 /// Between two looks there should be less time than this, seconds.
 const SLOW: f64 = 0.04;
+/// Frames that take about so long pass at once, seconds: no display shows more of them.
+const TOGETHER: f64 = 0.008;
 
 impl Pace {
     /// From the next look on.
@@ -42,9 +44,22 @@ impl Pace {
         }
         self.due = (self.due + gone * self.speed).min((LONGEST * self.speed).max(dt));
         let n = ((self.due / dt) as u32).min(self.most);
+        let n = if f64::from(n) < self.together(dt).min(self.most.into()) { 0 } else { n };
         self.due -= f64::from(n) * dt;
         self.n_last = n;
         n
+    }
+
+    /// How long it is until frames of `dt` are due, seconds; `now` is what the clock shows.
+    pub fn until_due(&self, now: f64, dt: f64) -> f64 {
+        let Some(last) = self.last else { return 0.0 };
+        let left = self.together(dt).min(self.most.into()) * dt - self.due;
+        (left / self.speed - (now - last)).clamp(0.0, LONGEST)
+    }
+
+    /// How many frames pass at once, if time passes as it should.
+    fn together(&self, dt: f64) -> f64 {
+        (TOGETHER * self.speed / dt).round().max(1.0)
     }
 }
 
@@ -61,6 +76,26 @@ mod tests {
         let mut slow = Pace::new(0.25);
         let n: u32 = (0..=240).map(|k| slow.due(f64::from(k) / 120.0, dt)).sum();
         assert!((29..=30).contains(&n), "{n}");
+    }
+
+    #[test]
+    fn who_waits_until_frames_are_due_sees_them_at_even_times() {
+        for (speed, dt, every) in
+            [(1.0, 1.0 / 60.0, 1.0 / 60.0), (4.0, 0.001, 0.008), (0.5, 0.01, 0.02)]
+        {
+            let mut pace = Pace::new(speed);
+            let (mut now, mut passed) = (0.0, Vec::new());
+            while now < 1.0 {
+                if pace.due(now, dt) > 0 {
+                    passed.push(now);
+                }
+                // Now and then something else is heard meanwhile.
+                let wait = pace.until_due(now, dt);
+                now += if wait > 0.005 { 0.3 * wait } else { wait.max(1e-9) };
+            }
+            let even = passed.windows(2).all(|pair| (pair[1] - pair[0] - every).abs() < 1e-6);
+            assert!(even && passed.len() as f64 > 0.9 / every, "{passed:?}");
+        }
     }
 
     #[test]

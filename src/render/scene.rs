@@ -75,7 +75,7 @@ impl Scene {
         let mut ghosts = self.ghosts[..n_same].to_vec();
         ghosts.extend(world.ghosts()[n_same..].iter().map(|ghost| pose.exposed(ghost, world)));
         let curves = world.traces().iter().enumerate().map(|(k, trace)| {
-            let grown = self.curves.get(k).and_then(|curve| curve.grown(trace));
+            let grown = self.curves.get(k).and_then(|curve| curve.grown(trace, world));
             grown.unwrap_or_else(|| Curve::of(k, trace, world))
         });
         Self { pose, ghosts, curves: curves.collect(), unmet: Unmet::new() }

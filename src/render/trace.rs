@@ -38,19 +38,25 @@ pub struct Curve {
     pub samples: Samples,
 }
 
+/// What a path is called.
+fn name_of<'a>(trace: &'a Trace, world: &'a World) -> &'a str {
+    let of_point = || world.name_of(Entity::Point(trace.point));
+    trace.label.as_deref().unwrap_or_else(of_point)
+}
+
 impl Curve {
     /// The path at a place in the list of a world's traces.
     pub fn of(idx: usize, trace: &Trace, world: &World) -> Self {
-        let of_point = || world.name_of(Entity::Point(trace.point)).into();
-        let name = trace.label.clone().unwrap_or_else(of_point);
+        let name = name_of(trace, world).into();
         let samples = Samples::new(&trace.samples);
         Self { idx, point: trace.point, name, is_named: trace.label.is_some(), samples }
     }
 
     /// The same path somewhat later; none if it is not the same.
-    pub fn grown(&self, trace: &Trace) -> Option<Self> {
-        let label = self.is_named.then_some(&self.name);
-        let is_same = self.point == trace.point && label == trace.label.as_ref();
+    pub fn grown(&self, trace: &Trace, world: &World) -> Option<Self> {
+        let is_same = self.point == trace.point
+            && self.is_named == trace.label.is_some()
+            && *self.name == *name_of(trace, world);
         let samples = is_same.then(|| self.samples.grown(&trace.samples))??;
         Some(Self { samples, ..self.clone() })
     }

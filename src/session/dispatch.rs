@@ -101,6 +101,7 @@ impl Execution<'_> {
             Changing::Delete { names, cascade } => self.delete(names, *cascade)?,
             Changing::Off(names) => self.switch(names, false)?,
             Changing::On(names) => self.switch(names, true)?,
+            Changing::Rename { from, to } => self.rename(from, to)?,
             Changing::Change { name, parts } => self.change_thing(name, parts)?,
             Changing::Settings(which) => self.show_settings(which.as_ref())?,
             Changing::Set { setting, value, targets } => self.set(setting, value, targets)?,

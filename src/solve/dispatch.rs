@@ -20,6 +20,8 @@ pub(super) enum Task {
     Frame,
     /// Bare iterations at the present time.
     Relax,
+    /// As far as it gets on, at the present time: another place follows, and with it a better start.
+    Lead,
     /// Until solved or at rest, at the present time.
     Settle,
 }
@@ -210,6 +212,7 @@ pub(super) fn solve(
         let outcome = match task {
             Task::Frame => predict::frame(island, limits, work),
             Task::Relax => settle::settle(island, limits, work),
+            Task::Lead => settle::settle_on(island, limits, work),
             Task::Settle => settle::settle_at_last(island, limits, work),
         };
         if task == Task::Frame && !outcome.is_converged() {
@@ -220,7 +223,7 @@ pub(super) fn solve(
     island.history.forget();
     island.feasible = None;
     let (mut outcome, mut lowered) = round(island, settings, limits, work);
-    if task == Task::Settle {
+    if matches!(task, Task::Lead | Task::Settle) {
         let mut n = outcome.n_iterations;
         for _ in 0..MOST_ROUNDS {
             if outcome.status != Status::Stalled || limits.budget.is_spent() {

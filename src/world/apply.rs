@@ -3,8 +3,8 @@
 use super::batch::{Batch, BatchRecords};
 use super::motion::whole_state;
 use super::{
-    Clock, ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, Parameter, ParameterId, PointId,
-    PointRecord, Record, Refreeze, Touched, World,
+    Clock, ConstraintId, Edit, Entity, Ghost, Measure, MeasureId, NameText, Parameter, ParameterId,
+    PointId, PointRecord, Record, Refreeze, Touched, World,
 };
 use crate::constraint::Constraint;
 
@@ -49,6 +49,10 @@ impl World {
                 self.dependencies.note_switch(id);
                 let record = self.constraints.get_mut(id.idx()).expect("a living constraint");
                 Edit::Switch(id, std::mem::replace(&mut record.is_on, on))
+            }
+            Edit::Rename(entity, mut name) => {
+                self.swap_name(entity, &mut name);
+                Edit::Rename(entity, name)
             }
             Edit::DeleteBatch(batch) => Edit::RestoreBatch(Box::new(self.delete_batch(batch))),
             Edit::RestoreBatch(records) => Edit::DeleteBatch(self.restore_batch(*records)),
@@ -186,6 +190,15 @@ impl World {
             _ => {}
         }
         self.measures.swap(id.idx(), new.map(|it| *it)).map(Box::new)
+    }
+
+    /// Exchanges the name of what lives for a free one. Nothing else of it changes: all that refers to it
+    /// does so by its handle.
+    fn swap_name(&mut self, entity: Entity, name: &mut NameText) {
+        // In this order: it may stay a member of the same instance.
+        self.index.remove(&self.name_text_of(entity).clone(), entity);
+        self.index.insert(name, entity);
+        std::mem::swap(self.name_text_mut(entity), name);
     }
 
     /// Puts another world in the place of this one, and this one in that of the other. What is noted for

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::batch::{Batch, BatchRecords};
 use super::{
-    Clock, ConstraintId, Ghost, Measure, MeasureId, Motion, Parameter, ParameterId, PointId,
-    PointRecord, Record, Trace, TurnCount, Turning, World,
+    Clock, ConstraintId, Entity, Ghost, Measure, MeasureId, Motion, NameText, Parameter,
+    ParameterId, PointId, PointRecord, Record, Trace, TurnCount, Turning, World,
 };
 use crate::constraint::Point;
 
@@ -27,6 +27,8 @@ pub enum Edit {
     Constraint(ConstraintId, Option<Box<Record>>),
     /// Switches a constraint on, or off.
     Switch(ConstraintId, bool),
+    /// Gives something another name, which is free.
+    Rename(Entity, Box<NameText>),
     /// Deletes points and constraints that were made one after the other.
     DeleteBatch(Batch),
     /// Makes them again.
@@ -77,6 +79,7 @@ impl Edit {
             | Self::Weight(..)
             | Self::Constraint(..)
             | Self::Switch(..)
+            | Self::Rename(..)
             | Self::DeleteBatch(_)
             | Self::RestoreBatch(_)
             | Self::Parameter(..)
@@ -106,6 +109,7 @@ impl Edit {
             }
             Self::Constraint(_, Some(record)) => record.n_bytes(),
             Self::RestoreBatch(records) => records.n_bytes(),
+            Self::Rename(_, name) => name.n_bytes(),
             Self::Parameter(_, Some(parameter)) => parameter.n_bytes(),
             Self::Measure(_, Some(measure)) => measure.n_bytes(),
             Self::Clock(clock) => size_of_val(&**clock),

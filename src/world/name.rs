@@ -18,6 +18,15 @@ enum Kept {
 }
 
 impl NameText {
+    /// Roughly how many bytes it takes.
+    pub fn n_bytes(&self) -> usize {
+        let apart = match &self.0 {
+            Kept::Short(..) => 0,
+            Kept::Long(text) => text.len(),
+        };
+        size_of::<Self>() + apart
+    }
+
     /// The bytes of the text.
     pub fn as_bytes(&self) -> &[u8] {
         match &self.0 {

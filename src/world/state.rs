@@ -104,6 +104,16 @@ impl World {
         }
     }
 
+    pub(super) fn name_text_mut(&mut self, entity: Entity) -> &mut NameText {
+        let name = match entity {
+            Entity::Point(id) => self.points.name[id.idx()].as_mut(),
+            Entity::Constraint(id) => self.constraints.get_mut(id.idx()).map(|it| &mut it.name),
+            Entity::Parameter(id) => self.parameters.get_mut(id.idx()).map(|it| &mut it.name),
+            Entity::Measure(id) => self.measures.get_mut(id.idx()).map(|it| &mut it.name),
+        };
+        name.expect("a handle of what lives")
+    }
+
     /// Whether all that a formula mentions is there.
     pub fn has_all(&self, formula: &Formula) -> bool {
         let mut has_all = true;

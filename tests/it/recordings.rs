@@ -52,6 +52,36 @@ fn a_point_that_is_traced_later_has_a_column_of_its_own() {
     assert!(lines[6].contains(",,,"), "{table}");
 }
 
+#[test]
+fn a_point_that_is_called_otherwise_stays_in_its_column() {
+    let heading = |statements: &str| {
+        let table = files(statements).remove(Path::new("t.csv")).expect("a table");
+        let lines: Vec<&str> = table.lines().collect();
+        assert!(lines[1..].iter().all(|line| !line.contains(",,")), "{table}");
+        lines[0].to_owned()
+    };
+    assert_eq!(heading("rename B to hand; step 2"), "time,hand.x,hand.y");
+    assert_eq!(heading("step; rename B to hand; step; undo 2"), "time,B.x,B.y");
+    assert_eq!(heading("rename B to hand; step; undo 2; step"), "time,B.x,B.y");
+    // Another point of the old name is another point.
+    let table = files("rename B to hand; point B = (7, 8); trace B; step 2");
+    let table = &table[Path::new("t.csv")];
+    assert!(table.starts_with("time,hand.x,hand.y,B.x,B.y\n"), "{table}");
+    assert!(table.ends_with(",7,8\n"), "{table}");
+    // One that is made again goes on where it was.
+    assert_eq!(heading("delete B cascade; point B = (1, 1); trace B; step"), "time,B.x,B.y");
+}
+
+#[test]
+fn a_legend_calls_a_path_as_its_point_is_called() {
+    let movie = files("trace C; step; rename B to hand; step").remove(Path::new("m.svg"));
+    let movie = movie.expect("a picture");
+    let captions = movie.split("class=\"caption\"").skip(1);
+    let words = captions.filter_map(|rest| Some(rest.split_once('>')?.1.split_once('<')?.0));
+    let words: Vec<&str> = words.collect();
+    assert!(words.contains(&"hand") && !words.contains(&"B"), "{words:?}");
+}
+
 /// A disk on which there is room for so many bytes.
 #[derive(Debug)]
 struct SmallDisk(usize, Vec<u8>);

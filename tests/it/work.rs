@@ -10,8 +10,10 @@ use std::time::Instant;
 use linkwork::constraint::Point;
 use linkwork::diag::{Diagnostic, Sources};
 use linkwork::session::{Host, Nowhere, Session};
-use linkwork::solve::{Budget, Counters, Settings, Solver, is_one_sided};
+use linkwork::solve::{Budget, Counters, Report, Settings, Solver, Status, is_one_sided};
 use linkwork::world::{Edit, Entity, World};
+
+use crate::support::talk::Talking;
 
 /// When the first clock was made.
 static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
@@ -95,6 +97,37 @@ fn check_same(moving: &str, with: &str) {
     let alone = work(moving);
     assert!(alone.evaluations > 0, "the scene moves");
     assert_eq!(alone, work(&format!("{moving}{with}")), "{with}");
+}
+
+#[test]
+fn where_a_hand_only_passes_nothing_is_searched_for() {
+    let work = |solve: fn(&mut Solver, &mut World, &Settings, &Budget<'_>) -> Report| {
+        let (mut world, mut solver) = (world(FOUR_BAR), Solver::new());
+        let (settings, budget) = (Settings::default(), Budget::default());
+        solver.settle(&mut world, &settings, &budget);
+        let Some(Entity::Point(d)) = world.names().get("D") else { panic!("there is a D") };
+        // Out of reach: the hand goes on from here.
+        world.apply(Edit::Move(d, Point::new(9.0, 0.0)));
+        let there = solve(&mut solver, &mut world, &settings, &budget);
+        assert_eq!(there.status, Status::BestFit);
+        // And back: all holds as well as ever.
+        world.apply(Edit::Move(d, Point::new(4.0, 0.0)));
+        assert_eq!(solve(&mut solver, &mut world, &settings, &budget).status, Status::Converged);
+        there.counters.evaluations
+    };
+    let (passing, stopping) = (work(Solver::lead), work(Solver::settle));
+    assert!(3 * passing < stopping, "{passing} and {stopping} evaluations");
+}
+
+#[test]
+fn where_a_hand_lets_go_it_is_settled() {
+    let mut talking = Talking::after(FOUR_BAR);
+    talking.run("drag D through (9, 0), (8.5, 0) over 0");
+    let place = |talking: &mut Talking| talking.session.evaluate("C").expect("a place").vector();
+    let there = place(&mut talking);
+    talking.run("solve");
+    let settled = place(&mut talking);
+    assert!((settled - there).norm() < 1e-9, "{there:?}, {settled:?}");
 }
 
 #[test]

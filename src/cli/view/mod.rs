@@ -32,8 +32,6 @@ use shared::Event;
 
 /// The stack of the thread that serves pages: as large as that of the thread that types.
 const STACK: usize = 8 << 20;
-/// Between two looks at the clock while time passes.
-const TICK: Duration = Duration::from_millis(8);
 /// Events that are taken before what came of them is told.
 const MOST_AT_ONCE: usize = 64;
 /// How long a page may take to hear that the session has ended.
@@ -120,7 +118,9 @@ impl View {
     /// session is wanted.
     fn hear(&mut self, session: &mut Session, host: &mut PageHost) -> bool {
         let first = if self.live.is_busy() {
-            self.events.recv_timeout(TICK)
+            // Frames come at even times, so that a display shows all of them.
+            let now = self.begun.elapsed().as_secs_f64();
+            self.events.recv_timeout(Duration::from_secs_f64(self.live.until_due(now, session)))
         } else {
             self.events.recv().map_err(|_| RecvTimeoutError::Disconnected)
         };

@@ -228,10 +228,16 @@ pub const TRADE: &[Trade] = &[
         example: "delete A",
     },
     Trade {
-        words: &["rename", "modify", "edit", "update"],
+        words: &["modify", "edit", "update"],
         command: "change",
         says: "gives a constraint another value",
         example: "change coupler = 4",
+    },
+    Trade {
+        words: &["call", "name", "relabel"],
+        command: "rename",
+        says: "gives something another name",
+        example: "rename A to pivot",
     },
     Trade {
         words: &["enable", "activate"],

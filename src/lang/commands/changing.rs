@@ -25,6 +25,13 @@ pub enum Changing {
     Off(Vec<Name>),
     /// `on crank`: back into the active list.
     On(Vec<Name>),
+    /// `rename A to pivot`
+    Rename {
+        /// What it is called.
+        from: Name,
+        /// What it is to be called.
+        to: Name,
+    },
     /// `change crank speed 2rev`
     Change {
         /// What changes.
@@ -87,6 +94,19 @@ pub(in crate::lang) const VERBS: &[Verb] = &[
             summary: "take constraints back into the active list",
             help: "",
             example: "on crank",
+        },
+    },
+    Verb {
+        rule: Rule::rename,
+        entry: Entry {
+            keyword: "rename",
+            section: Section::Changing,
+            usage: "rename NAME to NAME",
+            summary: "give a point, a constraint, a parameter, a measure or an instance another name",
+            help: "All that refers to it goes on doing so: constraints, expressions, paths, recordings.\n\
+                 A definition looks its names up when it is used, and finds the new ones then.",
+            example: "rename C to knee\n\
+                 rename length1 to coupler",
         },
     },
     Verb {
@@ -182,7 +202,14 @@ impl Changing {
 
     /// Whether it makes or changes things, without letting time pass.
     pub(super) fn is_edit(&self) -> bool {
-        matches!(self, Self::Delete { .. } | Self::Off(_) | Self::On(_) | Self::Change { .. })
+        matches!(
+            self,
+            Self::Delete { .. }
+                | Self::Off(_)
+                | Self::On(_)
+                | Self::Rename { .. }
+                | Self::Change { .. }
+        )
     }
 
     /// Whether it gives something that is there another value.
@@ -196,6 +223,7 @@ impl Changing {
             Rule::delete => Self::Delete { names: c.names()?, cascade: c.flag(Rule::kw_cascade) },
             Rule::off => Self::Off(c.names()?),
             Rule::on => Self::On(c.names()?),
+            Rule::rename => Self::Rename { from: c.name()?, to: c.name()? },
             Rule::change => Self::Change { name: c.name()?, parts: change_parts(c)? },
             Rule::set => set(c)?,
             Rule::undo => Self::Undo(c.expr_if_any()?),
@@ -215,6 +243,7 @@ impl Changing {
             }
             Self::Off(names) => write!(f, "off {}", Names { names, stops: &[] }),
             Self::On(names) => write!(f, "on {}", Names { names, stops: &[] }),
+            Self::Rename { from, to } => write!(f, "rename {from} to {to}"),
             Self::Change { name, parts } => {
                 write!(f, "change {name}")?;
                 parts.iter().try_for_each(|part| write!(f, " {part}"))

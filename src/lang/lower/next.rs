@@ -165,6 +165,7 @@ fn name_of(verb: &str, last: &str, is_first: bool) -> Option<NameOf> {
     Some(match verb {
         "use" if is_first => NameOf::Definition,
         "point" | "for" | "define" | "restore" | "use" | "measure" | "result" => return None,
+        "rename" if !is_first => return None,
         "let" | "fit" => NameOf::Parameter,
         "freeze" | "thaw" | "move" | "drag" | "pull" | "trace" | "untrace" => NameOf::Point,
         "off" | "on" => NameOf::Constraint,
@@ -218,6 +219,9 @@ mod tests {
         check("off ", &[Name(NameOf::Constraint)]);
         check("limits ", &[Name(NameOf::Driver)]);
         check("delete ", &[Name(NameOf::Anything)]);
+        check("rename ", &[Name(NameOf::Anything)]);
+        check("rename A ", &[Word("to")]);
+        check("rename A to ", &[]);
         check("use ", &[Name(NameOf::Definition)]);
         check("set ", &[Setting]);
         check("set method ", &[Next::ValueOf("method".to_owned())]);

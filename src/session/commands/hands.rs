@@ -121,12 +121,13 @@ impl Execution<'_> {
             status = self.lead(&stops(hands, k), Grip::Firm)?.unwrap_or(status);
             self.n_done += 1;
         }
+        let status = self.settle_at_the_end(status)?;
         self.tell_unless_solved(status, hands);
         Ok(Flow::On)
     }
 
     /// Leads points to places while the clock stands still; gives how solving ended where those
-    /// that hold their points left something to solve.
+    /// that hold their points left something to solve. Where they stop for good it is settled.
     pub(super) fn lead(
         &mut self,
         places: &[(PointId, Point)],
@@ -143,7 +144,7 @@ impl Execution<'_> {
                 for &(point, to) in places {
                     self.edit(Edit::Move(point, to));
                 }
-                Ok(Some(self.settle(&Limits::default())?.status))
+                Ok(Some(self.settle_on_the_way()?.status))
             }
         }
     }

@@ -23,6 +23,7 @@ mod passage;
 pub mod picture;
 pub mod plot;
 pub mod points;
+pub mod rename;
 pub mod restorable;
 pub mod restore;
 pub mod run;

@@ -153,13 +153,16 @@ impl Session {
     /// Where what it did was lost on its way and cannot be done again.
     pub fn end_ongoing(
         &mut self,
-        ongoing: Ongoing,
+        mut ongoing: Ongoing,
         name: &str,
         host: &mut dyn Host,
     ) -> Result<Option<String>, Diagnostic> {
         if ongoing.is_empty() {
             self.give_up(&ongoing);
             return Ok(None);
+        }
+        if ongoing.is_to_be_settled() {
+            self.settle_ongoing(&mut ongoing, host);
         }
         let text = ongoing.statement(self);
         let source = self.add_piece(name, &text, 1, Some(std::path::PathBuf::new()));
@@ -173,6 +176,22 @@ impl Session {
         Ok(Some(text))
     }
 
+    /// Settles where a hand has led; what goes wrong is told when all of it is done again.
+    fn settle_ongoing(&mut self, ongoing: &mut Ongoing, host: &mut dyn Host) {
+        let mut command = self.command(host);
+        let wish = command.deadline.wish(command.host);
+        match interrupt::listening(wish, || command.settle_at_the_end(ongoing.status)) {
+            Ok(Ok(status)) => ongoing.status = status,
+            failed => {
+                command.history.roll_back(command.state);
+                if failed.is_err() {
+                    command.state.solver.begin_anew();
+                }
+                ongoing.forget_since(ongoing.len());
+            }
+        }
+    }
+
     /// Takes back what it did.
     pub fn give_up(&mut self, ongoing: &Ongoing) {
         if ongoing.stage == Stage::Begun {
@@ -182,6 +201,12 @@ impl Session {
 }
 
 impl Ongoing {
+    /// Whether a hand that held its point has led it where not everything holds.
+    fn is_to_be_settled(&self) -> bool {
+        let is_firm = self.held.as_ref().is_some_and(|held| held.grip == Grip::Firm);
+        is_firm && !self.is_timed && self.stage == Stage::Begun && self.status != Status::Converged
+    }
+
     /// It was taken back: what it did up to here is to be done again.
     fn forget_since(&mut self, n_done: u64) {
         self.stage = Stage::Lost;

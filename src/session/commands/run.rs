@@ -16,7 +16,7 @@ use crate::session::host::NO_CLOCK;
 use crate::session::quotas::Quota;
 use crate::session::resolve::unbind::NOWHERE;
 use crate::session::state::State;
-use crate::solve::{Budget, Report, Settings, Status, Verdict, least_tolerance, verdict};
+use crate::solve::{Budget, Report, Settings, Solver, Status, Verdict, least_tolerance, verdict};
 use crate::study::{Hand, move_by};
 use crate::world::{PointId, World};
 
@@ -273,6 +273,29 @@ impl Execution<'_> {
 
     /// Solves while the clock stands still, as long as that gets on.
     pub(super) fn settle(&mut self, limits: &Limits) -> Result<Report, Diagnostic> {
+        self.solve_still(limits, Solver::settle)
+    }
+
+    /// The same for a place on the way of a hand, of which the last is to be settled.
+    pub(super) fn settle_on_the_way(&mut self) -> Result<Report, Diagnostic> {
+        self.solve_still(&Limits::default(), Solver::lead)
+    }
+
+    /// Settles where a hand has led, unless everything holds there already; gives how that ended.
+    pub(super) fn settle_at_the_end(&mut self, status: Status) -> Result<Status, Diagnostic> {
+        if status == Status::Converged {
+            return Ok(status);
+        }
+        // What is off is looked at again, although nothing has moved it since.
+        let tolerance = Some(self.state.preferences.solve.tolerance);
+        Ok(self.settle(&Limits { tolerance, ..Limits::default() })?.status)
+    }
+
+    fn solve_still(
+        &mut self,
+        limits: &Limits,
+        solve: fn(&mut Solver, &mut World, &Settings, &Budget) -> Report,
+    ) -> Result<Report, Diagnostic> {
         self.state.world.refresh_driven()?;
         let report = {
             let Self { state, host, deadline, .. } = &mut *self;
@@ -285,7 +308,7 @@ impl Execution<'_> {
             };
             let budget =
                 Budget { tolerance: limits.tolerance, stop: Some(&is_over), ..Budget::default() };
-            solver.settle(world, &preferences.solve, &budget)
+            solve(solver, world, &preferences.solve, &budget)
         };
         // Whatever it came to, more might have come of it.
         if self.is_asked_to_stop() {

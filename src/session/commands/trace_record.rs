@@ -281,7 +281,8 @@ impl Execution<'_> {
         }
         let options =
             self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref()));
-        for recorder in self.state.recorders.clone() {
+        for mut recorder in self.state.recorders.clone() {
+            recorder.name_columns(&self.state.world);
             if recorder.format == Format::Table && recorder.has_times_only() {
                 self.warn(
                     &Diagnostic::warning("no point was traced, so the table holds times only")

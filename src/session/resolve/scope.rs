@@ -188,8 +188,10 @@ impl<'a> Resolver<'a> {
                 .at(name.span, format!("expected the name of {wanted}")))
             }
             (_, Some(_)) | (Meaning::Member(..) | Meaning::Statistic(..), None) => {
-                let whole = self.spell(name, name.parts.len())?;
-                Err(self.unknown(&whole, name.span))
+                let owner = self.spell(name, name.parts.len() - 1)?;
+                let message = format!("`{}` is a value of `{owner}`", self.text(name.span));
+                Err(Diagnostic::error(errors::WRONG_SORT, message)
+                    .at(name.span, format!("expected the name of {wanted}")))
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::render::{Animation, Options, Scene, View, is_shown, shown_for, svg_wi
 use crate::session::csv;
 use crate::session::file_kind::FileKind;
 use crate::session::spool::Tape;
-use crate::world::{Formula, World};
+use crate::world::{Formula, PointId, World};
 
 /// One recording.
 #[derive(Debug, Clone)]
@@ -32,8 +32,8 @@ pub struct Recorder {
     pub look: Options,
     tape: Tape,
     shots: Vec<Shot>,
-    /// The points of a table, in the order in which they came.
-    names: Vec<Box<str>>,
+    /// The points of a table with their names, in the order in which they came.
+    names: Vec<(PointId, Box<str>)>,
     /// What a table has columns of, if not the traced points.
     pub columns: Arc<[TableColumn]>,
 }
@@ -201,8 +201,8 @@ impl Recorder {
                 let traces: Vec<_> = traces.iter().filter(|trace| !trace.is_ended).collect();
                 for (k, trace) in traces.iter().enumerate() {
                     let at = world.points().at(trace.point);
-                    let name = self.column(world.points().name(trace.point), k);
-                    numbers.extend([name as f64, at.x, at.y]);
+                    let column = self.column(trace.point, world, k);
+                    numbers.extend([column as f64, at.x, at.y]);
                 }
                 (numbers, traces.len(), None)
             }
@@ -212,15 +212,32 @@ impl Recorder {
         Ok(())
     }
 
-    /// The number of a point's name, most often `likely`.
-    fn column(&mut self, name: &str, likely: usize) -> usize {
-        if self.names.get(likely).is_some_and(|known| **known == *name) {
+    /// The number of a point's column, most often `likely`. One that was made again after it was deleted
+    /// goes on in the column of its name.
+    fn column(&mut self, point: PointId, world: &World, likely: usize) -> usize {
+        if self.names.get(likely).is_some_and(|(known, _)| *known == point) {
             return likely;
         }
-        self.names.iter().position(|known| **known == *name).unwrap_or_else(|| {
-            self.names.push(name.into());
-            self.names.len() - 1
-        })
+        let points = world.points();
+        let name = points.name(point);
+        let is_its = |(known, called): &(PointId, Box<str>)| {
+            *known == point || !points.is_alive(*known) && **called == *name
+        };
+        let column = self.names.iter().position(is_its).unwrap_or(self.names.len());
+        match self.names.get_mut(column) {
+            Some((known, _)) => *known = point,
+            None => self.names.push((point, name.into())),
+        }
+        column
+    }
+
+    /// Calls the columns of points as these are called now.
+    pub fn name_columns(&mut self, world: &World) {
+        for (point, name) in &mut self.names {
+            if world.points().is_alive(*point) && **name != *world.points().name(*point) {
+                *name = world.points().name(*point).into();
+            }
+        }
     }
 
     /// What each of its files is.
@@ -375,7 +392,7 @@ impl Recorder {
         }
         let mut line = String::from("time");
         for &column in &columns {
-            let name = &self.names[column];
+            let (_, name) = &self.names[column];
             line.extend([",", name, ".x,", name, ".y"]);
         }
         line.push('\n');

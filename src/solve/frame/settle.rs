@@ -58,21 +58,11 @@ const SAME_WAY: f64 = 1e-9;
 /// The part of the energy a push has to gain to count.
 const WORTHWHILE: f64 = 1e-6;
 
-/// Solves an island while time stands still, however long that takes as long as it gets on.
+/// Solves an island while time stands still, however long that takes as long as it gets on, and looks
+/// about before it says that there is no solution.
 pub(crate) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
     let start: Box<[Point]> = island.x[..island.n_free].into();
-    let mut outcome = settle(island, limits, work);
-    let (mut least, mut n_idle) = (outcome.energy, 0);
-    for _ in 0..MOST_ROUNDS {
-        if outcome.status != Status::Stalled || n_idle == MOST_IDLE || limits.budget.is_spent() {
-            break;
-        }
-        let n_iterations = outcome.n_iterations;
-        outcome = settle(island, limits, work);
-        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
-        n_idle = if outcome.energy < (1.0 - PROGRESS) * least { 0 } else { n_idle + 1 };
-        least = least.min(outcome.energy);
-    }
+    let mut outcome = settle_on(island, limits, work);
     if !outcome.is_converged() && !limits.budget.is_spent() {
         let n_sweeps = MOST_SWEPT / island.constraints.len() as u32;
         let mut workspace = island.take_workspace();
@@ -85,6 +75,23 @@ pub(crate) fn settle_at_last(island: &mut Island, limits: &Limits, work: &mut Co
         if outcome.is_converged() {
             mark_converged(island);
         }
+    }
+    outcome
+}
+
+/// Solves an island while time stands still, as long as it gets on.
+pub(crate) fn settle_on(island: &mut Island, limits: &Limits, work: &mut Counters) -> Outcome {
+    let mut outcome = settle(island, limits, work);
+    let (mut least, mut n_idle) = (outcome.energy, 0);
+    for _ in 0..MOST_ROUNDS {
+        if outcome.status != Status::Stalled || n_idle == MOST_IDLE || limits.budget.is_spent() {
+            break;
+        }
+        let n_iterations = outcome.n_iterations;
+        outcome = settle(island, limits, work);
+        outcome.n_iterations = outcome.n_iterations.saturating_add(n_iterations);
+        n_idle = if outcome.energy < (1.0 - PROGRESS) * least { 0 } else { n_idle + 1 };
+        least = least.min(outcome.energy);
     }
     outcome
 }

@@ -121,6 +121,12 @@ impl Solver {
         self.run(world, settings, budget, Task::Settle)
     }
 
+    /// Solves for a place on the way of a hand: what cannot be met there is met as well as it comes. To
+    /// be settled where the way ends.
+    pub fn lead(&mut self, world: &mut World, settings: &Settings, budget: &Budget) -> Report {
+        self.run(world, settings, budget, Task::Lead)
+    }
+
     /// Brings points as near to places as the constraints allow, from a pose that meets them:
     /// nothing is torn, and no time passes.
     ///

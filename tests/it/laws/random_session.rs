@@ -116,6 +116,15 @@ pub fn statement() -> impl Strategy<Value = String> {
         1 => point().prop_map(|p| format!("delete {p}")),
         1 => point().prop_map(|p| format!("delete {p} cascade")),
         1 => constraint().prop_map(|c| format!("delete {c}")),
+        1 => (point(), 1..3_u32).prop_map(|(p, k)| format!("rename {p} to K{k}")),
+        1 => (1..3_u32, point()).prop_map(|(k, p)| format!("rename K{k} to {p}")),
+        1 => (constraint(), 1..3_u32).prop_map(|(c, k)| format!("rename {c} to rod{k}")),
+        1 => (1..3_u32, constraint()).prop_map(|(k, c)| format!("rename rod{k} to {c}")),
+        1 => prop::sample::select(vec![
+            "rename s to u", "rename u to s", "rename d1 to d2", "rename tail to shade1", "rename shade1 to tail",
+            "for i in 1..2 { step; rename B to K1; step; rename K1 to B }",
+        ])
+        .prop_map(str::to_owned),
         1 => Just("delete tail cascade".to_owned()),
         1 => Just("delete r cascade".to_owned()),
         1 => Just("use tail(B, 1)".to_owned()),

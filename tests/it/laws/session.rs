@@ -93,6 +93,32 @@ fn saved_goes_on(before: &[String], after: &[String]) {
     }
 }
 
+/// Names are for people: a world whose things are called otherwise goes on to the same bits, and is the same
+/// once they are called again as they were.
+fn names_do_not_matter(statements: &[String]) {
+    let mut plain = Talking::after(SCENE);
+    for statement in statements {
+        tries(&mut plain, statement);
+    }
+    let mut renamed = Talking::after(SCENE);
+    statements.iter().for_each(|statement| _ = renamed.execute(statement));
+    let names: Vec<String> =
+        plain.world().names().iter().map(|(name, _)| name.to_owned()).collect();
+    for (k, name) in names.iter().enumerate() {
+        renamed.run(&format!("rename {name} to other[{k}]"));
+    }
+    let script = renamed.script();
+    check_same(&Talking::after(&script).script(), &script, "loaded with other names");
+    for statement in ["step 3", "solve", "relax 2", "reset", "step"] {
+        let is_done = plain.execute(statement).is_ok();
+        assert_eq!(renamed.execute(statement).is_ok(), is_done, "`{statement}` knows names");
+    }
+    for (k, name) in names.iter().enumerate() {
+        renamed.run(&format!("rename other[{k}] to {name}"));
+    }
+    check_same(&renamed.script(), &plain.script(), "with the same names again");
+}
+
 /// Statements that all fail, some of them after they let time pass or moved points.
 fn failing() -> impl Strategy<Value = String> {
     prop::sample::select(vec![
@@ -168,6 +194,11 @@ proptest! {
     #[test]
     fn what_is_saved_goes_on_to_the_same_bits(before in statements(12), after in statements(6)) {
         saved_goes_on(&before, &after);
+    }
+
+    #[test]
+    fn a_world_goes_the_same_way_whatever_its_things_are_called(statements in statements(12)) {
+        names_do_not_matter(&statements);
     }
 
     #[test]

@@ -190,6 +190,7 @@ function begin(engine: Carrier): void {
   );
   put(byId("bar-buttons"), ...(playground?.bar() ?? []), keys, turn);
   stage.beat.listen(() => client.tick());
+  stage.shown.listen(() => client.shown());
   client.greeted.listen(({ version, engine: kind }) => {
     byId("title").textContent =
       kind === "socket" ? `session, version ${version}` : `playground, version ${version}`;

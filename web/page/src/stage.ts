@@ -28,6 +28,8 @@ export class Stage {
   readonly painted = new Signal<Frame>();
   /** The display is about to show what there is. */
   readonly beat = new Signal<number>();
+  /** The display has what there is. */
+  readonly shown = new Signal();
 
   private readonly context: CanvasRenderingContext2D;
   private painter: Painter | undefined;
@@ -72,6 +74,7 @@ export class Stage {
     const show = (now: number): void => {
       this.beat.tell(now);
       if (this.isStale || now >= this.due) this.paint();
+      this.shown.tell();
       requestAnimationFrame(show);
     };
     requestAnimationFrame(show);

@@ -164,3 +164,42 @@ test("a frame is read, and what is none is not", async () => {
   assert.equal(readFrame(buffer, { ...drawing, figures: [] }, undefined), undefined);
   assert.equal(readFrame(new ArrayBuffer(10), { ...drawing, points: 0 }, undefined), undefined);
 });
+
+test("a display shows each frame of an engine whose clock is another", async () => {
+  const { Client } = await part("engine/client.ts");
+  const frame = (seq) => {
+    const buffer = new ArrayBuffer(24 + 16);
+    new DataView(buffer).setBigUint64(0, BigInt(seq), true);
+    return buffer;
+  };
+  const drawing = { topology: 0, scale: 1, centre: [0, 0], points: 1, figures: [] };
+  /** What is seen at each beat of the display; numbers are frames that come, a beat is `"|"`. */
+  const seen = (state, events) => {
+    let engine;
+    const client = new Client({ open: (listener) => (engine = listener), send: () => {} });
+    client.open();
+    engine.standing({ is: "open" });
+    engine.text(JSON.stringify({ drawing, state: { held: null, ...state } }));
+    const shown = [];
+    for (const event of events) {
+      if (typeof event === "number") engine.frame(frame(event));
+      else if (event !== "|") engine.text(JSON.stringify(event));
+      else {
+        shown.push(client.frame?.seq);
+        client.shown();
+      }
+    }
+    return shown;
+  };
+  const uneven = [1, "|", 2, 3, "|", "|", 4, 5, "|", "|", 6, "|"];
+  assert.deepEqual(seen({ playing: true }, uneven), [1, 2, 3, 4, 5, 6]);
+  // Frames that pile up are passed over, all but one.
+  assert.deepEqual(seen({ playing: true }, [1, 2, 3, 4, "|", "|", "|"]), [1, 3, 4]);
+  // What stands is shown as it is now, and so is what a hand leads.
+  assert.deepEqual(seen({ playing: false }, uneven), [1, 3, 3, 5, 5, 6]);
+  const held = { point: 0, client: 0 };
+  assert.deepEqual(seen({ playing: true, held }, uneven), [1, 3, 3, 5, 5, 6]);
+  // What is said behind a frame is heard behind it.
+  const other = { drawing: { ...drawing, topology: 7 } };
+  assert.deepEqual(seen({ playing: true }, [1, 2, other, "|", 3, "|"]), [1, 2]);
+});

@@ -118,6 +118,47 @@ test("a click on a point offers what can be done with it", async (t) => {
   assert.match(await s.tell(page, "list points"), /A/);
 });
 
+test("a point is called otherwise on its card", async (t) => {
+  const session = await s.session(t, `${ARM}trace C\n`);
+  const page = await s.openAt(t, session.address);
+  await page.focus("#canvas");
+  for (let k = 0; k < 3; k++) await page.keyboard.press(".");
+  await page.keyboard.press("Enter");
+  // By keys alone: the name is the first that Tab comes to.
+  await page.keyboard.press("Tab");
+  const name = page.getByRole("dialog", { name: "Point C" }).getByLabel("Name");
+  assert.equal(await name.inputValue(), "C");
+  // A name that is taken gets the words of the prompt and stays, to be mended.
+  await page.keyboard.type("B");
+  await page.keyboard.press("Enter");
+  await page.locator("#answer").getByText("`B` is a point already").waitFor();
+  const { err } = s.run(["-e", "point B = (1, 1), C = (1, 2)", "-e", "rename C to B"], session.cwd);
+  const withoutPlaces = (text) => text.replace(/-->.*$/m, "-->").trim();
+  const said = withoutPlaces(await page.textContent("#answer"));
+  assert.equal(said, withoutPlaces(err.slice(err.indexOf("error"))));
+  assert.match(said, /\^/);
+  assert.equal(await name.getAttribute("aria-invalid"), "true");
+  assert.equal(await name.inputValue(), "B");
+  // Escape gives up what was typed.
+  await page.keyboard.press("Escape");
+  assert.equal(await name.inputValue(), "C");
+  await name.fill("hand");
+  await page.keyboard.press("Enter");
+  await s.written(page, /^rename C to hand$/);
+  const menu = page.getByRole("dialog", { name: "Point hand" });
+  await menu.getByText("length B hand = 1.5").waitFor();
+  await menu.getByRole("button", { name: "End path" }).click();
+  await s.written(page, /^untrace hand$/);
+  await page.keyboard.press("Escape");
+  await menu.waitFor({ state: "hidden" });
+  // What is typed counts when the card is left, too.
+  await s.click(page, { x: 2, y: 0 });
+  await page.getByRole("dialog", { name: "Point B" }).getByLabel("Name").fill("elbow");
+  await s.click(page, { x: 1, y: 0.5 });
+  await s.written(page, /^rename B to elbow$/);
+  assert.equal(await s.tell(page, "undo; distance(A, B)"), "note: undid `rename B to elbow`\n2");
+});
+
 test("values, motors and settings are statements", async (t) => {
   const session = await s.session(t, `let r = 3.5\n${FOUR_BAR.replace("= 3.5", "= r")}`);
   const page = await s.openAt(t, session.address);

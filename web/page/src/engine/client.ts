@@ -75,6 +75,9 @@ export class Client {
   private isMoving = false;
   private next: readonly [number, number] | undefined;
   private readonly waiting = new Map<number, (message: unknown) => void>();
+  /** Whether there is a frame that the display does not have, and what came after that. */
+  private hasFrame = false;
+  private readonly later: (string | ArrayBuffer)[] = [];
 
   constructor(private readonly carrier: Carrier) {}
 
@@ -86,8 +89,8 @@ export class Client {
   open(): void {
     this.carrier.open({
       standing: (standing) => this.stands(standing),
-      text: (text) => this.hear(JSON.parse(text) as Message),
-      frame: (buffer) => this.see(buffer),
+      text: (text) => this.take(text),
+      frame: (buffer) => this.take(buffer),
     });
   }
 
@@ -97,6 +100,17 @@ export class Client {
 
   tick(): void {
     if (this.state?.playing === true) this.carrier.tick?.();
+  }
+
+  /** The display has the last frame: the next may come. */
+  shown(): void {
+    this.hasFrame = false;
+    let nFrames = this.later.filter((message) => typeof message !== "string").length;
+    for (const message of this.later.splice(0)) {
+      // Of frames that have piled up one waits at most.
+      if (typeof message !== "string" && --nFrames > 0) this.hasFrame = false;
+      this.take(message);
+    }
   }
 
   /** Carries out statements. */
@@ -201,11 +215,27 @@ export class Client {
     });
   }
 
+  /** While time passes an engine has its clock and the display another: of two frames that come between two
+   * pictures the second waits for the next, with all that comes after it. */
+  private take(message: string | ArrayBuffer): void {
+    const isFrame = typeof message !== "string";
+    const isPaced = this.state?.playing === true && this.state.held === null;
+    if (this.later.length > 0 || (isFrame && isPaced && this.hasFrame)) {
+      this.later.push(message);
+    } else if (isFrame) {
+      this.hasFrame = true;
+      this.see(message);
+    } else {
+      this.hear(JSON.parse(message) as Message);
+    }
+  }
+
   private stands(standing: Standing): void {
     // What was asked of an engine that is gone is not answered any more.
     const unanswered = [...this.waiting.values()];
     this.waiting.clear();
     this.next = undefined;
+    this.later.length = 0;
     const lost: Answer = { ok: false, said: [{ kind: "error", text: "the connection was lost" }] };
     for (const resolve of unanswered) resolve(lost);
     this.drawing = undefined;

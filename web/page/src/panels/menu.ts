@@ -13,10 +13,25 @@ export class Menu {
     tabindex: "-1",
     hidden: true,
   });
+  /** What the point is called: typed over, it is called otherwise. */
+  private readonly name = h("input", {
+    class: "mono",
+    "aria-label": "Name",
+    title: "Type another name for it",
+    spellcheck: "false",
+    autocapitalize: "off",
+    autocomplete: "off",
+    onchange: () => void this.rename(),
+  });
+  private readonly support = h("span", { class: "quiet" });
+  /** What is under the name; made anew when something has changed. */
+  private readonly offers = h("div");
   private handle: number | undefined;
 
   constructor(private readonly page: Page) {
+    put(this.element, this.head(), this.offers);
     document.body.append(this.element);
+    this.name.addEventListener("keydown", (event) => this.key(event));
     page.client.stated.listen(() => this.refresh());
     document.addEventListener("pointerdown", (event) => {
       const target = event.target as Node;
@@ -30,6 +45,7 @@ export class Menu {
     if (place === undefined) return;
     this.handle = handle;
     this.element.hidden = false;
+    this.resetName();
     this.refresh();
     const { left, top } = stage.canvas.getBoundingClientRect();
     const at = stage.camera.toCanvas(place);
@@ -46,6 +62,8 @@ export class Menu {
   close(): void {
     if (this.handle === undefined) return;
     const hadFocus = this.element.contains(document.activeElement);
+    // What was typed counts, as it does when Enter is pressed.
+    this.name.blur();
     this.handle = undefined;
     this.element.hidden = true;
     this.page.stage.overlay = {};
@@ -62,20 +80,52 @@ export class Menu {
       return;
     }
     this.element.setAttribute("aria-label", `Point ${point.name}`);
+    // Not under the hand that types.
+    if (document.activeElement !== this.name) this.resetName();
+    this.support.textContent = point.frozen ? "frozen" : "";
     const here = constraintsAt(state, point.handle);
     const isTraced = state?.traced.includes(point.handle) === true;
-    replace(this.element, this.head(point), this.actions(point, isTraced));
-    if (here.length > 0) put(this.element, h("h3", {}, "Constraints here"));
-    for (const constraint of here) put(this.element, this.held(constraint));
+    replace(this.offers, this.actions(point, isTraced));
+    if (here.length > 0) put(this.offers, h("h3", {}, "Constraints here"));
+    for (const constraint of here) put(this.offers, this.held(constraint));
   }
 
-  private head(point: PointState): HTMLElement {
+  private nameOf(handle: number | undefined): string {
+    return handle === undefined ? "" : (pointOf(this.page.client, handle)?.name ?? "");
+  }
+
+  private resetName(): void {
+    this.name.value = this.nameOf(this.handle);
+    this.name.removeAttribute("aria-invalid");
+  }
+
+  /** Gives the point the name that was typed; a wrong one stays, to be mended. */
+  private async rename(): Promise<void> {
+    const [from, to] = [this.nameOf(this.handle), this.name.value.trim()];
+    if (from === "" || from === to) {
+      this.resetName();
+      return;
+    }
+    const answer = await this.page.do(`rename ${from} to ${to}`);
+    this.name.setAttribute("aria-invalid", String(!answer.ok));
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.key !== "Escape") return;
+    // First what was typed is given up, then the card is closed.
+    if (this.name.value === this.nameOf(this.handle)) this.close();
+    else this.resetName();
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  private head(): HTMLElement {
     const close = h(
       "button",
       { class: "bare", type: "button", "aria-label": "Close", onclick: () => this.close() },
       icon("M5 5l10 10M15 5L5 15"),
     );
-    return h("h2", {}, h("span", {}, point.name, point.frozen ? " (frozen)" : ""), close);
+    return h("h2", {}, this.name, this.support, close);
   }
 
   private actions(point: PointState, isTraced: boolean): HTMLElement {
