@@ -234,7 +234,7 @@ mod tests {
     #[test]
     fn who_does_not_want_a_picture_any_more_leaves_it() {
         let small = png(strokes(1), 1.0, &[]).expect("a picture");
-        let stopped = listening(Some(Rc::new(|| true)), || png(strokes(20_000), 2.0, &[]));
+        let stopped = listening(Some(Rc::new(|| true)), || png(strokes(2_000), 2.0, &[]));
         assert_eq!(stopped.map(|_| ()), Err(Stopped));
         assert!(IS_BUSY.load(Ordering::Acquire), "it is drawn to its end");
         // Who comes next may leave before it is their turn.
