@@ -15,6 +15,7 @@ mod laws {
 #[path = "../../tests/it/support"]
 mod support {
     pub mod compare;
+    pub mod draws;
     pub mod fresh;
     pub mod notebook;
     pub mod talk;

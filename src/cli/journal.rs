@@ -118,7 +118,7 @@ pub fn remains() -> Option<Remains> {
     left.sort_unstable();
     let mut found = None;
     for path in left {
-        let n_lines = mend(&path).unwrap_or(0);
+        let Ok(n_lines) = mend(&path) else { continue };
         if n_lines == 0 {
             drop(fs::remove_file(&path));
             continue;
@@ -135,12 +135,16 @@ pub fn remains() -> Option<Remains> {
 
 /// Cuts off what was being written when the session ended; gives how many lines there are.
 fn mend(path: &Path) -> io::Result<usize> {
-    let text = fs::read_to_string(path)?;
-    let end = text.rfind(&format!("\n{MARK}")).map_or(0, |at| at + 1 + MARK.len());
+    let text = fs::read(path)?;
+    let mark = format!("\n{MARK}");
+    let last = text.windows(mark.len()).rposition(|bytes| bytes == mark.as_bytes());
+    // An older linkwork wrote no marks.
+    let end = last.map_or(text.len(), |at| at + mark.len());
     if end < text.len() {
         OpenOptions::new().write(true).open(path)?.set_len(end as u64)?;
     }
-    Ok(text[..end].lines().filter(|line| !line.starts_with('#')).count())
+    let lines = text[..end].split(|&byte| byte == b'\n');
+    Ok(lines.filter(|line| !line.is_empty() && line[0] != b'#').count())
 }
 
 /// Removes journals that were told of long ago.

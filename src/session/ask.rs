@@ -2,7 +2,8 @@
 
 use super::input::Input;
 use super::quotas::Quotas;
-use super::resolve::scope::{Resolver, Scopes};
+use super::resolve::scope::Resolver;
+use super::resolve::scopes::Scopes;
 use super::state::State;
 use crate::diag::{Diagnostic, SourceId, Sources};
 use crate::errors;

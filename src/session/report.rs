@@ -62,10 +62,9 @@ impl Execution<'_> {
 
     /// Warns of a motion that began where its branches meet.
     fn tell_chosen(&mut self, summary: &Summary) {
-        let (Some((frame, point)), Some(span)) = (summary.chosen, summary.chosen_at) else {
+        let (Some((frame, name)), Some(span)) = (&summary.chosen, summary.chosen_at) else {
             return;
         };
-        let name = self.state.world.points().name(point);
         let warning = Diagnostic::warning(format!("frame {frame} began where two branches meet"))
             .at(span, format!("nothing tells along which of them `{name}` is to go on"));
         self.warn(&warning.help("a start a little beside it is on one of them"));
@@ -73,8 +72,7 @@ impl Execution<'_> {
 
     /// Warns of frames that may have changed branch.
     fn tell_turned_over(&mut self, summary: &Summary) {
-        let (&[(frame, point), ..], Some(span)) =
-            (&summary.turned_over[..], summary.turned_over_at)
+        let ([(frame, point), ..], Some(span)) = (&summary.turned_over[..], summary.turned_over_at)
         else {
             return;
         };
@@ -83,15 +81,14 @@ impl Execution<'_> {
             1 => format!("frame {frame} may have changed branch"),
             n => format!("{n} frames may have changed branch, the first is frame {frame}"),
         };
-        let name = |point| self.state.world.points().name(point);
         let events = summary.turned_over.iter();
         let mut events: Vec<String> =
-            events.map(|&(frame, point)| format!("`{}` in frame {frame}", name(point))).collect();
+            events.map(|(frame, point)| format!("`{point}` in frame {frame}")).collect();
         if n > events.len() as u64 {
             events.push(format!("{} more", n - events.len() as u64));
         }
         let label = match n {
-            1 => format!("`{}` changed sides in a single jump", name(point)),
+            1 => format!("`{point}` changed sides in a single jump"),
             _ => format!("changed sides in a single jump: {}", listed(&events, "and")),
         };
         let warning = Diagnostic::warning(message).at(span, label);

@@ -6,7 +6,7 @@ use super::culprits::Culprits;
 use super::preferences::Receipt;
 use crate::diag::{Span, format_counted, format_number, format_rounded, format_seconds};
 use crate::solve::{Method, Report, Settings, Status, Stretch, Verdict};
-use crate::world::PointId;
+use crate::world::{NameText, PointId, World};
 
 /// Receipt of a command that let time pass.
 #[derive(Debug, Clone)]
@@ -32,9 +32,9 @@ pub struct Summary {
     /// Frames after which something may be on another branch of its motion.
     pub n_turned_over: u64,
     /// The first few of them, as the clock counts, each with a point that changed sides.
-    pub turned_over: Vec<(u64, PointId)>,
+    pub turned_over: Vec<(u64, NameText)>,
     /// The first frame that began in a pose where branches meet, and a point that goes along one.
-    pub chosen: Option<(u64, PointId)>,
+    pub chosen: Option<(u64, NameText)>,
     /// Wall time of all frames together, seconds, where there is a clock.
     pub seconds: Option<f64>,
     /// How the frames were solved, with the number of frames each.
@@ -110,8 +110,10 @@ impl Summary {
         }
     }
 
-    /// One frame more.
-    pub(super) fn add(&mut self, report: &Report, frame: u64, span: Span) {
+    /// One frame more, after which the world is this. What is named may be gone when it is told of.
+    pub(super) fn add(&mut self, report: &Report, world: &World, span: Span) {
+        let frame = world.clock().frame;
+        let name = |point: PointId| NameText::from(world.points().name(point));
         self.n_frames += 1;
         self.ended_at = Some(span);
         if let Some((_, n)) = self.ways.last_mut() {
@@ -130,12 +132,12 @@ impl Summary {
         if let Some(point) = report.turned_over {
             self.n_turned_over += 1;
             if self.turned_over.len() < MOST_TURNED_OVER {
-                self.turned_over.push((frame, point));
+                self.turned_over.push((frame, name(point)));
             }
             self.turned_over_at.get_or_insert(span);
         }
-        if let (None, Some(point)) = (self.chosen, report.chosen) {
-            (self.chosen, self.chosen_at) = (Some((frame, point)), Some(span));
+        if let (None, Some(point)) = (&self.chosen, report.chosen) {
+            (self.chosen, self.chosen_at) = (Some((frame, name(point))), Some(span));
         }
         if let Some(rho) = report.lowered_rho {
             self.lowered_rho = Some(self.lowered_rho.map_or(rho, |least| least.min(rho)));

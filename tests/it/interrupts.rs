@@ -345,6 +345,8 @@ fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
 fn assert_kept(statements: &[(&str, u64)]) {
     let mut talking = Talking::default();
     talking.talk.journal = Some(vec![String::new()]);
+    let part = "for i in 1..100 { step 3 }\nlet q = 1\nrelax 300\nstep 500\n";
+    talking.talk.files.insert("part.link".into(), part.to_owned());
     let mut typed = Transcript::new("typed");
     for (statement, most) in statements {
         talking.talk.n_polls.set(0);
@@ -372,6 +374,8 @@ fn a_stop_is_repeated_where_it_was() {
         "for i in 1..1000 { point p[i] = (i, 0); length D p[i] <= 2000 }",
         "for i in 1..10 { for k in 1..100 { use foot(C, k) as f[i][k]; step 2 } }",
         "for i in 1..100000 { }",
+        "include \"part.link\"",
+        "for i in 1..5 { include \"part.link\"; step 9 }",
         "relax 100000",
         "freeze C; off length1; drag C to (3, 2) over 1000",
         "off length1; freeze C; drag C through (3, 2), (3, 4), (2, 2), (1, 1) over 0",

@@ -101,6 +101,7 @@ impl Execution<'_> {
     pub(crate) fn clear(&mut self) {
         self.stop_everything();
         self.history.clear(self.state);
+        self.scopes.lose_all();
     }
 
     /// Ends recordings, forgets definitions and settings, and what the solver remembers.

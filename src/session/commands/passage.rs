@@ -184,7 +184,7 @@ impl Execution<'_> {
         passage.n_passed = k;
         self.n_done += 1;
         passage.last = report.status;
-        passage.summary.add(&report, self.state.world.clock().frame, passage.span);
+        passage.summary.add(&report, &self.state.world, passage.span);
         if !passage.leaves_nothing {
             self.keep_frame(is_missed(&report), passage.span)?;
         }

@@ -1,6 +1,7 @@
 //! Expressions of the language become values, or formulas that stay live.
 
-use super::scope::{Bound, Meaning, Resolver};
+use super::scope::{Meaning, Resolver};
+use super::scopes::{Bound, lost};
 use crate::constraint::{LARGEST, Point, Vec2};
 use crate::diag::{Diagnostic, Span, format_count, format_number};
 use crate::errors;
@@ -274,6 +275,7 @@ impl Resolver<'_> {
                     Mode::Now => self.evaluate(&formula).map(Term::plain),
                 };
             }
+            Meaning::Bound(Bound::Lost) => return Err(lost(span)),
             Meaning::Member(id, member) => return self.bind_member(id, member, span, mode),
             Meaning::Statistic(id, which) => {
                 return self.bind_statistic(id, which, span, mode);

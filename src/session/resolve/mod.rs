@@ -5,4 +5,5 @@ mod bind_call;
 mod members;
 pub mod said;
 pub mod scope;
+pub mod scopes;
 pub mod unbind;

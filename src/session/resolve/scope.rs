@@ -1,13 +1,12 @@
 //! What a name means where it stands: bindings of a block, members of an instance, the world.
 
-use std::sync::Arc;
-
+use super::scopes::{Bound, Scope, Scopes, lost};
 use crate::diag::{Diagnostic, Likeness, Sources, Span, format_number, nearest};
 use crate::errors;
 use crate::lang::ast::{Axis, Function, Name, PartKind};
 use crate::session::quotas::Quotas;
 use crate::session::state::State;
-use crate::terms::{Member, Statistic, Unit};
+use crate::terms::{Member, Statistic};
 use crate::world::{ConstraintId, Entity, Formula, MeasureId, NameText, PointId, Turning};
 
 /// Names that have a meaning of their own in every expression.
@@ -15,65 +14,6 @@ pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
 
 /// The word for every point.
 pub const ALL: &str = "all";
-
-/// The blocks and instances around a statement.
-#[derive(Debug)]
-pub struct Scopes {
-    /// The innermost last; the outermost is never left.
-    stack: Vec<Scope>,
-    /// Room for the text of a name.
-    spelling: String,
-    /// What the statement under way wants counted.
-    turnings: Vec<Turning>,
-}
-
-impl Default for Scopes {
-    fn default() -> Self {
-        Self { stack: vec![Scope::default()], spelling: String::new(), turnings: Vec::new() }
-    }
-}
-
-impl Scopes {
-    /// The scope of an instance begins.
-    pub fn enter(&mut self, scope: Scope) {
-        self.stack.push(scope);
-    }
-
-    /// The scope entered last ends.
-    pub fn leave(&mut self) {
-        self.stack.pop();
-    }
-
-    /// Binds a loop variable in the innermost scope; gives its place there.
-    pub fn bind(&mut self, name: Arc<str>, value: f64) -> usize {
-        let bindings = &mut self.innermost_mut().bindings;
-        bindings.push((name, Bound::Number(value, Unit::None)));
-        bindings.len() - 1
-    }
-
-    /// Gives a loop variable of the innermost scope another value.
-    pub fn rebind(&mut self, place: usize, value: f64) {
-        self.innermost_mut().bindings[place].1 = Bound::Number(value, Unit::None);
-    }
-
-    /// Forgets a loop variable of the innermost scope.
-    pub fn unbind(&mut self, place: usize) {
-        self.innermost_mut().bindings.truncate(place);
-    }
-
-    /// What was to be counted since this was last asked for.
-    pub fn take_turnings(&mut self) -> Vec<Turning> {
-        std::mem::take(&mut self.turnings)
-    }
-
-    fn innermost(&self) -> &Scope {
-        self.stack.last().expect("the outermost scope is never left")
-    }
-
-    fn innermost_mut(&mut self) -> &mut Scope {
-        self.stack.last_mut().expect("the outermost scope is never left")
-    }
-}
 
 /// What names and expressions mean where a statement stands.
 pub struct Resolver<'a> {
@@ -84,26 +24,6 @@ pub struct Resolver<'a> {
     sources: &'a Sources,
     /// How much an expression may be.
     pub(super) quotas: &'a Quotas,
-}
-
-/// The names that a block or an instance adds.
-#[derive(Debug, Default)]
-pub struct Scope {
-    /// What is put before a name that is declared here: `left.`, or nothing.
-    pub prefix: String,
-    /// Loop variables and parameters of a definition, the innermost last.
-    pub bindings: Vec<(Arc<str>, Bound)>,
-}
-
-/// What a loop variable or a parameter of a definition stands for.
-#[derive(Debug, Clone)]
-pub enum Bound {
-    /// A value that does not change, and the unit that it is said in.
-    Number(f64, Unit),
-    /// A live expression.
-    Formula(Formula),
-    /// A point, itself.
-    Point(PointId),
 }
 
 /// What a name in an expression stands for.
@@ -203,6 +123,9 @@ impl<'a> Resolver<'a> {
         };
         if let Some(bound) = self.binding(name) {
             let bound = bound.clone();
+            if !bound.is_there(&self.state.world) {
+                return Err(lost(name.span));
+            }
             return match (name.parts.len(), axis) {
                 (0, _) => Ok((Meaning::Bound(bound), None)),
                 (1, Some(axis)) if !matches!(bound, Bound::Number(..)) => {

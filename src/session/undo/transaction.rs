@@ -176,10 +176,11 @@ impl History {
     }
 
     /// Keeps what running changes from here on, before the command under way lets time pass or the
-    /// solver move points. Once a command is enough.
+    /// solver move points, and lets the solver take in what was edited. Once a command is enough for what is
+    /// kept.
     pub fn begin_motion(&mut self, state: &mut State) {
         if self.journal.motion.is_some() {
-            return;
+            return self.sync(state);
         }
         self.journal.covered.clear();
         self.journal.motion = Some(self.journal.current.len());
@@ -241,7 +242,12 @@ impl History {
     /// none to be taken back.
     pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) -> bool {
         self.gather(state);
-        let is_change = !self.journal.current.iter().all(|change| state.is_at(change));
+        let changes = &self.journal.current;
+        // What was changed of a world that is gone is not to be looked for in this one.
+        let is_another =
+            |it: &Change| matches!(it, Change::World(Edit::Everything(_))) && !state.is_at(it);
+        let is_change =
+            changes.iter().any(is_another) || !changes.iter().all(|change| state.is_at(change));
         if is_change {
             self.journal.commit(label, quotas);
         } else {

@@ -17,6 +17,8 @@ pub(crate) struct Lanes {
     places: Vec<Places<WIDE>>,
     /// What drives them, and what they came to.
     abreast: Abreast<WIDE>,
+    /// The worst of what they came to.
+    all: Found,
     /// Where the free points were before the first.
     origin: Vec<Point>,
     /// Where cranks pointed before the first, and how far each turns in a frame.
@@ -39,6 +41,7 @@ impl Lanes {
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
             abreast,
+            all: Found::NOTHING,
             origin: Vec::with_capacity(island.n_free),
             before: Vec::with_capacity(n_cranks),
             start: (Vec::with_capacity(island.n_free), Vec::with_capacity(n_cranks)),
@@ -80,6 +83,7 @@ impl Lanes {
         self.turn_on(form, constraints, dt);
         let Self { places, abreast, .. } = self;
         make(&mut form.steps, &form.cranks, constraints, &mut places[..], abreast);
+        self.all = self.abreast.found_in_all();
     }
 
     /// Turns the cranks on by all frames.
@@ -123,7 +127,7 @@ impl Lanes {
 
     /// The worst of what all frames came to.
     pub fn found_in_all(&self) -> Found {
-        self.abreast.found_in_all()
+        self.all
     }
 
     /// What a frame came to.

@@ -26,7 +26,10 @@ pub struct Along<'a> {
 }
 
 /// How many constraints of riders are evaluated in eight frames each before it is asked whether to go on.
-const LEG: u64 = 1 << 20;
+const LEG: u64 = 1 << 21;
+
+/// Blocks of a first leg, at most.
+const FIRST_LEG: u64 = 16;
 
 /// So many islands are shared out to all cores.
 const MANY: usize = 100;
@@ -48,7 +51,7 @@ impl Leg {
         let n_constraints: u64 = riders.iter().map(Rider::n_constraints).sum();
         let most = (LEG / n_constraints.max(1)).max(1);
         Self {
-            n_blocks: 1,
+            n_blocks: FIRST_LEG / 2,
             most,
             has_ended: false,
             is_shared: riders.len() >= MANY && n_cores() > 1,

@@ -137,6 +137,15 @@ fn a_journal_that_could_not_be_read_any_more_begins_anew() {
 }
 
 #[test]
+fn what_no_frame_follows_is_taken_in_within_a_file_as_at_a_prompt() {
+    let mut kept = Kept::begin();
+    for statement in ["step", "vertical B C", "step 0"] {
+        kept.enter(statement);
+    }
+    kept.assert_brought_back("step 0");
+}
+
+#[test]
 fn a_value_from_outside_is_kept() {
     let mut kept = Kept::begin();
     kept.talking.session.override_parameter("given", 5.0);

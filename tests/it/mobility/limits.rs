@@ -405,6 +405,21 @@ fn each_frame_that_may_have_changed_branch_is_told_but_not_all_of_very_many() {
     assert_eq!(talking.session.last_run().unwrap().n_turned_over, 0);
 }
 
+#[test]
+fn what_changed_branch_is_named_though_it_is_gone() {
+    for after in ["delete C cascade", "clear", "clear; point D = (0, 0), E = (1, 0), F = (2, 0)"] {
+        let mut talking = Talking::after(
+            "point A = (0, 0) frozen, B = (2, 0) frozen, C = (1, 0.4)
+             length A C = 1.2; length B C = 1.1
+             solve",
+        );
+        talking.talk.said.clear();
+        talking.run(&format!("for i in 1..1 {{ drag B to (-2, -0.1) over 1; {after} }}"));
+        let said = &talking.talk.said;
+        assert!(said.contains("`C` changed sides in a single jump"), "{said}");
+    }
+}
+
 /// A crank-rocker with change points or dead points, and what else hangs on it.
 fn with_followers(followers: &str) -> [Talking; 2] {
     let scene = |lengths: [f64; 4], theta: f64| {

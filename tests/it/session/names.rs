@@ -1,5 +1,6 @@
 //! Inside of a definition a name means the instance's own thing before anything outside.
 
+use crate::support::compare::check_same;
 use crate::support::talk::Talking;
 
 /// Things outside of a definition, each with a name that its instances use too.
@@ -75,4 +76,29 @@ fn what_is_not_a_member_is_found_outside() {
          let l = 8; solve
          assert left.E = (8, 0) within 1e-9",
     );
+}
+
+#[test]
+fn what_a_parameter_stood_for_may_be_gone() {
+    for body in [
+        "clear; print P",
+        "clear; point X = (5, 5); print P.x",
+        "clear; point X = (5, 5), Y = (6, 5); length X P",
+        "clear; point X = (5, 5), Y = (6, 5); let z = r",
+        "delete P cascade; print P",
+        "delete P cascade; point X = (5, 5); length P X",
+        "delete P cascade; let z = r",
+    ] {
+        let mut talking = Talking::after(&format!(
+            "define d(P, r) {{ {body} }}
+             point A = (0, 0), B = (1, 0); let q = A.x"
+        ));
+        let before = talking.script();
+        let problem = talking.execute("use d(A, q + A.x)").expect_err(body);
+        assert_eq!(&*problem.message, "what this stands for is gone", "in {body}");
+        check_same(&talking.script(), &before, body);
+    }
+    let mut talking = Talking::after("define d(P, r) { clear; let z = r }; point A = (0, 0)");
+    talking.run("use d(A, 3) as left");
+    assert_eq!(talking.ask("left.z"), ["3"]);
 }

@@ -188,10 +188,14 @@ fn what_was_being_written_when_a_session_ended_is_cut_off() {
     terminal.kill();
     let [journal] = &journals(home.path())[..] else { panic!("{:?}", journals(home.path())) };
     let whole = fs::read_to_string(journal).expect("a journal");
-    for torn in
-        ["restore file \"long.link\" = \"let r = 3", "for i in 1..3 {\n", "restore stop = 0\n"]
-    {
-        fs::write(journal, format!("{whole}{torn}")).expect("it is there");
+    for torn in [
+        &b"restore file \"long.link\" = \"let r = 3"[..],
+        b"for i in 1..3 {\n",
+        b"restore stop = 0\n",
+        b"let r = \"\xff\xfe",
+        b"\0\0\0\0",
+    ] {
+        fs::write(journal, [whole.as_bytes(), torn].concat()).expect("it is there");
         let mut next = Spoken::begin(home.path(), &["--json"]);
         assert!(next.say("1").contains("to bring back its 9 lines"));
         drop(next.to);
