@@ -117,6 +117,7 @@ function watch() {
   window.written = [];
   window.shown = [];
   window.nFrames = 0;
+  window.nBeats = 0;
   // Some pages hear of moves before the display is about to show something.
   const early = "onpointerrawupdate" in window && window.isSecureContext;
   addEventListener(
@@ -145,6 +146,7 @@ function watch() {
       isInFrame = false;
     });
   const beat = () => {
+    window.nBeats += 1;
     begin();
     after.port2.postMessage(null);
     ask(beat);
@@ -255,11 +257,13 @@ function busyOf(pid) {
   }
 }
 
-/** Frames a second while time passes, and what each takes of the page's thread. */
+/** Frames a second while time passes, how many the display could have shown, and what each takes of the page's
+ * thread. */
 async function rate(page, busy) {
   const look = async () => ({
     busy: await busy(),
     n: await page.evaluate(() => window.nFrames),
+    beats: await page.evaluate(() => window.nBeats),
   });
   await page.click("#play");
   await page.waitForTimeout(1000);
@@ -268,7 +272,8 @@ async function rate(page, busy) {
   const after = await look();
   await page.click("#play");
   const n = after.n - before.n;
-  return { rate: n / SECONDS, busy: (after.busy - before.busy) / n };
+  const display = (after.beats - before.beats) / SECONDS;
+  return { rate: n / SECONDS, display, busy: (after.busy - before.busy) / n };
 }
 
 function percentile(found, share) {
@@ -315,6 +320,7 @@ async function measure(browser, engine, scene, address, pid) {
     taken.page.toFixed(1),
     Number.isNaN(taken.engine) ? "–" : taken.engine.toFixed(1),
     frames.rate.toFixed(0),
+    frames.display.toFixed(0),
     frames.busy.toFixed(1),
   ];
   console.log(`| ${row.join(" | ")} |`);
@@ -322,7 +328,7 @@ async function measure(browser, engine, scene, address, pid) {
 
 const browser = await chromium.launch({ executablePath: values.chromium, args: ["--no-sandbox"] });
 const COLUMNS =
-  "scene | engine | moves | drawn, ms | 95 % | goal | shown, ms | 95 % | floor, ms | 95 % | page, ms a move | program, ms a move | frames a second | page, ms a frame";
+  "scene | engine | moves | drawn, ms | 95 % | goal | shown, ms | 95 % | floor, ms | 95 % | page, ms a move | program, ms a move | frames a second | display | page, ms a frame";
 console.log(`| ${COLUMNS} |`);
 console.log(`|${COLUMNS.replaceAll(/[^|]+/g, "---")}|`);
 for (const scene of SCENES) {
