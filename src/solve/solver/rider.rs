@@ -173,14 +173,17 @@ impl Rider {
             }
             self.ridden.0 += 1;
             let error = course.doubt(size, &self.noted).roughly(all.worst, all.least_side(), size);
-            if error.is_none() || all.worst > self.noted.residual * self.least_size {
-                let mut noted = self.noted;
-                (0..WIDE).for_each(|l| self.note(l, &lanes, course, &mut noted));
-                self.noted = noted;
-                lanes.show(WIDE - 1, &self.form, &mut self.island);
-            } else if let Some(error) = error {
-                self.noted.position_error = self.noted.position_error.max(error);
+            let mut noted = self.noted;
+            if all.worst > noted.residual * self.least_size {
+                (0..WIDE).for_each(|l| self.note_residual(l, &lanes, &mut noted));
             }
+            if let Some(error) = error {
+                noted.position_error = noted.position_error.max(error);
+            } else {
+                (0..WIDE).for_each(|l| self.note_error(l, &lanes, course, &mut noted));
+                lanes.show(WIDE - 1, &self.form, &mut self.island);
+            }
+            self.noted = noted;
         }
         self.lanes = Some(lanes);
         self.ridden.0
@@ -239,19 +242,27 @@ impl Rider {
     /// A frame that was found beside others counts.
     pub fn accept_side_by_side(&mut self, l: usize, course: &Course, stretch: &mut Stretch) {
         if let Some(lanes) = self.lanes.take() {
-            self.note(l, &lanes, course, stretch);
+            self.note_residual(l, &lanes, stretch);
+            self.note_error(l, &lanes, course, stretch);
             self.lanes = Some(lanes);
         }
     }
 
-    /// Takes in what a frame that was found beside others came to.
-    fn note(&mut self, l: usize, lanes: &Lanes, course: &Course, stretch: &mut Stretch) {
-        let Self { island, form, least_size, .. } = self;
+    /// Takes in how far a frame that was found beside others is from satisfaction.
+    fn note_residual(&self, l: usize, lanes: &Lanes, stretch: &mut Stretch) {
+        let worst = lanes.found(l).worst;
+        if worst > stretch.residual * self.least_size {
+            stretch.residual = stretch.residual.max(worst / self.island.size_at(lanes.origin(l)));
+        }
+    }
+
+    /// Takes in its position error, for which the island may be put to where it is then.
+    fn note_error(&mut self, l: usize, lanes: &Lanes, course: &Course, stretch: &mut Stretch) {
         let found = lanes.found(l);
-        let is_large = found.worst > stretch.residual * *least_size;
-        if !found.is_sensitive() && !is_large {
+        if !found.is_sensitive() {
             return;
         }
+        let Self { island, form, .. } = self;
         let size = island.size_at(lanes.origin(l));
         let doubt = course.doubt(size, stretch);
         let error = doubt.roughly(found.worst, found.least_side(), size).unwrap_or_else(|| {
@@ -260,9 +271,6 @@ impl Rider {
             island.position_error
         });
         stretch.position_error = stretch.position_error.max(error);
-        if is_large {
-            stretch.residual = stretch.residual.max(found.worst / size);
-        }
     }
 
     /// Tells the world of the frame that the island is at what is kept of it.
