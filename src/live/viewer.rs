@@ -117,7 +117,7 @@ impl Viewer {
     /// Follows the mechanism, or draws it anew.
     fn draw(&mut self, news: &News, say: &mut impl FnMut(Message)) {
         // Frames are read by it, so it is of as many points as they tell of, those included that are not
-        // drawn: the handle of a point is gone for good, whether or not the point came to stay.
+        // drawn: most handles of points that were deleted are not given out again.
         let drawing = self.drawing.as_mut().filter(|_| self.n_points == news.pose.at.len());
         match drawing.map_or(Followed::Another, |drawing| drawing.follow(news.scene)) {
             Followed::Moved(changed) if changed.is_empty() => {}
