@@ -9,6 +9,7 @@ pub mod known_sides;
 pub mod memory;
 mod packed;
 pub mod partition;
+pub mod postponed;
 pub mod recall;
 pub mod sides;
 pub mod snapshot;
@@ -78,6 +79,11 @@ pub(crate) struct Island {
     pub n_evaluations: u32,
     /// Whether it was never solved.
     pub is_new: bool,
+    /// Whether everything held when it was made, and nothing was solved since: nothing has to be
+    /// remembered of it, as it would be made anew the same.
+    pub is_blank: bool,
+    /// Whether it stands for what edits made of it, until that is put together.
+    pub is_outdated: bool,
     /// Whether the user edited it since it was solved: it is solved as it is before time
     /// goes on.
     pub is_edited: bool,
@@ -214,6 +220,8 @@ impl Island {
             feasible: None,
             n_evaluations: FIRST_VISIT * members.len() as u32,
             is_new: true,
+            is_blank: false,
+            is_outdated: false,
             is_edited: false,
             is_awake: true,
             probed_at: 0.0,
@@ -331,6 +339,9 @@ impl Island {
     /// The user changed something since the last visit: a value, or the place of a free point.
     /// Before time goes on the island has to be solved as it is now.
     pub fn note_edit(&mut self, is_disturbed: bool) {
+        if self.is_blank {
+            return self.begin();
+        }
         if is_disturbed {
             // A point put elsewhere is a wish for another pose.
             self.feasible = None;
@@ -345,6 +356,24 @@ impl Island {
         self.history.forget();
         self.inputs.clear();
         self.remembered.take();
+    }
+
+    /// It is as if it had just been made.
+    fn begin(&mut self) {
+        self.is_blank = false;
+        self.is_new = true;
+        self.is_awake = true;
+        self.status = Status::Stalled;
+        self.residual = f64::INFINITY;
+        self.inputs.clear();
+        self.remembered.take();
+        self.update_sides();
+    }
+
+    /// There is something to solve: what is remembered of it is about to be otherwise.
+    pub fn begin_change(&mut self) {
+        self.remembered.take();
+        self.is_blank = false;
     }
 
     /// Keeps how it was before a frame that was just tried in vain.

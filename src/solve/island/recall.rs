@@ -130,6 +130,9 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(island.points[0].idx())
         {
+            if island.is_blank {
+                return recall.keep(island.points[0], Kept::default());
+            }
             // What was asked for since the last visit is shared.
             let is_shared = island.remembered.get().is_some();
             let packed = if is_shared { None } else { recall.packed.push(island) };
