@@ -59,7 +59,8 @@ impl ClosedForm {
         changed.iter().all(|(c, _)| self.takes(*c))
     }
 
-    fn takes(&self, c: u32) -> bool {
+    /// Whether the steps ask for the values of the constraint of this number.
+    pub(super) fn takes(&self, c: u32) -> bool {
         self.held.binary_search(&c).is_err()
     }
 
@@ -115,6 +116,7 @@ impl<'a> Compiler<'a> {
             knows_lengths: false,
             held: Vec::new(),
             is_outdated: false,
+            schedule: None,
         };
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
         let n_driven = constraints.iter().filter(is_driver).count() as u32;
@@ -158,7 +160,7 @@ impl<'a> Compiler<'a> {
     pub fn push(&mut self, step: Step, checked: impl Iterator<Item = u32>) -> Option<()> {
         let checks: Option<Vec<Step>> = checked.map(|c| self.check(c)).collect();
         let checks = checks?;
-        self.n_driven += u32::from(matches!(step, Step::Direction(_)));
+        self.n_driven += u32::from(matches!(step, Step::Direction(_) | Step::Place { .. }));
         self.form.counts_turns |= matches!(step, Step::Wheel(_));
         self.form.steps.push(step);
         self.form.steps.extend(checks);
@@ -201,7 +203,9 @@ impl<'a> Compiler<'a> {
                 self.form.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
                 Some(Step::Crank(self.form.cranks.len() as u32 - 1))
             }
-            Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
+            Constraint::Coordinate(_) => {
+                Some(Step::Place { to, constraint: c, drive: self.n_driven })
+            }
             constraint => Some(Step::Sum(Sum::new(to, constraint, self.given.x.len())?)),
         }
     }

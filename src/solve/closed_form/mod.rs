@@ -35,6 +35,7 @@ mod line;
 mod parts;
 mod ray;
 mod run;
+mod schedule;
 mod sum;
 mod together;
 mod wheel;
@@ -52,6 +53,7 @@ pub(crate) use lanes::Lanes;
 use length::Length;
 use line::CircleLine;
 use ray::Ray;
+use schedule::Schedule;
 use sum::Sum;
 use wheel::Wheel;
 
@@ -83,6 +85,8 @@ pub(crate) struct ClosedForm {
     held: Vec<u32>,
     /// Whether one of these changed: the list is to be compiled anew.
     is_outdated: bool,
+    /// The values that follow time, while frames pass that are known ahead.
+    schedule: Option<Box<Schedule>>,
 }
 
 /// What is known of the list of an island.
@@ -107,8 +111,8 @@ enum Step {
         to: PointIdx,
         /// The constraint.
         constraint: u32,
-        /// How far it went in this frame.
-        way: f64,
+        /// Which of the numbers that drive the frame are its own.
+        drive: u32,
     },
     /// Where two circles meet.
     Circles(Circles),
