@@ -2,8 +2,10 @@
 
 use super::abreast::Abreast;
 use super::length::{Length, bar};
+use super::nearest::gather;
 use super::{
-    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
+    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Nearest, Radius, Ray, Step,
+    Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
 use crate::solve::frame::decomposition::{Block, Plan};
@@ -128,6 +130,7 @@ impl<'a> Compiler<'a> {
         let Self { given, mut form, n_driven } = self;
         form.one = Abreast::new(given.x.len(), n_driven as usize);
         form.held.sort_unstable();
+        form.steps = gather(form.steps);
         form
     }
 
@@ -185,7 +188,9 @@ impl<'a> Compiler<'a> {
                 turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?))
             }
             [one] if !is_determined => match locus((one, &all[one as usize]), to)? {
-                Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
+                Locus::Circle(from, radius) => {
+                    Some(Step::Nearest(vec![Nearest { to, from, radius }]))
+                }
                 Locus::Line(..) | Locus::Beyond(..) => None,
             },
             _ => None,

@@ -32,6 +32,7 @@ mod found;
 mod lanes;
 mod length;
 mod line;
+mod nearest;
 mod parts;
 mod ray;
 mod run;
@@ -52,6 +53,7 @@ pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
 use line::CircleLine;
+use nearest::Nearest;
 use ray::Ray;
 use schedule::Schedule;
 use sum::Sum;
@@ -132,15 +134,18 @@ enum Step {
     Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
-    /// On a circle, where it is nearest to.
-    Nearest {
-        /// The point that is found.
-        to: PointIdx,
-        /// The centre.
-        from: PointIdx,
-        /// How far it is to be away.
-        radius: Radius,
-    },
+    /// On circles, where they are nearest to; nothing follows from these.
+    Nearest(Vec<Nearest>),
+}
+
+impl Step {
+    /// The points on circles, of a step that finds such.
+    fn into_nearest(self) -> Vec<Nearest> {
+        match self {
+            Self::Nearest(points) => points,
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// A point on a crank.

@@ -2,10 +2,11 @@
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
 use super::found::Found;
-use super::length::{Length, Timed, Values};
-use super::{ClosedForm, Crank, Radius, Schedule, Step};
+use super::length::{Length, Values};
+use super::nearest::{self, Nearest};
+use super::{ClosedForm, Crank, Schedule, Step};
 use crate::constraint::{
-    Constraint, ConstraintKind as _, Field, Heading, Motor, Point, PointIdx, Stateful as _, Vector,
+    Constraint, ConstraintKind as _, Field, Heading, Motor, Point, Stateful as _, Vector,
 };
 use crate::solve::island::Island;
 use crate::solve::island::history::History;
@@ -35,7 +36,7 @@ impl ClosedForm {
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Bar(_)
-                | Step::Nearest { .. } => {}
+                | Step::Nearest(_) => {}
             }
         }
         self.knows_pose = fits;
@@ -58,13 +59,15 @@ impl ClosedForm {
                 Step::Direction(link) => link.drive(&values),
                 Step::Bar(bar) => bar.drive(&values),
                 Step::Block(block) => block.drive(&values),
-                Step::Nearest { radius: Radius::Fixed(length), .. } => length.drive(&values),
+                Step::Nearest(points) => {
+                    let lengths = points.iter_mut().filter_map(Nearest::length_mut);
+                    lengths.for_each(|length| length.drive(&values));
+                }
                 Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Body(_)
-                | Step::Nearest { radius: Radius::Measured { .. }, .. } => {}
+                | Step::Body(_) => {}
             }
         }
         // What just changed does not in the frame that comes next, unless it is said again.
@@ -198,15 +201,16 @@ impl ClosedForm {
                 Step::Ray(ray) => visit(ray.length_mut()),
                 Step::Direction(link) => visit(link.length_mut()),
                 Step::Bar(bar) => visit(bar.length_mut()),
-                Step::Nearest { radius: Radius::Fixed(length), .. } => visit(length),
+                Step::Nearest(points) => {
+                    points.iter_mut().filter_map(Nearest::length_mut).for_each(&mut visit);
+                }
                 // Blocks are not found in lanes.
                 Step::Block(_)
                 | Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Body(_)
-                | Step::Nearest { radius: Radius::Measured { .. }, .. } => {}
+                | Step::Body(_) => {}
             }
         }
     }
@@ -308,7 +312,7 @@ pub(super) fn make<const N: usize>(
                 x.put(*to, Places { x: at_x, y: at_y });
                 abreast.ways[*to as usize] = way;
             }
-            Step::Nearest { to, from, radius } => nearest(*to, *from, radius, x, abreast),
+            Step::Nearest(points) => nearest::run(points, x, abreast),
         }
     }
 }
@@ -353,44 +357,6 @@ impl Crank {
             // It is there by definition, unless there is out of all numbers.
             (at, before[l] + way[l], 0.0 * at.x + 0.0 * at.y)
         });
-    }
-}
-
-/// Puts a point on a circle, where it is nearest to.
-#[inline(always)]
-fn nearest<const N: usize>(
-    to: PointIdx,
-    from: PointIdx,
-    radius: &Radius,
-    x: &mut (impl Poses<N> + ?Sized),
-    abreast: &mut Abreast<N>,
-) {
-    let (centre, radii) = (x.get(from), radius.of(x, &abreast.lengths));
-    // Each frame goes on from the one before.
-    let mut last = x.get(to).at(N - 1);
-    let mut found = [(last, 0.0, 0.0); N];
-    for (l, found) in found.iter_mut().enumerate() {
-        let (centre, radius) = (centre.at(l), radii[l]);
-        let arm = last - centre;
-        last = centre + arm * (radius / arm.norm());
-        let off = (last - centre).norm() - radius;
-        // How far it went is not said: nothing follows from where it is.
-        *found = (last, 0.0, if radius >= 0.0 { off } else { f64::NAN });
-    }
-    put_each(to, x, abreast, |l| found[l]);
-}
-
-impl Radius {
-    /// How long it is in each frame.
-    fn of<const N: usize>(&self, x: &(impl Poses<N> + ?Sized), lengths: &[Timed<N>]) -> [f64; N] {
-        match *self {
-            Self::Fixed(radius) if N > 1 => radius.each(lengths).now,
-            Self::Fixed(radius) => [radius.now; N],
-            Self::Measured { between, factor, offset } => {
-                let [p, q] = between.map(|p| x.get(p));
-                std::array::from_fn(|l| factor * p.at(l).distance(q.at(l)) + offset)
-            }
-        }
     }
 }
 
