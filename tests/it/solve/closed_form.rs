@@ -324,6 +324,67 @@ fn links_at_an_angle_to_others_are_steps() {
     }
 }
 
+/// A crank B about A, a rocker E that swings, and a point P on lines; with where that is, in closed form.
+const ON_LINES: [(&str, &str); 8] = [
+    ("vertical B P; glider P on L R", "(B.x, -1)"),
+    ("horizontal P B; vertical E P", "(E.x, B.y)"),
+    // A link that goes round within the circle, and crosses it once on either side.
+    ("glider P on A B unbounded; length D P = 3", "polar(cos(phi) + sqrt(8 + cos(phi)^2), phi)"),
+    ("distance P to L R = 0.5; length P B = 3", "(B.x + sqrt(9 - (B.y + 0.5)^2), -0.5)"),
+    (
+        "distance P to A B = 0.4; length D P = 3",
+        "polar(cos(phi) + sqrt(9 - (0.4 + sin(phi))^2), phi) + polar(0.4, phi + 90deg)",
+    ),
+    ("horizontal P B; length D P = 5", "(1 + sqrt(25 - B.y^2), B.y)"),
+    ("glider P on A E unbounded; vertical V P", "(3, 3 * tan(swing))"),
+    ("distance P to A E = 0.2; distance P to L R = 0", "(-0.2 / sin(swing) - 1 / tan(swing), -1)"),
+];
+
+fn on_lines(held: &str) -> String {
+    format!(
+        "let phi = 20deg + time * 1rev; let swing = -40deg + 20deg * sin(time * 1.3rev)
+         point A = (0, 0) frozen, D = (1, 0) frozen, V = (3, 0) frozen
+         point L = (-9, -1) frozen, R = (9, -1) frozen
+         point B = polar(1, phi), E = polar(2, swing), P = (3, 0.4)
+         motor A B phase 20deg speed 1rev
+         coordinate E at polar(2, swing)
+         {held}"
+    )
+}
+
+#[test]
+fn points_on_lines_are_steps_also_where_these_move() {
+    for (held, place) in ON_LINES {
+        let scene = on_lines(held);
+        for dt in ["1/360", "1/48"] {
+            check_same(held, &format!("{scene}\nset dt {dt}"), 100);
+        }
+        let mut talking = Talking::after(&format!("{scene}\nset dt 1/360"));
+        for _ in 0..7 {
+            talking.run(&format!("step 77; assert P = {place} within 1e-11"));
+        }
+        let counts = talking.session.frame_counts();
+        assert!(counts.closed >= 7 * 77 - 2, "{held}: {counts:?}");
+        assert!(counts.abreast >= 7 * 64, "{held}: {counts:?}");
+    }
+}
+
+#[test]
+fn lines_that_come_to_be_parallel_are_followed() {
+    // Where the moving line is parallel to the fixed one the point is nowhere.
+    let scene = "point A = (0, 0) frozen, L = (-9, -1) frozen, R = (9, -1) frozen
+        point B = (0, -1), P = (0, -1)
+        motor A B phase -90deg speed 1rev
+        glider P on A B unbounded; distance P to L R = 0
+        set dt 1/360
+        step 80
+        assert P = (tan(time * 1rev), -1) within 1e-9";
+    let mut talking = Talking::after(scene);
+    talking.run("step 20");
+    let counts = talking.session.frame_counts();
+    assert!(counts.closed < 100, "{counts:?}");
+}
+
 /// A four-bar whose coupler carries a point by three bars, one of which follows from the others.
 const BRACED: &str = "point P = (2, 3), Q = (2, 2)
     length B P = 2.5; length C P = 2
