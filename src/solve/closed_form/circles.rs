@@ -1,7 +1,7 @@
 //! Where two circles around known points meet.
 
 use super::abreast::{Meeting, Met};
-use super::found::larger;
+use super::found::{larger, over_sine};
 use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
@@ -23,7 +23,8 @@ pub(super) struct Circles {
 }
 
 /// What follows from two radii, and from how much longer or shorter each was on its way.
-struct Numbers {
+#[derive(Clone, Copy)]
+pub(super) struct Numbers {
     /// Their squares.
     squares: [f64; 2],
     /// Half of one over each.
@@ -34,11 +35,11 @@ struct Numbers {
     clear: [f64; 2],
     /// Their squares.
     clear_squares: [f64; 2],
-    /// Twice the product of the radii, at most: [`area_squared`] over its square is at least that of the
-    /// sine of the angle between them.
-    scale: f64,
-    /// One over the square of that at the end.
+    /// One over the square of twice the product of the radii at the end: [`area_squared`] times that is the
+    /// square of the sine of the angle between them.
     inverse_square: f64,
+    /// The same on the way, at least.
+    least_inverse_square: f64,
     /// [`area_squared`] below which the pose is nearly singular.
     least: f64,
     /// How far the radii changed.
@@ -46,6 +47,7 @@ struct Numbers {
 }
 
 impl Numbers {
+    #[inline(always)]
     fn new(radii: [Length; 2]) -> Self {
         let [l, m] = radii.map(|radius| radius.now);
         let changed = radii[0].changed + radii[1].changed;
@@ -58,8 +60,8 @@ impl Numbers {
             reach_squares: reach.map(|r| r * r),
             clear,
             clear_squares: clear.map(|r| r * r),
-            scale: longest,
             inverse_square: 1.0 / (scale * scale),
+            least_inverse_square: 1.0 / (longest * longest),
             least: (NEARLY_SINGULAR * longest) * (NEARLY_SINGULAR * longest),
             changed,
         }
@@ -90,6 +92,11 @@ impl Circles {
         self.of_radii = Numbers::new(self.radii);
     }
 
+    /// The radii.
+    pub fn radii_mut(&mut self) -> &mut [Length; 2] {
+        &mut self.radii
+    }
+
     /// Looks at a pose that counts.
     pub fn look(&mut self, x: &[Point]) {
         let [a, b] = self.from.map(|p| x[p as usize]);
@@ -100,6 +107,22 @@ impl Circles {
 }
 
 impl Meeting<2> for Circles {
+    type Sizes = Numbers;
+
+    fn lengths(&self) -> [Length; 2] {
+        self.radii
+    }
+
+    #[inline(always)]
+    fn sizes(&self) -> Numbers {
+        self.of_radii
+    }
+
+    #[inline(always)]
+    fn sizes_of(radii: [Length; 2]) -> Numbers {
+        Numbers::new(radii)
+    }
+
     fn to(&self) -> PointIdx {
         self.to
     }
@@ -123,13 +146,13 @@ impl Meeting<2> for Circles {
     #[inline(always)]
     fn meet(
         &self,
+        of: &Numbers,
         [a, b]: [Point; 2],
         [before, apart]: [f64; 2],
         ways: [f64; 2],
         _: (Vector, f64),
     ) -> Met {
         let e = b - a;
-        let of = &self.of_radii;
         let apart_squared = e.norm_squared();
         let squared = area_squared(of.reach_squares, apart_squared);
         let way = ways[0] + ways[1];
@@ -155,7 +178,7 @@ impl Meeting<2> for Circles {
         Met {
             at,
             // Its velocity is that of the centres and radii over the sine, at most.
-            way: (way + of.changed) * of.scale / least.sqrt(),
+            way: (way + of.changed) * over_sine(least * of.least_inverse_square),
             off: if is_proved { off } else { f64::NAN },
             side_squared: squared * of.inverse_square,
         }

@@ -2,8 +2,10 @@
 
 use super::abreast::Abreast;
 use super::length::{Length, bar};
+use super::nearest::gather;
 use super::{
-    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
+    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Crossing, Direction, Line, Nearest,
+    Radius, Ray, Step, Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
 use crate::solve::frame::decomposition::{Block, Plan};
@@ -13,8 +15,8 @@ use crate::solve::frame::decomposition::{Block, Plan};
 pub(super) enum Locus {
     /// A circle around another point.
     Circle(PointIdx, Radius),
-    /// The line through two others; whether only the part between them.
-    Line([PointIdx; 2], bool),
+    /// A line.
+    Line(Line),
     /// The line from another through a slider; whether only the part beyond it.
     Beyond(PointIdx, PointIdx, bool),
 }
@@ -59,7 +61,8 @@ impl ClosedForm {
         changed.iter().all(|(c, _)| self.takes(*c))
     }
 
-    fn takes(&self, c: u32) -> bool {
+    /// Whether the steps ask for the values of the constraint of this number.
+    pub(super) fn takes(&self, c: u32) -> bool {
         self.held.binary_search(&c).is_err()
     }
 
@@ -115,6 +118,7 @@ impl<'a> Compiler<'a> {
             knows_lengths: false,
             held: Vec::new(),
             is_outdated: false,
+            schedule: None,
         };
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
         let n_driven = constraints.iter().filter(is_driver).count() as u32;
@@ -126,6 +130,7 @@ impl<'a> Compiler<'a> {
         let Self { given, mut form, n_driven } = self;
         form.one = Abreast::new(given.x.len(), n_driven as usize);
         form.held.sort_unstable();
+        form.steps = gather(form.steps);
         form
     }
 
@@ -158,7 +163,7 @@ impl<'a> Compiler<'a> {
     pub fn push(&mut self, step: Step, checked: impl Iterator<Item = u32>) -> Option<()> {
         let checks: Option<Vec<Step>> = checked.map(|c| self.check(c)).collect();
         let checks = checks?;
-        self.n_driven += u32::from(matches!(step, Step::Direction(_)));
+        self.n_driven += u32::from(matches!(step, Step::Direction(_) | Step::Place { .. }));
         self.form.counts_turns |= matches!(step, Step::Wheel(_));
         self.form.steps.push(step);
         self.form.steps.extend(checks);
@@ -173,17 +178,19 @@ impl<'a> Compiler<'a> {
 
     /// The step that finds a point by one or two constraints.
     fn step(&mut self, to: PointIdx, which: &[u32], is_determined: bool) -> Option<Step> {
-        let all = self.given.constraints;
+        let Given { constraints: all, n_free, .. } = self.given;
         match *which {
             [c] if is_determined && all[c as usize].traits().is_linear => self.assignment(c, to),
             [one, two] if is_determined => {
                 let pair = [one, two].map(|c| (c, &all[c as usize]));
                 let mut turned = |by, bar| self.turned(to, by, &locus(bar, to)?);
                 let turned = turned(pair[0], pair[1]).or_else(|| turned(pair[1], pair[0]));
-                turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?))
+                turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?, n_free))
             }
             [one] if !is_determined => match locus((one, &all[one as usize]), to)? {
-                Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
+                Locus::Circle(from, radius) => {
+                    Some(Step::Nearest(vec![Nearest { to, from, radius }]))
+                }
                 Locus::Line(..) | Locus::Beyond(..) => None,
             },
             _ => None,
@@ -201,7 +208,9 @@ impl<'a> Compiler<'a> {
                 self.form.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
                 Some(Step::Crank(self.form.cranks.len() as u32 - 1))
             }
-            Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
+            Constraint::Coordinate(_) => {
+                Some(Step::Place { to, constraint: c, drive: self.n_driven })
+            }
             constraint => Some(Step::Sum(Sum::new(to, constraint, self.given.x.len())?)),
         }
     }
@@ -230,16 +239,21 @@ pub(super) fn may_have_a_step(constraint: &Constraint) -> bool {
     is_told || matches!(constraint, Constraint::Cog(_) | Constraint::Orientation(_))
 }
 
-/// The step that finds a point on two loci.
-pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
+/// The step that finds a point on two loci; as many points as that, the first, are free.
+pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus, n_free: usize) -> Option<Step> {
     match (one, two) {
         (Locus::Circle(a, Radius::Fixed(l)), Locus::Circle(b, Radius::Fixed(m))) => {
             (a != b).then_some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
         }
-        (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line, is_bounded))
-        | (Locus::Line(line, is_bounded), Locus::Circle(from, Radius::Fixed(l))) => {
-            Some(Step::CircleLine(CircleLine::new(to, from, line, l, is_bounded)?))
+        (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line))
+        | (Locus::Line(line), Locus::Circle(from, Radius::Fixed(l))) => {
+            if line.is_fixed(n_free) {
+                Some(Step::CircleLine(CircleLine::new(to, from, line, l)?))
+            } else {
+                Some(Step::CircleMovingLine(CircleLine::new(to, from, line, l)?))
+            }
         }
+        (Locus::Line(one), Locus::Line(two)) => Some(Step::Crossing(Crossing::new(to, [one, two]))),
         (Locus::Circle(centre, Radius::Fixed(l)), Locus::Beyond(from, slider, is_bounded))
         | (Locus::Beyond(from, slider, is_bounded), Locus::Circle(centre, Radius::Fixed(l)))
             if centre == from =>
@@ -260,9 +274,19 @@ pub(super) fn locus((c, constraint): (u32, &Constraint), p: PointIdx) -> Option<
         Constraint::Glider(glider) => {
             let [slider, a, b] = glider.points;
             if slider == p {
-                return (a != p && b != p).then_some(Locus::Line([a, b], glider.bounded));
+                let line = Line::through([a, b], glider.bounded);
+                return (a != p && b != p && a != b).then_some(Locus::Line(line));
             }
             Some(Locus::Beyond(other_end([a, b], p)?, slider, glider.bounded))
+        }
+        Constraint::Distance(distance) if distance.bounds.is_equality() => {
+            let [own, a, b] = distance.points;
+            let line = Line::beside([a, b], distance.bounds.lo);
+            (own == p && a != p && b != p && a != b).then_some(Locus::Line(line))
+        }
+        Constraint::Aligned(aligned) => {
+            let from = other_end(aligned.points, p)?;
+            Some(Locus::Line(Line::parallel_to_axis(from, aligned)))
         }
         Constraint::Equal(equal) if equal.bounds.is_equality() && equal.ratio > 0.0 => {
             let [a, b, c, d] = equal.points;

@@ -32,9 +32,11 @@ mod found;
 mod lanes;
 mod length;
 mod line;
+mod nearest;
 mod parts;
 mod ray;
 mod run;
+mod schedule;
 mod sum;
 mod together;
 mod wheel;
@@ -50,8 +52,10 @@ use direction::Direction;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
-use line::CircleLine;
+use line::{CircleLine, Crossing, Line};
+use nearest::Nearest;
 use ray::Ray;
+use schedule::Schedule;
 use sum::Sum;
 use wheel::Wheel;
 
@@ -83,6 +87,8 @@ pub(crate) struct ClosedForm {
     held: Vec<u32>,
     /// Whether one of these changed: the list is to be compiled anew.
     is_outdated: bool,
+    /// The values that follow time, while frames pass that are known ahead.
+    schedule: Option<Box<Schedule>>,
 }
 
 /// What is known of the list of an island.
@@ -107,13 +113,17 @@ enum Step {
         to: PointIdx,
         /// The constraint.
         constraint: u32,
-        /// How far it went in this frame.
-        way: f64,
+        /// Which of the numbers that drive the frame are its own.
+        drive: u32,
     },
     /// Where two circles meet.
     Circles(Circles),
-    /// Where a circle meets a line.
-    CircleLine(CircleLine),
+    /// Where a circle meets a line that stands still.
+    CircleLine(CircleLine<true>),
+    /// Where a circle meets a line that may move.
+    CircleMovingLine(CircleLine<false>),
+    /// Where two lines cross.
+    Crossing(Crossing),
     /// At the end of a slotted link.
     Ray(Ray),
     /// At the end of a link at an angle to another.
@@ -128,15 +138,18 @@ enum Step {
     Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
-    /// On a circle, where it is nearest to.
-    Nearest {
-        /// The point that is found.
-        to: PointIdx,
-        /// The centre.
-        from: PointIdx,
-        /// How far it is to be away.
-        radius: Radius,
-    },
+    /// On circles, where they are nearest to; nothing follows from these.
+    Nearest(Vec<Nearest>),
+}
+
+impl Step {
+    /// The points on circles, of a step that finds such.
+    fn into_nearest(self) -> Vec<Nearest> {
+        match self {
+            Self::Nearest(points) => points,
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// A point on a crank.
