@@ -11,6 +11,7 @@ mod packed;
 pub mod partition;
 pub mod postponed;
 pub mod recall;
+pub mod rest;
 pub mod sides;
 pub mod snapshot;
 pub mod structure;
@@ -334,46 +335,6 @@ impl Island {
     pub fn is_smooth(&self) -> bool {
         let first = self.plan.rest.first().and_then(|part| part.points.first());
         first.is_some_and(|&p| self.degree[p as usize] > 1)
-    }
-
-    /// The user changed something since the last visit: a value, or the place of a free point.
-    /// Before time goes on the island has to be solved as it is now.
-    pub fn note_edit(&mut self, is_disturbed: bool) {
-        if self.is_blank {
-            return self.begin();
-        }
-        if is_disturbed {
-            // A point put elsewhere is a wish for another pose.
-            self.feasible = None;
-        } else if self.status == Status::Converged {
-            self.feasible = Some(self.x[..self.n_free].into());
-        }
-        self.status = Status::Stalled;
-        // A saddle of what was is not one of what is.
-        self.probed_at = 0.0;
-        self.is_edited = true;
-        self.is_awake = true;
-        self.history.forget();
-        self.inputs.clear();
-        self.remembered.take();
-    }
-
-    /// It is as if it had just been made.
-    fn begin(&mut self) {
-        self.is_blank = false;
-        self.is_new = true;
-        self.is_awake = true;
-        self.status = Status::Stalled;
-        self.residual = f64::INFINITY;
-        self.inputs.clear();
-        self.remembered.take();
-        self.update_sides();
-    }
-
-    /// There is something to solve: what is remembered of it is about to be otherwise.
-    pub fn begin_change(&mut self) {
-        self.remembered.take();
-        self.is_blank = false;
     }
 
     /// Keeps how it was before a frame that was just tried in vain.

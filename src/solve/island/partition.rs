@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use super::postponed::Postponed;
 use super::{Island, Member};
 use crate::constraint::{Constraint, ConstraintKind, Point};
 use crate::interrupt::tick;
@@ -52,6 +51,17 @@ pub(crate) struct Partition {
     marks: Marks,
     /// Edits that are not taken in yet.
     pub(super) postponed: Postponed,
+}
+
+/// What is to be taken in before one of these islands, or of these points, is asked about.
+#[derive(Default)]
+pub(super) struct Postponed {
+    /// The constraints that were edited: as they are, or that they are in no island any more.
+    pub constraints: BTreeMap<ConstraintId, Option<Constraint>>,
+    /// The points of these, and those that were edited themselves, with their places.
+    pub points: BTreeMap<PointId, Point>,
+    /// The islands that are as they were before.
+    pub islands: Vec<u32>,
 }
 
 /// What of a world was otherwise when islands are put together: values of constraints, over handles, and

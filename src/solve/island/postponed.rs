@@ -4,24 +4,13 @@
 //! be put together anew before it has something to do again. Until then it stays as it was, and stands for
 //! all that it falls apart into, or grows together with.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use super::partition::{Home, NONE, Partition, Was};
-use super::{Island, rounding};
-use crate::constraint::{Carried, Constraint, ConstraintKind, Point};
-use crate::solve::report::Status;
+use super::Island;
+use super::partition::{Home, NONE, Partition, Postponed, Was};
+use super::rest::{holds, is_passive, is_plain};
+use crate::constraint::{Constraint, ConstraintKind};
 use crate::world::{ConstraintId, PointId, Touched, World};
-
-/// What is to be taken in before one of these islands, or of these points, is asked about.
-#[derive(Default)]
-pub(super) struct Postponed {
-    /// The constraints that were edited: as they are, or that they are in no island any more.
-    constraints: BTreeMap<ConstraintId, Option<Constraint>>,
-    /// The points of these, and those that were edited themselves, with their places.
-    points: BTreeMap<PointId, Point>,
-    /// The islands that are as they were before.
-    islands: Vec<u32>,
-}
 
 impl Partition {
     /// Whether every island is what its constraints make it.
@@ -301,66 +290,10 @@ impl Partition {
 }
 
 impl Island {
-    /// Whether nothing in it carries anything on, and everything holds as it is: each constraint as
-    /// exactly as numbers of the size of its own coordinates can tell, so that it does in any part of
-    /// the island too.
-    pub fn holds(&self) -> bool {
-        self.is_passive() && self.constraints.iter().all(|c| holds(c, &self.x))
-    }
-
-    /// Whether nothing in it carries anything on from frame to frame, and points are frozen or like all
-    /// others.
-    pub fn is_passive(&self) -> bool {
-        self.w.iter().copied().all(is_plain) && self.constraints.iter().all(is_passive)
-    }
-
-    /// Whether it is where the last solve left it, and met everything there.
-    fn is_met(&self) -> bool {
-        self.status == Status::Converged && !(self.is_new || self.is_edited || self.is_awake)
-    }
-
-    /// It is solved as it is, and there is nothing to be remembered of it.
-    pub fn rest(&mut self) {
-        self.is_blank = true;
-        self.is_new = false;
-        self.is_edited = false;
-        self.is_awake = false;
-        self.status = Status::Converged;
-        self.residual = 0.0;
-        self.remembered.take();
-    }
-
     /// A constraint as the world has it.
     fn constraint_over_handles(&self, c: usize) -> Constraint {
         let mut constraint = self.constraints[c].clone();
         constraint.map_points(|p| self.points[p as usize].0);
         constraint
     }
-}
-
-/// Whether a constraint asks for the same from frame to frame, unless its values are changed.
-fn is_passive(constraint: &Constraint) -> bool {
-    constraint.traits().carried == Carried::Nothing
-}
-
-/// Whether a point of this inverse mass is frozen, or of the weight that all have.
-fn is_plain(w: f64) -> bool {
-    w == 0.0 || w == 1.0
-}
-
-/// Whether a constraint holds, whichever of its points may move, up to what rounding leaves of their
-/// coordinates.
-fn holds(constraint: &Constraint, x: &[Point]) -> bool {
-    let mut off = 0.0_f64;
-    constraint.jacobian(x, &mut |row| {
-        if row.f != 0.0 && row.is_active {
-            let slopes = row.terms().map(|(_, g)| g.norm()).filter(|slope| *slope > 0.0);
-            let least = slopes.fold(f64::INFINITY, f64::min);
-            let by = if least.is_finite() { row.f / least } else { row.f };
-            off += by * by;
-        }
-    });
-    let held = constraint.points().iter().map(|&p| x[p as usize]);
-    let farthest = held.fold(0.0_f64, |most, at| most.max(at.x.abs()).max(at.y.abs()));
-    off.sqrt() <= rounding(farthest)
 }
