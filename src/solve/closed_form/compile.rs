@@ -219,8 +219,8 @@ impl<'a> Compiler<'a> {
     pub fn turned(&mut self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
         let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
         match by {
-            (c, Constraint::Cog(cog)) => {
-                let wheel = Wheel::new(to, from, length.now, (c, cog))?;
+            (_, Constraint::Cog(_) | Constraint::Rack(_)) => {
+                let wheel = Wheel::new(to, from, length.now, by)?;
                 self.form.held.extend(length.bar());
                 Some(Step::Wheel(wheel))
             }
@@ -236,7 +236,11 @@ impl<'a> Compiler<'a> {
 /// Whether a step may keep what a constraint keeps from frame to frame.
 pub(super) fn may_have_a_step(constraint: &Constraint) -> bool {
     let is_told = matches!(constraint.traits().carried, Carried::Nothing | Carried::ByClock);
-    is_told || matches!(constraint, Constraint::Cog(_) | Constraint::Orientation(_))
+    is_told
+        || matches!(
+            constraint,
+            Constraint::Cog(_) | Constraint::Rack(_) | Constraint::Orientation(_)
+        )
 }
 
 /// The step that finds a point on two loci; as many points as that, the first, are free.

@@ -11,7 +11,7 @@ use crate::constraint::{
 use crate::solve::island::Island;
 use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
-use crate::world::{ConstraintId, World};
+use crate::world::{ConstraintId, ParameterId, World};
 
 impl ClosedForm {
     /// Whether it is known of the pose of now what has to be.
@@ -153,20 +153,21 @@ impl ClosedForm {
         }
     }
 
-    /// Makes ready for frames that follow motors and time, in lanes; gives how many constraints follow time,
-    /// none if some of their values are not asked for by a step.
+    /// Makes ready for frames that follow motors and time, in lanes, and in which some parameters are looked at
+    /// besides; gives how many constraints follow time, none if some of their values are not asked for by a step.
     pub fn follow_time(
         &mut self,
         island: &Island,
         world: &World,
+        also: &[ParameterId],
         is_turned: bool,
     ) -> Option<usize> {
-        let schedule = Schedule::new(self, island, world, is_turned)?;
+        let schedule = Schedule::new(self, island, world, also, is_turned)?;
         let n = schedule.n_constraints();
         for (c, k) in schedule.lengths() {
             self.lengths_mut(|length| length.set_timed(c, Some(k)));
         }
-        self.schedule = (n > 0).then(|| Box::new(schedule));
+        self.schedule = (!schedule.is_empty()).then(|| Box::new(schedule));
         Some(n)
     }
 

@@ -24,8 +24,8 @@ impl Partition {
     }
 
     /// Takes those edits out of the lists that can wait: all they reach is at rest, holds as it is, and
-    /// was not changed otherwise. `can_sleep` says of an island that nobody waits for it; those of which something was remembered
-    /// are shown to `leave` before that is given up.
+    /// was not changed otherwise. `can_sleep` says of an island that nobody waits for it; those of which
+    /// something was remembered are shown to `leave` before that is given up.
     pub fn postpone(
         &mut self,
         touched: &mut Touched,
@@ -140,7 +140,7 @@ impl Partition {
         } else if reached.is_empty() {
             // Those that it was to join.
             let held = self.postponed.constraints.get(&id).and_then(Option::as_ref);
-            let points = held.into_iter().flat_map(|constraint| constraint.points());
+            let points = held.into_iter().flat_map(Constraint::points);
             reached.extend(points.filter_map(|&p| self.island_of_point(PointId(p))));
         }
         Some(reached)
