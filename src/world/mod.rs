@@ -49,6 +49,7 @@ mod motion;
 mod motors_alone;
 mod noting;
 mod quadrature;
+pub(crate) mod repeated;
 mod same;
 mod turn_count;
 mod turning;
@@ -67,6 +68,7 @@ pub use handles::Handles;
 pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 #[doc(hidden)]
 pub use log::Motion;
+pub(crate) use log::Places;
 pub(crate) use measure::Measuring;
 #[doc(hidden)]
 pub use moment::Moment;

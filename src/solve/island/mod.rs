@@ -55,6 +55,8 @@ pub(crate) struct Island {
     pub own_rho: Vec<Option<f64>>,
     /// Those that carry something on from pose to pose: unwrapped angles and the like.
     pub stateful: Vec<u32>,
+    /// These, and motors: those that time and motion change.
+    moving: Box<[u32]>,
     /// What can be found point by point.
     pub plan: Plan,
     /// The list of steps that finds its pose, if there is one; once it was asked for.
@@ -109,6 +111,8 @@ pub(crate) struct Island {
     pub remembered: OnceLock<Arc<Snapshot>>,
     /// The hash of what it is built on, which stays; once asked for.
     pub(super) structure: OnceLock<u64>,
+    /// The hash of what drives it and stays until it is edited; once asked for.
+    still: OnceLock<u64>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
 }
@@ -190,9 +194,12 @@ impl Island {
         let plan = Plan::new(&constraints, n_free, points.len());
         let stateful = constraints.iter().enumerate().filter(|(_, c)| is_stateful(c));
         let stateful = stateful.map(|(c, _)| c as u32);
+        let moving = constraints.iter().enumerate();
+        let moving = moving.filter(|(_, c)| c.traits().carried != Carried::Nothing);
         let mut island = Self {
             n_free,
             stateful: stateful.collect(),
+            moving: moving.map(|(c, _)| c as u32).collect(),
             x: points.iter().map(|&p| at(p)).collect(),
             w: points.iter().map(|&p| w(p)).collect(),
             ids: members.iter().map(|m| m.id).collect(),
@@ -224,6 +231,7 @@ impl Island {
             part_workspaces: Vec::new(),
             remembered: OnceLock::new(),
             structure: OnceLock::new(),
+            still: OnceLock::new(),
             spectrum: None,
         };
         for block in &island.plan.blocks {
@@ -290,6 +298,7 @@ impl Island {
         if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;
         }
+        self.still.take();
         self.closed_form.note_values(c as u32, [&self.constraints[c], &new]);
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.note_values(c as u32, old);
@@ -301,6 +310,7 @@ impl Island {
         self.remembered.take();
         let old = std::mem::replace(&mut self.x[p], at);
         if p >= self.n_free {
+            self.still.take();
             self.inputs.points.push((p as u32, old));
         } else {
             self.inputs.is_disturbed = true;

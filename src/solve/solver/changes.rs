@@ -162,7 +162,7 @@ impl Solver {
     fn apply_values(&mut self, world: &World, k: u32, id: ConstraintId) {
         let c = self.partition.local_constraint(id);
         if let (Some(island), Some(record)) = (self.partition.get_mut(k), world.constraint(id)) {
-            self.notes.note(island);
+            self.notes.note_visit(island, world);
             if island.set_values(c, &record.constraint) {
                 self.wake(k);
                 self.edited.push(k);

@@ -22,7 +22,7 @@ use super::settings::{Method, Settings};
 use super::velocity;
 use crate::constraint::Point;
 use crate::diag::Diagnostic;
-use crate::world::{ConstraintId, PointId, Rates, Touched, World};
+use crate::world::{ConstraintId, Motion, PointId, Rates, Touched, World};
 
 /// Everything the solver keeps from one call to the next.
 #[derive(Default)]
@@ -250,6 +250,14 @@ impl Solver {
         self.notes.end(outer)
     }
 
+    /// A command ends that let time pass: the next one finds where islands were in what this one keeps
+    /// of the world.
+    pub(crate) fn note_motion(&mut self, motion: &Motion) {
+        if let Some(places) = motion.places() {
+            self.notes.note_places(places.clone());
+        }
+    }
+
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
     /// to become so before the solver is called again.
     pub fn recall(&mut self, then: &Recall) -> Recall {
@@ -314,12 +322,12 @@ impl Solver {
         }
     }
 
-    /// An island is about to change.
-    pub(super) fn note(&mut self, k: u32) {
+    /// An island is about to be visited.
+    pub(super) fn note(&mut self, k: u32, world: &World) {
         if self.notes.is_on()
             && let Some(island) = self.partition.get(k)
         {
-            self.notes.note(island);
+            self.notes.note_visit(island, world);
         }
     }
 

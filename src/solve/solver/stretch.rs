@@ -169,7 +169,7 @@ impl Solver {
         let Self { awake, partition, notes, .. } = self;
         for &k in awake.iter() {
             let Some(island) = partition.lend(k) else { break };
-            notes.note(&island);
+            notes.note_visit(&island, world);
             match Rider::mount(k, island, world, dt) {
                 Ok(rider) => {
                     n_turning += rider.n_turning;

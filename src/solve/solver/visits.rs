@@ -69,7 +69,7 @@ impl Solver {
         std::mem::swap(&mut due, &mut self.awake);
         for &k in &due {
             self.is_awake[k as usize] = false;
-            self.note(k);
+            self.note(k, world);
         }
         let can_share = budget.stop.is_none() && due.len() > 1;
         if can_share && parallel::pays(&self.partition.effort_of(&due)) {
