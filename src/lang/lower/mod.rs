@@ -170,10 +170,12 @@ impl<'a> Reader<'a> {
         let begins_with_command = |at: &usize| {
             let line = self.text[*at..].lines().next().unwrap_or_default();
             let head = at + line.len() - line.trim_start().len()..at + line.len();
-            self.prefix(&head).is_ok_and(|(prefix, verb)| {
-                let rule = self.verb(&prefix, &(verb..head.end));
-                rule.is_ok_and(|(_, rule)| rule != Rule::bare)
-            })
+            let has_word = !prefix::first_word(&self.text[head.clone()]).is_empty();
+            has_word
+                && self.prefix(&head).is_ok_and(|(prefix, verb)| {
+                    let rule = self.verb(&prefix, &(verb..head.end));
+                    rule.is_ok_and(|(_, rule)| rule != Rule::bare)
+                })
         };
         ends.find(begins_with_command).unwrap_or(self.text.len())
     }

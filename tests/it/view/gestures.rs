@@ -167,7 +167,12 @@ fn another_point_in_the_place_of_what_was_held_is_not_held() {
     let mut page = viewed.open();
     let points = |k: u32| format!("point p[{k}] = (5, 0), q[{k}] = (0, 0), r[{k}] = (4, 0)");
     page.exec(&format!("clear; {}", points(0)));
+    let seen = |page: &mut Page, k: u32| {
+        let name = format!("q[{k}]");
+        page.until(|message| message["state"]["points"][1]["name"] == name.as_str());
+    };
     for k in [1, 2] {
+        seen(&mut page, k - 1);
         hold(&mut page, &format!("q[{}]", k - 1));
         lead(&mut page, &WAY[..1]);
         let line = format!("clear; {}", points(k));
@@ -175,7 +180,7 @@ fn another_point_in_the_place_of_what_was_held_is_not_held() {
             page.exec(&line);
         } else {
             viewed.enter(&line);
-            page.until(|message| message["state"]["points"][1]["name"] == "q[2]");
+            seen(&mut page, k);
         }
         let before = page.script();
         lead(&mut page, &WAY[1..]);
