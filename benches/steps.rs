@@ -46,8 +46,9 @@ fn main() {
         scripts(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts"), &mut files);
         files.retain(|file| !file.to_string_lossy().contains("w5"));
     }
-    let ways: [(&str, Count); 5] = [
+    let ways: [(&str, Count); 6] = [
         ("found by closed steps", |counts| counts.closed),
+        ("of these side by side", |counts| counts.abreast),
         ("the first frame, or the first after an edit", |counts| counts.first),
         ("a value that a step holds was changed", |counts| counts.changed),
         ("some points have no closed form", |counts| counts.open),

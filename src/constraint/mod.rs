@@ -41,6 +41,7 @@ pub use parts::program::{Operation, Program, Register};
 pub use parts::row::PointIdx;
 #[doc(hidden)]
 pub use parts::row::Row;
+pub(crate) use parts::sines::sines_and_cosines;
 pub use parts::turns::Turns;
 pub use parts::vec2::Vec2;
 pub(crate) use parts::winding::Winding;

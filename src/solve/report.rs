@@ -125,6 +125,8 @@ impl Counters {
 pub struct FrameCounts {
     /// By a list of closed steps.
     pub closed: u64,
+    /// How many of these were found side by side.
+    pub abreast: u64,
     /// As any motion is: the first frame, or the first after an edit.
     pub first: u64,
     /// The same, where a step holds a value that changed.
@@ -138,7 +140,7 @@ pub struct FrameCounts {
 impl FrameCounts {
     /// All of them.
     pub fn total(&self) -> u64 {
-        let Self { closed, first, changed, open, unproved } = self;
+        let Self { closed, abreast: _, first, changed, open, unproved } = self;
         closed + first + changed + open + unproved
     }
 

@@ -31,8 +31,7 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
     let n = world.points().column().len();
     let still = || vec![Vector::ZERO; n];
     let mut rates = Rates { velocity: still(), acceleration: still() };
-    let mut fields = world.field_rates(&rates)?;
-    fields.sort_by_key(|(id, ..)| *id);
+    let fields = field_rates(world, &rates)?;
     let all: Vec<u32> = partition.iter().map(|(k, _)| k).collect();
     for k in all {
         if let Some(island) = partition.get_mut(k) {
@@ -40,6 +39,19 @@ pub(super) fn rates(partition: &mut Partition, world: &mut World) -> Result<Rate
         }
     }
     Ok(rates)
+}
+
+/// The values that time drives, with their rates, given those of the points.
+///
+/// # Errors
+/// A live value that has none now.
+pub(super) fn field_rates(
+    world: &mut World,
+    rates: &Rates,
+) -> Result<Vec<(ConstraintId, Field, Jet)>, Diagnostic> {
+    let mut fields = world.field_rates(rates)?;
+    fields.sort_by_key(|(id, ..)| *id);
+    Ok(fields)
 }
 
 /// Works out the rates of the free points of an island.

@@ -22,7 +22,12 @@ impl Default for Clock {
 impl Clock {
     /// The time now.
     pub fn time(&self) -> f64 {
-        self.base_time + (self.frame - self.base_frame) as f64 * self.dt
+        self.time_after(0)
+    }
+
+    /// The time so many frames from now.
+    pub fn time_after(&self, n_frames: u64) -> f64 {
+        self.base_time + (self.frame + n_frames - self.base_frame) as f64 * self.dt
     }
 
     /// Goes one frame on.

@@ -1,10 +1,13 @@
-//! Values that are measured on the pose become a program that the solver runs at every pose it
-//! tries.
+//! Expressions become programs: values that are measured on the pose one that the solver runs at
+//! every pose it tries, values that follow time one that is run for many frames at once.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::environments::Here;
-use super::{ConstraintId, Drivers, Formula, Mention, Node, ParameterId, PointId, Record, World};
+use super::known_ahead::TimedValue;
+use super::{
+    ConstraintId, Depends, Drivers, Formula, Mention, Node, ParameterId, PointId, Record, World,
+};
 use crate::constraint::{
     Constraint, ConstraintKind as _, Curve, Field, Measured, Operation, PointIdx, Program, Register,
 };
@@ -104,31 +107,8 @@ impl World {
 
     /// A constraint with measured values, and what its program is given from outside.
     fn compile(&self, constraint: Constraint, measured: &Drivers) -> (Constraint, Drivers) {
-        let mut compiler = Compiler::new(self, constraint.points());
-        let mut values: Vec<(Field, Register)> = Vec::new();
-        let mut last: Option<(&Formula, Place)> = None;
-        for (field, formula) in measured {
-            let place = match last {
-                // Both ends of an equality, both coordinates of a place.
-                Some((before, place)) if before.is_same(formula) => place,
-                _ => {
-                    compiler.compile_parameters(formula);
-                    compiler.compile(formula)
-                }
-            };
-            last = Some((formula, place));
-            let register = match place {
-                Place::Number(register) => register,
-                Place::Vector(x, y) => {
-                    if matches!(field, Field::X | Field::Value) {
-                        x
-                    } else {
-                        y
-                    }
-                }
-            };
-            values.push((*field, register));
-        }
+        let mut compiler = Compiler::new(self, |depends| depends.on_points, constraint.points());
+        let values = compiler.values(measured);
         let Compiler { points, program, inputs, .. } = compiler;
         // What has no value now, as while a saved pose is brought back, will be given one.
         let value = |formula: &Formula| formula.evaluate(&Here::new(self, None));
@@ -136,6 +116,22 @@ impl World {
         let constraint = Measured::new(constraint, points, program, values, numbers.collect());
         let inputs = (0..).map(Field::Input).zip(inputs).collect();
         (constraint.into(), inputs)
+    }
+
+    /// The values of some constraints as functions of time; with the program, what it is given from
+    /// outside.
+    pub(super) fn compile_in_time(
+        &self,
+        ids: impl Iterator<Item = ConstraintId>,
+    ) -> (Program, Vec<Formula>, Vec<TimedValue>) {
+        let mut compiler = Compiler::new(self, |depends| depends.on_time, &[]);
+        let mut values = Vec::new();
+        for constraint in ids {
+            let record = self.constraint(constraint).expect("a driven constraint lives");
+            let own = compiler.values(record.live()).into_iter();
+            values.extend(own.map(|(field, register)| TimedValue { constraint, field, register }));
+        }
+        (compiler.program, compiler.inputs, values)
     }
 
     /// Why a value that is measured on the pose has none there; none where all have one.
@@ -153,6 +149,8 @@ impl World {
 /// A program in the making.
 struct Compiler<'a> {
     world: &'a World,
+    /// Whether what depends on this is to be worked out; else it is given from outside.
+    is_inside: fn(Depends) -> bool,
     /// The points it looks at, those of the constraint first.
     points: Vec<PointIdx>,
     program: Program,
@@ -165,9 +163,10 @@ struct Compiler<'a> {
 }
 
 impl<'a> Compiler<'a> {
-    fn new(world: &'a World, points: &[PointIdx]) -> Self {
+    fn new(world: &'a World, is_inside: fn(Depends) -> bool, points: &[PointIdx]) -> Self {
         Self {
             world,
+            is_inside,
             points: points.to_vec(),
             program: Program::default(),
             of_points: BTreeMap::new(),
@@ -176,7 +175,31 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Compiles the parameters that a formula mentions and that measure the pose, each after those
+    /// Compiles expressions for some values; gives where these are.
+    fn values(&mut self, expressions: &[(Field, Formula)]) -> Vec<(Field, Register)> {
+        let mut last: Option<(&Formula, Place)> = None;
+        let mut values = Vec::with_capacity(expressions.len());
+        for (field, formula) in expressions {
+            let place = match last {
+                // Both ends of an equality, both coordinates of a place.
+                Some((before, place)) if before.is_same(formula) => place,
+                _ => {
+                    self.compile_parameters(formula);
+                    self.compile(formula)
+                }
+            };
+            last = Some((formula, place));
+            let register = match (place, field) {
+                (Place::Number(register), _) => register,
+                (Place::Vector(x, _), Field::X | Field::Value) => x,
+                (Place::Vector(_, y), _) => y,
+            };
+            values.push((*field, register));
+        }
+        values
+    }
+
+    /// Compiles the parameters that a formula mentions and that are to be worked out, each after those
     /// it mentions: a chain of them may be longer than calls can be deep.
     fn compile_parameters(&mut self, formula: &Formula) {
         let mut wanted = BTreeSet::new();
@@ -192,7 +215,7 @@ impl<'a> Compiler<'a> {
                 }
                 if let Mention::Parameter(id) = mention
                     && let Some(parameter) = self.world.parameter(id)
-                    && parameter.depends.on_points
+                    && (self.is_inside)(parameter.depends)
                     && wanted.insert(id)
                 {
                     open.push(parameter.formula.clone());
@@ -267,7 +290,7 @@ impl<'a> Compiler<'a> {
 
     fn compile(&mut self, formula: &Formula) -> Place {
         let depends = self.world.depends(formula);
-        if !depends.on_points && !depends.is_constant() {
+        if !(self.is_inside)(depends) && !depends.is_constant() {
             return match formula.shape() {
                 Shape::Number => Place::Number(self.input(formula)),
                 Shape::Vector => {
@@ -326,7 +349,8 @@ impl<'a> Compiler<'a> {
             }
             Node::Member(id, Member::Radius) => self.radius(*id),
             Node::Member(id, Member::Value) => self.compile(&self.world.measured_by(*id)),
-            Node::Member(..) | Node::Statistic(..) | Node::Time => {
+            Node::Time => Place::Number(self.input(formula)),
+            Node::Member(..) | Node::Statistic(..) => {
                 unreachable!("what does not measure the pose is an input")
             }
         }

@@ -379,6 +379,11 @@ impl Formula {
         matches!(self.node(), Node::Call(function, _) if function.counts_turns())
     }
 
+    /// Whether it is the time.
+    pub fn is_time(&self) -> bool {
+        matches!(self.node(), Node::Time)
+    }
+
     /// The point, if that is all it is.
     pub fn as_point(&self) -> Option<PointId> {
         match self.node() {

@@ -5,9 +5,11 @@
 
 use super::content::add_all;
 use super::function::{length, power, value_of};
+use super::sines::sines_and_cosines;
 use crate::constraint::{Jet, Real, Vec2, Vector};
 use crate::interrupt::tick;
 use crate::terms::{Function, Operator};
+use std::array;
 use std::f64::consts::TAU;
 
 /// The place of a result in the list of operations.
@@ -85,6 +87,42 @@ impl Program {
             }
             look(results)
         })
+    }
+
+    /// Evaluates what looks at no point, for several inputs side by side; `results` are those of all
+    /// operations. Each has the bits that it has by itself.
+    #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
+    #[inline(always)]
+    pub(crate) fn evaluate_each<const N: usize>(
+        &self,
+        input: impl Fn(usize) -> [f64; N],
+        results: &mut Vec<[f64; N]>,
+    ) {
+        tick(OPERATION * self.operations.len());
+        results.clear();
+        // Sines and cosines of one angle are mostly wanted both.
+        let mut turned: Option<(Register, [[f64; N]; 2])> = None;
+        for operation in &self.operations {
+            let at = |register: Register| results[register as usize];
+            let found = match *operation {
+                Operation::Constant(value) => [value; N],
+                Operation::Input(k) => input(k as usize),
+                Operation::X(_) | Operation::Y(_) => [f64::NAN; N],
+                Operation::Of(function @ (Function::Sin | Function::Cos), a) => {
+                    let known = turned.filter(|(angle, _)| *angle == a);
+                    let (_, both) = known.unwrap_or_else(|| (a, sines_and_cosines(&at(a))));
+                    turned = Some((a, both));
+                    both[usize::from(function == Function::Cos)]
+                }
+                Operation::Negate(a) | Operation::Of(_, a) => operation.apply_each(at(a), at(a)),
+                Operation::Binary(_, a, b)
+                | Operation::Norm(a, b)
+                | Operation::OfTwo(_, a, b)
+                | Operation::NearestTurn(a, b)
+                | Operation::LowerEnd(a, b) => operation.apply_each(at(a), at(b)),
+            };
+            results.push(found);
+        }
     }
 
     /// Adds the derivatives of the sum of some results, each times its weight, to the slopes of
@@ -189,6 +227,22 @@ impl Operation {
         }
         let result = self.apply_to_numbers(a, b);
         if result.value().is_finite() { result } else { none() }
+    }
+
+    /// The same for several operands.
+    #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
+    #[inline(always)]
+    fn apply_each<const N: usize>(self, a: [f64; N], b: [f64; N]) -> [f64; N] {
+        let finite = |of: f64| if of.is_finite() { of } else { f64::NAN };
+        // What is not a number makes these none, and so does what is divided by 0.
+        match self {
+            Self::Negate(_) => array::from_fn(|l| finite(-a[l])),
+            Self::Binary(Operator::Add, ..) => array::from_fn(|l| finite(a[l] + b[l])),
+            Self::Binary(Operator::Subtract, ..) => array::from_fn(|l| finite(a[l] - b[l])),
+            Self::Binary(Operator::Multiply, ..) => array::from_fn(|l| finite(a[l] * b[l])),
+            Self::Binary(Operator::Divide, ..) => array::from_fn(|l| finite(a[l] / b[l])),
+            _ => array::from_fn(|l| self.apply(a[l], b[l])),
+        }
     }
 
     fn apply_to_numbers<T: Real>(self, a: T, b: T) -> T {

@@ -11,7 +11,7 @@ use crate::session::state::State;
 use crate::solve::{Along, Budget, Report, Stretch};
 
 /// Frames between which it is told how far a run is.
-const MOST_AT_ONCE: u64 = 1000;
+const MOST_AT_ONCE: u64 = 4000;
 
 /// A frame with so many evaluations of constraints takes much longer than a copy of what it changes.
 const LONG_FRAME: u64 = 100_000;

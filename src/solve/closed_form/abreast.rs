@@ -5,6 +5,7 @@
 //! fused and no sum is taken in another order, so the width never shows in the bits.
 
 use super::found::{Found, larger};
+use super::length::{Length, Timed};
 use crate::constraint::{Point, PointIdx, Vector};
 
 /// How many frames pass side by side, where they do.
@@ -68,13 +69,13 @@ impl<const N: usize> Poses<N> for [Places<N>] {
     }
 }
 
-/// Where a crank points in each frame.
+/// Where a crank points in each frame, or a place is.
 #[derive(Clone, Copy)]
 pub(super) struct Turned<const N: usize> {
-    /// Where its end is, from the centre.
+    /// Where its end is, from the centre; or where the place is.
     pub x: [f64; N],
     pub y: [f64; N],
-    /// How far the end went in the frame, around the centre.
+    /// How far that went in the frame, around the centre.
     pub way: [f64; N],
 }
 
@@ -100,6 +101,8 @@ pub(super) struct Abreast<const N: usize> {
     pub ways: Vec<[f64; N]>,
     /// Where each crank points.
     pub turned: Vec<Turned<N>>,
+    /// The lengths that follow time.
+    pub lengths: Vec<Timed<N>>,
     /// The largest distance to satisfaction of each frame; not a number where a step could not say
     /// where its point is.
     worst: [f64; N],
@@ -113,6 +116,7 @@ impl<const N: usize> Abreast<N> {
         Self {
             ways: vec![[0.0; N]; n_points],
             turned: vec![Turned::NOT; n_cranks],
+            lengths: Vec::new(),
             worst: [0.0; N],
             least_side_squared: [1.0; N],
         }
@@ -122,6 +126,12 @@ impl<const N: usize> Abreast<N> {
     #[inline(always)]
     pub fn begin(&mut self) {
         (self.worst, self.least_side_squared) = ([0.0; N], [1.0; N]);
+    }
+
+    /// From the frame of this number on they are to be found in another way.
+    #[inline(always)]
+    pub fn end_at(&mut self, l: usize) {
+        self.worst[l..].fill(f64::NAN);
     }
 
     /// What a frame came to.
@@ -181,6 +191,14 @@ pub(super) struct Met {
 
 /// A step that finds a point from `K` that are known, and a number of the last pose.
 pub(super) trait Meeting<const K: usize> {
+    /// The numbers that follow from its lengths.
+    type Sizes: Copy;
+    /// Its lengths; of a step that has but one, that twice.
+    fn lengths(&self) -> [Length; 2];
+    /// What follows from them.
+    fn sizes(&self) -> Self::Sizes;
+    /// What follows from others.
+    fn sizes_of(lengths: [Length; 2]) -> Self::Sizes;
     /// The point that is found.
     fn to(&self) -> PointIdx;
     /// The points it follows from.
@@ -190,8 +208,14 @@ pub(super) trait Meeting<const K: usize> {
     /// That of the last pose.
     fn last(&mut self) -> &mut f64;
     /// Where the point is, with that number before and now, how far the others went, and what drives it.
-    fn meet(&self, from: [Point; K], gauges: [f64; 2], ways: [f64; K], drive: (Vector, f64))
-    -> Met;
+    fn meet(
+        &self,
+        of: &Self::Sizes,
+        from: [Point; K],
+        gauges: [f64; 2],
+        ways: [f64; K],
+        drive: (Vector, f64),
+    ) -> Met;
 
     /// Which of the numbers that drive frames it is given, if any.
     fn drive(&self) -> Option<u32> {
@@ -200,8 +224,27 @@ pub(super) trait Meeting<const K: usize> {
 
     /// Finds the point in each frame.
     #[inline(always)]
-    #[allow(clippy::needless_range_loop, reason = "one loop over all, that vectors are made of")]
     fn run<const N: usize>(&mut self, x: &mut (impl Poses<N> + ?Sized), abreast: &mut Abreast<N>) {
+        let lengths = self.lengths();
+        if N > 1 && lengths.iter().any(Length::is_timed) {
+            let each = lengths.each_ref().map(|length| length.each(&abreast.lengths));
+            let in_lane = |l: usize| [0, 1].map(|k| lengths[k].in_lane(&each[k], l));
+            self.meet_each(x, abreast, |l| Self::sizes_of(in_lane(l)));
+        } else {
+            let of = self.sizes();
+            self.meet_each(x, abreast, |_| of);
+        }
+    }
+
+    /// The same, with what follows from the lengths in each frame.
+    #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "one loop over all, that vectors are made of")]
+    fn meet_each<const N: usize>(
+        &mut self,
+        x: &mut (impl Poses<N> + ?Sized),
+        abreast: &mut Abreast<N>,
+        of: impl Fn(usize) -> Self::Sizes,
+    ) {
         let from = self.from();
         let places = from.map(|p| x.get(p));
         let ways = from.map(|p| abreast.ways[p as usize]);
@@ -217,7 +260,7 @@ pub(super) trait Meeting<const K: usize> {
         for l in 0..N {
             let now = places.each_ref().map(|p| p.at(l));
             let ways = ways.each_ref().map(|way| way[l]);
-            let met = self.meet(now, [before[l], gauges[l]], ways, turned.at(l));
+            let met = self.meet(&of(l), now, [before[l], gauges[l]], ways, turned.at(l));
             at.set(l, met.at);
             way[l] = met.way;
             abreast.add(l, met.off, met.side_squared);

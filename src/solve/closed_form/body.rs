@@ -3,7 +3,7 @@
 use super::abreast::{Abreast, Places, Poses, put_each};
 use super::cluster::{self, Cluster};
 use super::found::larger;
-use super::length::{Length, Values, bar};
+use super::length::{Length, Timed, Values, bar};
 use crate::constraint::{Constraint, Hinge, Point, PointIdx, Vector};
 
 /// A body whose ends are this part of its size apart, or less, is not known by them.
@@ -31,12 +31,24 @@ impl Bar {
         *self = Self::new(self.points, self.length);
     }
 
+    /// The length.
+    pub fn length_mut(&mut self) -> &mut Length {
+        &mut self.length
+    }
+
     /// Checks it in each frame.
     #[inline(always)]
     pub fn check<const N: usize>(&self, x: &(impl Poses<N> + ?Sized), abreast: &mut Abreast<N>) {
         let [a, b] = self.points.map(|p| x.get(p));
-        abreast
-            .check_each(|l| ((b.at(l) - a.at(l)).norm_squared() - self.square) * self.half_inverse);
+        let off = |l: usize, square: f64, half_inverse: f64| {
+            ((b.at(l) - a.at(l)).norm_squared() - square) * half_inverse
+        };
+        if N > 1 && self.length.is_timed() {
+            let Timed { now, .. } = self.length.each(&abreast.lengths);
+            abreast.check_each(|l| off(l, now[l] * now[l], 0.5 / now[l]));
+        } else {
+            abreast.check_each(|l| off(l, self.square, self.half_inverse));
+        }
     }
 }
 

@@ -23,7 +23,8 @@ pub(super) struct Circles {
 }
 
 /// What follows from two radii, and from how much longer or shorter each was on its way.
-struct Numbers {
+#[derive(Clone, Copy)]
+pub(super) struct Numbers {
     /// Their squares.
     squares: [f64; 2],
     /// Half of one over each.
@@ -46,6 +47,7 @@ struct Numbers {
 }
 
 impl Numbers {
+    #[inline(always)]
     fn new(radii: [Length; 2]) -> Self {
         let [l, m] = radii.map(|radius| radius.now);
         let changed = radii[0].changed + radii[1].changed;
@@ -90,6 +92,11 @@ impl Circles {
         self.of_radii = Numbers::new(self.radii);
     }
 
+    /// The radii.
+    pub fn radii_mut(&mut self) -> &mut [Length; 2] {
+        &mut self.radii
+    }
+
     /// Looks at a pose that counts.
     pub fn look(&mut self, x: &[Point]) {
         let [a, b] = self.from.map(|p| x[p as usize]);
@@ -100,6 +107,22 @@ impl Circles {
 }
 
 impl Meeting<2> for Circles {
+    type Sizes = Numbers;
+
+    fn lengths(&self) -> [Length; 2] {
+        self.radii
+    }
+
+    #[inline(always)]
+    fn sizes(&self) -> Numbers {
+        self.of_radii
+    }
+
+    #[inline(always)]
+    fn sizes_of(radii: [Length; 2]) -> Numbers {
+        Numbers::new(radii)
+    }
+
     fn to(&self) -> PointIdx {
         self.to
     }
@@ -123,13 +146,13 @@ impl Meeting<2> for Circles {
     #[inline(always)]
     fn meet(
         &self,
+        of: &Numbers,
         [a, b]: [Point; 2],
         [before, apart]: [f64; 2],
         ways: [f64; 2],
         _: (Vector, f64),
     ) -> Met {
         let e = b - a;
-        let of = &self.of_radii;
         let apart_squared = e.norm_squared();
         let squared = area_squared(of.reach_squares, apart_squared);
         let way = ways[0] + ways[1];

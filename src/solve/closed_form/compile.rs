@@ -2,8 +2,10 @@
 
 use super::abreast::Abreast;
 use super::length::{Length, bar};
+use super::nearest::gather;
 use super::{
-    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Radius, Ray, Step, Sum, Wheel,
+    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Nearest, Radius, Ray, Step,
+    Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
 use crate::solve::frame::decomposition::{Block, Plan};
@@ -59,7 +61,8 @@ impl ClosedForm {
         changed.iter().all(|(c, _)| self.takes(*c))
     }
 
-    fn takes(&self, c: u32) -> bool {
+    /// Whether the steps ask for the values of the constraint of this number.
+    pub(super) fn takes(&self, c: u32) -> bool {
         self.held.binary_search(&c).is_err()
     }
 
@@ -115,6 +118,7 @@ impl<'a> Compiler<'a> {
             knows_lengths: false,
             held: Vec::new(),
             is_outdated: false,
+            schedule: None,
         };
         let is_driver = |c: &&Constraint| matches!(c, Constraint::Motor(_));
         let n_driven = constraints.iter().filter(is_driver).count() as u32;
@@ -126,6 +130,7 @@ impl<'a> Compiler<'a> {
         let Self { given, mut form, n_driven } = self;
         form.one = Abreast::new(given.x.len(), n_driven as usize);
         form.held.sort_unstable();
+        form.steps = gather(form.steps);
         form
     }
 
@@ -158,7 +163,7 @@ impl<'a> Compiler<'a> {
     pub fn push(&mut self, step: Step, checked: impl Iterator<Item = u32>) -> Option<()> {
         let checks: Option<Vec<Step>> = checked.map(|c| self.check(c)).collect();
         let checks = checks?;
-        self.n_driven += u32::from(matches!(step, Step::Direction(_)));
+        self.n_driven += u32::from(matches!(step, Step::Direction(_) | Step::Place { .. }));
         self.form.counts_turns |= matches!(step, Step::Wheel(_));
         self.form.steps.push(step);
         self.form.steps.extend(checks);
@@ -183,7 +188,9 @@ impl<'a> Compiler<'a> {
                 turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?))
             }
             [one] if !is_determined => match locus((one, &all[one as usize]), to)? {
-                Locus::Circle(from, radius) => Some(Step::Nearest { to, from, radius }),
+                Locus::Circle(from, radius) => {
+                    Some(Step::Nearest(vec![Nearest { to, from, radius }]))
+                }
                 Locus::Line(..) | Locus::Beyond(..) => None,
             },
             _ => None,
@@ -201,7 +208,9 @@ impl<'a> Compiler<'a> {
                 self.form.cranks.push(Crank { to, from, motor: c, before: motor.heading() });
                 Some(Step::Crank(self.form.cranks.len() as u32 - 1))
             }
-            Constraint::Coordinate(_) => Some(Step::Place { to, constraint: c, way: 0.0 }),
+            Constraint::Coordinate(_) => {
+                Some(Step::Place { to, constraint: c, drive: self.n_driven })
+            }
             constraint => Some(Step::Sum(Sum::new(to, constraint, self.given.x.len())?)),
         }
     }

@@ -16,7 +16,6 @@ pub(super) struct Direction {
     along: [PointIdx; 2],
     /// The length of the link.
     bar: Length,
-    length: f64,
     /// The constraint that says the angle.
     pub constraint: u32,
     /// Whether that is the angle from the segment to the link, 1, or back, -1.
@@ -51,21 +50,35 @@ impl Direction {
             && !along.contains(&to)
             && bar.is_sound();
         let end = if own[0] == from { 1.0 } else { -1.0 };
-        let (constraint, length, apart) = (c, bar.now, 0.0);
-        let link = Self { to, from, along, bar, length, constraint, sense, end, drive, apart };
+        let (constraint, apart) = (c, 0.0);
+        let link = Self { to, from, along, bar, constraint, sense, end, drive, apart };
         is_sound.then_some(link)
     }
 
     /// Takes in how long the link is in this frame.
     pub fn drive(&mut self, values: &Values) {
         self.bar.drive(values);
-        self.length = self.bar.now;
+    }
+
+    /// The bar that says how long the link is.
+    pub fn bar(&self) -> Option<u32> {
+        self.bar.bar()
+    }
+
+    /// The length of the link.
+    pub fn length_mut(&mut self) -> &mut Length {
+        &mut self.bar
     }
 
     /// Looks at a pose that counts.
     pub fn look(&mut self, x: &[Point]) {
         let [a, b] = self.along.map(|p| x[p as usize]);
         self.apart = (b - a).norm_squared().sqrt();
+    }
+
+    /// By which factors the link is longer than a unit, and turns by an angle.
+    pub fn factors(&self) -> [f64; 2] {
+        [self.end * self.bar.now, self.sense]
     }
 
     /// The link against the segment, as the values of its constraint have it, and how far its end
@@ -75,17 +88,39 @@ impl Direction {
         now: &Constraint,
         before: impl Iterator<Item = &'a Constraint>,
     ) -> (Vector, f64) {
-        let angle = |constraint: &Constraint| match constraint {
-            Constraint::Orientation(Orientation { bounds: Bounds { lo, .. }, .. }) => *lo,
-            _ => f64::NAN,
-        };
         let way: f64 = before.map(|before| (angle(now) - angle(before)).abs()).sum();
-        let target = Vector::polar(self.end * self.length, self.sense * angle(now));
-        (target, way * (self.length + self.bar.changed) + self.bar.changed)
+        let [length, sense] = self.factors();
+        let target = Vector::polar(length, sense * angle(now));
+        (target, way * (self.bar.now + self.bar.changed) + self.bar.changed)
+    }
+}
+
+/// The angle that a constraint says.
+pub(super) fn angle(constraint: &Constraint) -> f64 {
+    match constraint {
+        Constraint::Orientation(Orientation { bounds: Bounds { lo, .. }, .. }) => *lo,
+        _ => f64::NAN,
     }
 }
 
 impl Meeting<3> for Direction {
+    /// The length itself.
+    type Sizes = Length;
+
+    fn lengths(&self) -> [Length; 2] {
+        [self.bar; 2]
+    }
+
+    #[inline(always)]
+    fn sizes(&self) -> Length {
+        self.bar
+    }
+
+    #[inline(always)]
+    fn sizes_of([bar, _]: [Length; 2]) -> Length {
+        bar
+    }
+
     fn to(&self) -> PointIdx {
         self.to
     }
@@ -112,6 +147,7 @@ impl Meeting<3> for Direction {
     #[inline(always)]
     fn meet(
         &self,
+        &Length { now: length, changed, .. }: &Length,
         [a, b, from]: [Point; 3],
         [before, apart]: [f64; 2],
         ways: [f64; 3],
@@ -120,19 +156,19 @@ impl Meeting<3> for Direction {
         let way = ways[0] + ways[1];
         let least = 0.5 * (apart + before - way);
         // False for what is not a number.
-        let is_proved = least > NEARLY_SINGULAR * self.length;
+        let is_proved = least > NEARLY_SINGULAR * length;
         let e = b - a;
         let v = e.times(target) / apart;
         let at = from + v;
         let arm = at - from;
         let off = larger(
-            ((arm.norm_squared() - self.length * self.length) * (0.5 / self.length)).abs(),
-            arm.cross(v) / self.length,
+            ((arm.norm_squared() - length * length) * (0.5 / length)).abs(),
+            arm.cross(v) / length,
         );
         Met {
             at,
             // The segment turns by the ways of both ends over its length, at most.
-            way: ways[2] + turned + way * (self.length + self.bar.changed) / least,
+            way: ways[2] + turned + way * (length + changed) / least,
             off: if is_proved { off } else { f64::NAN },
             side_squared: 1.0,
         }

@@ -1,8 +1,9 @@
-//! Many frames at a time, where nothing but motors drives an island.
+//! Many frames at a time, where nothing but motors and time drives an island.
 
 use super::ClosedForm;
 use super::abreast::{Abreast, Places, Turned, WIDE};
 use super::found::Found;
+use super::length::Timed;
 use super::run::make;
 use crate::constraint::{Constraint, Heading, Point, Turns};
 use crate::solve::island::Island;
@@ -38,6 +39,8 @@ impl Lanes {
         for (to, turned) in abreast.turned.iter_mut().zip(&form.one.turned) {
             (0..WIDE).for_each(|l| to.set(l, turned.at(0).0, 0.0));
         }
+        let n_lengths = form.schedule.as_ref().map_or(0, |schedule| schedule.n_lengths());
+        abreast.lengths = vec![Timed::NOT; n_lengths];
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
             abreast,
@@ -81,8 +84,15 @@ impl Lanes {
     #[inline(always)]
     fn run(&mut self, form: &mut ClosedForm, constraints: &mut [Constraint], dt: f64) {
         self.turn_on(form, constraints, dt);
-        let Self { places, abreast, .. } = self;
+        let Self { places, abreast, origin, .. } = self;
+        let n_known = form
+            .schedule
+            .as_mut()
+            .map(|schedule| schedule.turn_on(|p| origin[p as usize], abreast));
         make(&mut form.steps, &form.cranks, constraints, &mut places[..], abreast);
+        if let Some(n) = n_known {
+            abreast.end_at(n);
+        }
         self.all = self.abreast.found_in_all();
     }
 
@@ -108,12 +118,15 @@ impl Lanes {
     }
 
     /// Sets out from where an island is.
-    pub fn set_out(&mut self, form: &ClosedForm, island: &Island) {
+    pub fn set_out(&mut self, form: &mut ClosedForm, island: &Island) {
         let (x, headings) = &mut self.start;
         x.clear();
         x.extend_from_slice(&island.x[..island.n_free]);
         headings.clear();
         headings.extend(form.cranks.iter().filter_map(|crank| crank.heading(&island.constraints)));
+        if let Some(schedule) = &mut form.schedule {
+            schedule.set_out(&island.constraints);
+        }
     }
 
     /// Puts an island back where it set out.
@@ -121,6 +134,9 @@ impl Lanes {
         let (x, headings) = &self.start;
         island.x[..x.len()].copy_from_slice(x);
         point(form, &mut island.constraints, headings.iter().copied());
+        if let Some(schedule) = &mut form.schedule {
+            schedule.go_back(&mut island.constraints);
+        }
         self.is_up_to_date = false;
         form.look(&island.x);
     }
@@ -153,12 +169,18 @@ impl Lanes {
             *to = places.at(l);
         }
         point(form, &mut island.constraints, self.headings(l));
+        if let Some(schedule) = &form.schedule {
+            schedule.show(l, &mut island.constraints);
+        }
     }
 
-    /// Tells the world how the cranks point at the end of a frame.
+    /// Tells the world how the cranks point at the end of a frame, and the values that follow time.
     pub fn hand_over(&self, l: usize, form: &ClosedForm, ids: &[ConstraintId], world: &mut World) {
         for (crank, heading) in form.cranks.iter().zip(self.headings(l)) {
             crank.point_in(world, ids, heading);
+        }
+        if let Some(schedule) = &form.schedule {
+            schedule.hand_over(l, ids, world);
         }
     }
 
@@ -177,6 +199,9 @@ impl Lanes {
         if n < WIDE {
             self.is_up_to_date = false;
             form.look(&island.x);
+            if let Some(schedule) = &mut form.schedule {
+                schedule.take_back(WIDE - n, &island.constraints);
+            }
         }
     }
 }

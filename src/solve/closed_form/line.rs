@@ -16,17 +16,40 @@ pub(super) struct CircleLine {
     line: [PointIdx; 2],
     /// Whether the point stays between them.
     is_bounded: bool,
-    /// The radius, its square, and half of one over it.
+    /// The radius, and what follows from it.
     radius: Length,
+    of_radius: Numbers,
+    /// The signed distance of the centre from the line at the last pose.
+    height: f64,
+    /// On which side of the foot of the centre the point is, along the line: 1 or -1.
+    side: f64,
+}
+
+/// What follows from a radius, and from how much longer or shorter it was on its way.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers {
+    /// Its square, and half of one over it.
     square: f64,
     half_inverse: f64,
     /// The squares of what it was at least and at most on its way.
     least_square: f64,
     most_square: f64,
-    /// The signed distance of the centre from the line at the last pose.
-    height: f64,
-    /// On which side of the foot of the centre the point is, along the line: 1 or -1.
-    side: f64,
+    /// How far it changed.
+    changed: f64,
+}
+
+impl Numbers {
+    #[inline(always)]
+    fn new(Length { now, changed, .. }: Length) -> Self {
+        let least = if now > changed { now - changed } else { 0.0 };
+        Self {
+            square: now * now,
+            half_inverse: 0.5 / now,
+            least_square: least * least,
+            most_square: (now + changed) * (now + changed),
+            changed,
+        }
+    }
 }
 
 impl CircleLine {
@@ -38,35 +61,21 @@ impl CircleLine {
         radius: Length,
         is_bounded: bool,
     ) -> Option<Self> {
-        let mut meeting = Self {
-            to,
-            from,
-            line,
-            is_bounded,
-            radius,
-            square: 0.0,
-            half_inverse: 0.0,
-            least_square: 0.0,
-            most_square: 0.0,
-            height: 0.0,
-            side: 1.0,
-        };
-        meeting.measure();
+        let of_radius = Numbers::new(radius);
+        let meeting =
+            Self { to, from, line, is_bounded, radius, of_radius, height: 0.0, side: 1.0 };
         radius.is_sound().then_some(meeting)
     }
 
     /// Takes in how long the radius is in this frame.
     pub fn drive(&mut self, values: &Values) {
         self.radius.drive(values);
-        self.measure();
+        self.of_radius = Numbers::new(self.radius);
     }
 
-    /// Works out what follows from the radius.
-    fn measure(&mut self) {
-        let Length { now, changed, .. } = self.radius;
-        (self.square, self.half_inverse) = (now * now, 0.5 / now);
-        let least = if now > changed { now - changed } else { 0.0 };
-        (self.least_square, self.most_square) = (least * least, (now + changed) * (now + changed));
+    /// The radius.
+    pub fn radius_mut(&mut self) -> &mut Length {
+        &mut self.radius
     }
 
     /// Looks at a pose that counts.
@@ -80,6 +89,22 @@ impl CircleLine {
 }
 
 impl Meeting<3> for CircleLine {
+    type Sizes = Numbers;
+
+    fn lengths(&self) -> [Length; 2] {
+        [self.radius; 2]
+    }
+
+    #[inline(always)]
+    fn sizes(&self) -> Numbers {
+        self.of_radius
+    }
+
+    #[inline(always)]
+    fn sizes_of([radius, _]: [Length; 2]) -> Numbers {
+        Numbers::new(radius)
+    }
+
     fn to(&self) -> PointIdx {
         self.to
     }
@@ -104,6 +129,7 @@ impl Meeting<3> for CircleLine {
     #[inline(always)]
     fn meet(
         &self,
+        of: &Numbers,
         [a, b, c]: [Point; 3],
         [before, height]: [f64; 2],
         ways: [f64; 3],
@@ -115,9 +141,9 @@ impl Meeting<3> for CircleLine {
         let way = ways[2];
         let middle = height + before;
         let farthest = 0.5 * (middle.abs() + way);
-        let least = self.least_square - farthest * farthest;
-        let squared = self.square - height * height;
-        let floor = NEARLY_SINGULAR * NEARLY_SINGULAR * self.most_square;
+        let least = of.least_square - farthest * farthest;
+        let squared = of.square - height * height;
+        let floor = NEARLY_SINGULAR * NEARLY_SINGULAR * of.most_square;
         let along = e.dot(u) / length_squared + self.side * squared.sqrt() / length;
         let is_between = !self.is_bounded | (along >= 0.0) & (along <= 1.0);
         // False for what is not a number.
@@ -125,15 +151,15 @@ impl Meeting<3> for CircleLine {
             (ways[0] + ways[1] == 0.0) & (least > floor) & (squared > floor) & is_between;
         let at = a + e * along;
         let off = larger(
-            (((at - c).norm_squared() - self.square) * self.half_inverse).abs(),
+            (((at - c).norm_squared() - of.square) * of.half_inverse).abs(),
             e.cross(at - a) / length,
         );
         Met {
             at,
             // Its velocity is that of centre and radius over the cosine of the angle of the bar, at most.
-            way: (way + self.radius.changed) * (self.most_square / least).sqrt(),
+            way: (way + of.changed) * (of.most_square / least).sqrt(),
             off: if is_proved { off } else { f64::NAN },
-            side_squared: squared / self.square,
+            side_squared: squared / of.square,
         }
     }
 }

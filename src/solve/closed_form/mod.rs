@@ -32,9 +32,11 @@ mod found;
 mod lanes;
 mod length;
 mod line;
+mod nearest;
 mod parts;
 mod ray;
 mod run;
+mod schedule;
 mod sum;
 mod together;
 mod wheel;
@@ -51,7 +53,9 @@ pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
 use line::CircleLine;
+use nearest::Nearest;
 use ray::Ray;
+use schedule::Schedule;
 use sum::Sum;
 use wheel::Wheel;
 
@@ -83,6 +87,8 @@ pub(crate) struct ClosedForm {
     held: Vec<u32>,
     /// Whether one of these changed: the list is to be compiled anew.
     is_outdated: bool,
+    /// The values that follow time, while frames pass that are known ahead.
+    schedule: Option<Box<Schedule>>,
 }
 
 /// What is known of the list of an island.
@@ -107,8 +113,8 @@ enum Step {
         to: PointIdx,
         /// The constraint.
         constraint: u32,
-        /// How far it went in this frame.
-        way: f64,
+        /// Which of the numbers that drive the frame are its own.
+        drive: u32,
     },
     /// Where two circles meet.
     Circles(Circles),
@@ -128,15 +134,18 @@ enum Step {
     Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
-    /// On a circle, where it is nearest to.
-    Nearest {
-        /// The point that is found.
-        to: PointIdx,
-        /// The centre.
-        from: PointIdx,
-        /// How far it is to be away.
-        radius: Radius,
-    },
+    /// On circles, where they are nearest to; nothing follows from these.
+    Nearest(Vec<Nearest>),
+}
+
+impl Step {
+    /// The points on circles, of a step that finds such.
+    fn into_nearest(self) -> Vec<Nearest> {
+        match self {
+            Self::Nearest(points) => points,
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// A point on a crank.

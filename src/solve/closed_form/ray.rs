@@ -16,15 +16,31 @@ pub(super) struct Ray {
     through: PointIdx,
     /// Whether the slider stays between the ends.
     is_bounded: bool,
-    /// The distance of the ends, its square, and half of one over it.
+    /// The distance of the ends, and what follows from it.
     bar: Length,
-    length: f64,
-    square: f64,
-    half_inverse: f64,
+    of_bar: Numbers,
     /// The distance of the slider from the known end at the last pose.
     apart: f64,
     /// Whether the point is on the side of the slider, 1, or on the other, -1.
     side: f64,
+}
+
+/// What follows from a length.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers {
+    /// It, its square, and half of one over it.
+    length: f64,
+    square: f64,
+    half_inverse: f64,
+    /// How far it changed.
+    changed: f64,
+}
+
+impl Numbers {
+    #[inline(always)]
+    fn new(Length { now, changed, .. }: Length) -> Self {
+        Self { length: now, square: now * now, half_inverse: 0.5 / now, changed }
+    }
 }
 
 impl Ray {
@@ -37,32 +53,20 @@ impl Ray {
         bar: Length,
         is_bounded: bool,
     ) -> Option<Self> {
-        let mut ray = Self {
-            to,
-            from,
-            through,
-            is_bounded,
-            bar,
-            length: 0.0,
-            square: 0.0,
-            half_inverse: 0.0,
-            apart: 0.0,
-            side: 1.0,
-        };
-        ray.measure();
+        let of_bar = Numbers::new(bar);
+        let ray = Self { to, from, through, is_bounded, bar, of_bar, apart: 0.0, side: 1.0 };
         (bar.is_sound() && through != from).then_some(ray)
     }
 
     /// Takes in how long the link is in this frame.
     pub fn drive(&mut self, values: &Values) {
         self.bar.drive(values);
-        self.measure();
+        self.of_bar = Numbers::new(self.bar);
     }
 
-    /// Works out what follows from the length.
-    fn measure(&mut self) {
-        let length = self.bar.now;
-        (self.length, self.square, self.half_inverse) = (length, length * length, 0.5 / length);
+    /// The length of the link.
+    pub fn length_mut(&mut self) -> &mut Length {
+        &mut self.bar
     }
 
     /// Looks at a pose that counts.
@@ -75,6 +79,22 @@ impl Ray {
 }
 
 impl Meeting<2> for Ray {
+    type Sizes = Numbers;
+
+    fn lengths(&self) -> [Length; 2] {
+        [self.bar; 2]
+    }
+
+    #[inline(always)]
+    fn sizes(&self) -> Numbers {
+        self.of_bar
+    }
+
+    #[inline(always)]
+    fn sizes_of([bar, _]: [Length; 2]) -> Numbers {
+        Numbers::new(bar)
+    }
+
     fn to(&self) -> PointIdx {
         self.to
     }
@@ -98,6 +118,7 @@ impl Meeting<2> for Ray {
     #[inline(always)]
     fn meet(
         &self,
+        of: &Numbers,
         [from, slider]: [Point; 2],
         [before, apart]: [f64; 2],
         ways: [f64; 2],
@@ -106,21 +127,21 @@ impl Meeting<2> for Ray {
         let e = slider - from;
         let way = ways[0] + ways[1];
         let least = 0.5 * (apart + before - way);
-        let is_between = (self.side > 0.0) & (apart <= self.length);
+        let is_between = (self.side > 0.0) & (apart <= of.length);
         // False for what is not a number.
-        let is_proved = (least > NEARLY_SINGULAR * self.length) & (!self.is_bounded | is_between);
-        let at = from + e * (self.side * self.length / apart);
+        let is_proved = (least > NEARLY_SINGULAR * of.length) & (!self.is_bounded | is_between);
+        let at = from + e * (self.side * of.length / apart);
         let arm = at - from;
         let off = larger(
-            ((arm.norm_squared() - self.square) * self.half_inverse).abs(),
-            arm.cross(e) / self.length,
+            ((arm.norm_squared() - of.square) * of.half_inverse).abs(),
+            arm.cross(e) / of.length,
         );
         Met {
             at,
             // The line turns by the ways of both over their distance, at most.
-            way: ways[0] + self.bar.changed + way * (self.length + self.bar.changed) / least,
+            way: ways[0] + of.changed + way * (of.length + of.changed) / least,
             off: if is_proved { off } else { f64::NAN },
-            side_squared: (apart / self.length) * (apart / self.length),
+            side_squared: (apart / of.length) * (apart / of.length),
         }
     }
 }

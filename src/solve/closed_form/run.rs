@@ -2,11 +2,13 @@
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
 use super::found::Found;
-use super::length::Values;
-use super::{ClosedForm, Crank, Radius, Step};
+use super::length::{Length, Values};
+use super::nearest::{self, Nearest};
+use super::{ClosedForm, Crank, Schedule, Step};
 use crate::constraint::{
-    Constraint, ConstraintKind as _, Field, Heading, Motor, Point, PointIdx, Stateful as _, Vector,
+    Constraint, ConstraintKind as _, Field, Heading, Motor, Point, Stateful as _, Vector,
 };
+use crate::solve::island::Island;
 use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
 use crate::world::{ConstraintId, World};
@@ -34,7 +36,7 @@ impl ClosedForm {
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Bar(_)
-                | Step::Nearest { .. } => {}
+                | Step::Nearest(_) => {}
             }
         }
         self.knows_pose = fits;
@@ -57,13 +59,15 @@ impl ClosedForm {
                 Step::Direction(link) => link.drive(&values),
                 Step::Bar(bar) => bar.drive(&values),
                 Step::Block(block) => block.drive(&values),
-                Step::Nearest { radius: Radius::Fixed(length), .. } => length.drive(&values),
+                Step::Nearest(points) => {
+                    let lengths = points.iter_mut().filter_map(Nearest::length_mut);
+                    lengths.for_each(|length| length.drive(&values));
+                }
                 Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Body(_)
-                | Step::Nearest { radius: Radius::Measured { .. }, .. } => {}
+                | Step::Body(_) => {}
             }
         }
         // What just changed does not in the frame that comes next, unless it is said again.
@@ -109,7 +113,10 @@ impl ClosedForm {
         self.one.ways.fill([0.0]);
         for step in &mut self.steps {
             match step {
-                Step::Place { way, .. } => *way = 0.0,
+                Step::Place { constraint, drive, .. } => {
+                    let place = place(&constraints[*constraint as usize]);
+                    self.one.turned[*drive as usize].set(0, place.to_vector(), 0.0);
+                }
                 Step::Direction(link) => {
                     let of = &constraints[link.constraint as usize];
                     let (target, way) = link.target(of, std::iter::empty());
@@ -142,12 +149,82 @@ impl ClosedForm {
         }
     }
 
-    /// Points the motors of a world, which have these handles, as those here.
+    /// Makes ready for frames that follow motors and time, in lanes; gives how many constraints follow time,
+    /// none if some of their values are not asked for by a step.
+    pub fn follow_time(
+        &mut self,
+        island: &Island,
+        world: &World,
+        is_turned: bool,
+    ) -> Option<usize> {
+        let schedule = Schedule::new(self, island, world, is_turned)?;
+        let n = schedule.n_constraints();
+        for (c, k) in schedule.lengths() {
+            self.lengths_mut(|length| length.set_timed(c, Some(k)));
+        }
+        self.schedule = (n > 0).then(|| Box::new(schedule));
+        Some(n)
+    }
+
+    /// What follows time does no more.
+    pub fn end_schedule(&mut self) {
+        let Some(schedule) = self.schedule.take() else { return };
+        for (c, _) in schedule.lengths() {
+            self.lengths_mut(|length| length.set_timed(c, None));
+            // What it was before the frame that comes next is to be asked.
+            self.knows_lengths = false;
+        }
+    }
+
+    /// How many lengths among its values follow time.
+    pub fn n_timed_lengths(&self) -> usize {
+        self.schedule.as_ref().map_or(0, |schedule| schedule.n_lengths())
+    }
+
+    /// The longest of these in a lane; 0 if there is none.
+    pub fn longest(&self, l: usize) -> f64 {
+        self.schedule.as_ref().map_or(0.0, |schedule| schedule.longest(l))
+    }
+
+    /// Whether the constraint of this number is one of these lengths.
+    pub fn is_timed_length(&self, c: usize) -> bool {
+        let lengths = self.schedule.iter().flat_map(|schedule| schedule.lengths());
+        lengths.into_iter().any(|(length, _)| length as usize == c)
+    }
+
+    /// Calls `visit` for each length that steps keep to.
+    fn lengths_mut(&mut self, mut visit: impl FnMut(&mut Length)) {
+        for step in &mut self.steps {
+            match step {
+                Step::Circles(circles) => circles.radii_mut().iter_mut().for_each(&mut visit),
+                Step::CircleLine(meeting) => visit(meeting.radius_mut()),
+                Step::Ray(ray) => visit(ray.length_mut()),
+                Step::Direction(link) => visit(link.length_mut()),
+                Step::Bar(bar) => visit(bar.length_mut()),
+                Step::Nearest(points) => {
+                    points.iter_mut().filter_map(Nearest::length_mut).for_each(&mut visit);
+                }
+                // Blocks are not found in lanes.
+                Step::Block(_)
+                | Step::Crank(_)
+                | Step::Place { .. }
+                | Step::Wheel(_)
+                | Step::Sum(_)
+                | Step::Body(_) => {}
+            }
+        }
+    }
+
+    /// Points the motors of a world, which have these handles, as those here, and says the values that follow
+    /// time.
     pub fn hand_over(&self, constraints: &[Constraint], ids: &[ConstraintId], world: &mut World) {
         for crank in &self.cranks {
             if let Some(heading) = crank.heading(constraints) {
                 crank.point_in(world, ids, heading);
             }
+        }
+        if let Some(schedule) = &self.schedule {
+            schedule.tell(constraints, ids, world);
         }
     }
 
@@ -172,11 +249,12 @@ impl ClosedForm {
         }
         for step in &mut self.steps {
             match step {
-                Step::Place { to, constraint, way } => {
+                Step::Place { to, constraint, drive } => {
                     let is_moved = inputs.values_before(*constraint).next().is_some();
                     let place = place(&constraints[*constraint as usize]);
                     // The point still is where it was at the beginning of the frame.
-                    *way = if is_moved { place.distance(x[*to as usize]) } else { 0.0 };
+                    let way = if is_moved { place.distance(x[*to as usize]) } else { 0.0 };
+                    self.one.turned[*drive as usize].set(0, place.to_vector(), way);
                 }
                 Step::Direction(link) => {
                     let of = &constraints[link.constraint as usize];
@@ -229,11 +307,12 @@ pub(super) fn make<const N: usize>(
             Step::Body(body) => body.run(x, abreast),
             Step::Block(block) => block.run(x, abreast),
             Step::Bar(bar) => bar.check(x, abreast),
-            Step::Place { to, constraint, way } => {
-                x.put(*to, Places::all(place(&constraints[*constraint as usize])));
-                abreast.ways[*to as usize] = [*way; N];
+            Step::Place { to, drive, .. } => {
+                let Turned { x: at_x, y: at_y, way } = abreast.turned[*drive as usize];
+                x.put(*to, Places { x: at_x, y: at_y });
+                abreast.ways[*to as usize] = way;
             }
-            Step::Nearest { to, from, radius } => nearest(*to, *from, radius, x, abreast),
+            Step::Nearest(points) => nearest::run(points, x, abreast),
         }
     }
 }
@@ -281,50 +360,13 @@ impl Crank {
     }
 }
 
-/// Puts a point on a circle, where it is nearest to.
-#[inline(always)]
-fn nearest<const N: usize>(
-    to: PointIdx,
-    from: PointIdx,
-    radius: &Radius,
-    x: &mut (impl Poses<N> + ?Sized),
-    abreast: &mut Abreast<N>,
-) {
-    let (centre, radii) = (x.get(from), radius.of(x));
-    // Each frame goes on from the one before.
-    let mut last = x.get(to).at(N - 1);
-    let mut found = [(last, 0.0, 0.0); N];
-    for (l, found) in found.iter_mut().enumerate() {
-        let (centre, radius) = (centre.at(l), radii[l]);
-        let arm = last - centre;
-        last = centre + arm * (radius / arm.norm());
-        let off = (last - centre).norm() - radius;
-        // How far it went is not said: nothing follows from where it is.
-        *found = (last, 0.0, if radius >= 0.0 { off } else { f64::NAN });
-    }
-    put_each(to, x, abreast, |l| found[l]);
-}
-
-impl Radius {
-    /// How long it is in each frame.
-    fn of<const N: usize>(&self, x: &(impl Poses<N> + ?Sized)) -> [f64; N] {
-        match *self {
-            Self::Fixed(radius) => [radius.now; N],
-            Self::Measured { between, factor, offset } => {
-                let [p, q] = between.map(|p| x.get(p));
-                std::array::from_fn(|l| factor * p.at(l).distance(q.at(l)) + offset)
-            }
-        }
-    }
-}
-
 /// Whether a bar is among what drives a frame.
 fn changes_lengths(inputs: &Inputs) -> bool {
     inputs.constraints().iter().any(|(_, before)| matches!(before, Constraint::Length(_)))
 }
 
 /// Where a constraint says that its point is.
-fn place(constraint: &Constraint) -> Point {
+pub(super) fn place(constraint: &Constraint) -> Point {
     match constraint {
         Constraint::Coordinate(coordinate) => coordinate.target,
         _ => Point::new(f64::NAN, f64::NAN),

@@ -405,6 +405,19 @@ impl Island {
         self.wanted = Some(self.wanted());
     }
 
+    /// The same while some lengths change from frame to frame: these do not count.
+    pub fn prepare_without(&mut self, is_left_out: impl Fn(usize) -> bool) {
+        let all = self.constraints.iter().enumerate();
+        let lengths = all.filter(|(c, _)| !is_left_out(*c)).map(|(_, it)| it.nominal_length());
+        self.wanted = Some(lengths.fold(0.0, f64::max));
+    }
+
+    /// And after that: all count again.
+    pub fn prepare_anew(&mut self) {
+        self.wanted = None;
+        self.prepare();
+    }
+
     /// The least and the greatest coordinates of its points.
     fn corners(&self) -> (Point, Point) {
         corners(self.x.iter().copied())

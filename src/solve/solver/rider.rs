@@ -54,8 +54,8 @@ pub(super) struct Rider {
     pub form: Box<ClosedForm>,
     /// What its size is at least.
     least_size: f64,
-    /// How many motors turn in it.
-    pub n_turning: usize,
+    /// How many motors turn in it, and how many of its constraints follow time.
+    pub n_driving: [usize; 2],
     /// What the last frame came to.
     found: Found,
     /// Its next frames, once many pass.
@@ -69,7 +69,7 @@ pub(super) struct Rider {
 }
 
 impl Rider {
-    /// Makes an island ready, if nothing but motors drives it; gives it back otherwise.
+    /// Makes an island ready, if nothing but motors and time drives it; gives it back otherwise.
     pub fn mount(
         k: u32,
         mut island: Box<Island>,
@@ -81,9 +81,18 @@ impl Rider {
         }
         let Some(mut form) = island.take_closed_form() else { return Err(island) };
         let there = |c: usize| world.constraint(island.ids[c]).map(|record| &record.constraint);
-        match form.begin(&island.x, &island.constraints, there, dt) {
-            Some(n_turning) if n_turning > 0 => {
-                island.prepare();
+        let n_turning = form.begin(&island.x, &island.constraints, there, dt);
+        let n_followed = n_turning.and_then(|n| match world.driven() {
+            [] => Some(0),
+            _ => form.follow_time(&island, world, n > 0),
+        });
+        match n_turning.zip(n_followed) {
+            Some((n_turning, n_followed)) if n_turning + n_followed > 0 => {
+                if form.n_timed_lengths() > 0 {
+                    island.prepare_without(|c| form.is_timed_length(c));
+                } else {
+                    island.prepare();
+                }
                 let traces = world.traces().iter();
                 let traced = traces
                     .filter_map(|trace| island.local_point(trace.point).map(|p| (p, trace.point)));
@@ -94,7 +103,7 @@ impl Rider {
                     least_size: island.least_size(),
                     island,
                     form,
-                    n_turning,
+                    n_driving: [n_turning, n_followed],
                     found,
                     lanes,
                     traced,
@@ -161,7 +170,7 @@ impl Rider {
     /// Goes through so many blocks of frames, or as far as all frames of each count; gives how many it was.
     pub fn ride(&mut self, n: u64, course: &Course, known: &Stretch) -> u64 {
         let mut lanes = self.take_lanes();
-        lanes.set_out(&self.form, &self.island);
+        lanes.set_out(&mut self.form, &self.island);
         (self.ridden, self.noted) = ((0, false), *known);
         let (enough, size) = (self.enough(course), self.island.size());
         while self.ridden.0 < n {
@@ -252,8 +261,13 @@ impl Rider {
     fn note_residual(&self, l: usize, lanes: &Lanes, stretch: &mut Stretch) {
         let worst = lanes.found(l).worst;
         if worst > stretch.residual * self.least_size {
-            stretch.residual = stretch.residual.max(worst / self.island.size_at(lanes.origin(l)));
+            stretch.residual = stretch.residual.max(worst / self.size_in(l, lanes));
         }
+    }
+
+    /// How large the island was where a frame began, of those that were found side by side.
+    fn size_in(&self, l: usize, lanes: &Lanes) -> f64 {
+        self.island.size_at(lanes.origin(l)).max(self.form.longest(l))
     }
 
     /// Takes in its position error, for which the island may be put to where it is then.
@@ -262,8 +276,8 @@ impl Rider {
         if !found.is_sensitive() {
             return;
         }
+        let size = self.size_in(l, lanes);
         let Self { island, form, .. } = self;
-        let size = island.size_at(lanes.origin(l));
         let doubt = course.doubt(size, stretch);
         let error = doubt.roughly(found.worst, found.least_side(), size).unwrap_or_else(|| {
             lanes.show(l, form, island);
@@ -317,12 +331,16 @@ impl Rider {
 
     /// Gives back the island after so many frames, and tells the world where it is.
     pub fn dismount(self, n_frames: u64, world: &mut World) -> Box<Island> {
-        let Self { mut island, form, found, .. } = self;
+        let Self { mut island, mut form, found, .. } = self;
+        if form.n_timed_lengths() > 0 {
+            island.prepare_anew();
+        }
         if n_frames > 0 {
             island.end_stretch(found.worst, form.n_constraints());
             write_back(&island, world);
             form.hand_over(&island.constraints, &island.ids, world);
         }
+        form.end_schedule();
         island.closed_form = Compiled::List(form);
         island
     }

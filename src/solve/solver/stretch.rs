@@ -1,7 +1,7 @@
-//! Many frames at once, where nothing but motors drives the scene and each pose has a closed form.
+//! Many frames at once, where nothing but motors and time drives the scene and each pose has a closed form.
 //!
-//! The first is found by itself, and so is one that those side by side came to and could not vouch for;
-//! the others are found [side by side](Lanes), and looked at one after the other only where something is
+//! The first is found by itself, and so is one that those side by side came to and could not vouch for (where
+//! something follows time that is left to who asks for frames one by one); the others are found [side by side](Lanes), and looked at one after the other only where something is
 //! kept of each.
 
 use super::Solver;
@@ -13,7 +13,7 @@ use crate::solve::parallel::{ISLANDS, map_reduce, n_cores};
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
 use crate::solve::velocity;
-use crate::world::{ConstraintId, Extremes, Measuring, Rates, World};
+use crate::world::{Extremes, Measuring, Rates, World};
 
 /// How far a stretch goes, and what is kept on the way.
 pub struct Along<'a> {
@@ -89,8 +89,8 @@ impl Leg {
 }
 
 impl Solver {
-    /// Lets frames pass as long as each goes as most do: motors turn, and the closed
-    /// forms of what they drive give the pose. Ends before the first that does not, and where
+    /// Lets frames pass as long as each goes as most do: motors turn, values follow time, and the closed
+    /// forms of what these drive give the pose. Ends before the first that does not, and where
     /// `goes_on` says no. What comes out is what frame by frame would.
     ///
     /// # Errors
@@ -120,24 +120,30 @@ impl Solver {
         let mut failure = None;
         let tolerance = budget.tolerance_of(settings);
         let course = Course { dt, tolerance, promised: budget.tolerance };
-        let mut is_side_by_side = false;
+        let follows_time = !world.driven().is_empty();
+        let are_for_lanes = |riders: &[Rider]| riders.iter().all(|it| it.form.is_for_lanes());
+        let mut is_side_by_side = follows_time && are_for_lanes(&riders);
         let mut leg = Leg::new(&riders);
+        let mut n_abreast = 0;
         while stretch.n_frames < on.n && failure.is_none() {
             let before = stretch.n_frames;
             let n_blocks = (on.n - before) / WIDE as u64;
             if is_side_by_side && n_blocks > 0 && !kept.is_traced && leg.is_on(n_blocks) {
-                stretch.n_frames += WIDE as u64 * leg.ride(&course, &mut riders, &mut stretch);
+                let n = WIDE as u64 * leg.ride(&course, &mut riders, &mut stretch);
+                stretch.n_frames += n;
+                n_abreast += n;
             } else if is_side_by_side && n_blocks > 0 {
                 let n = course.find_side_by_side(&mut riders);
                 failure = course.accept(n, &mut riders, &mut stretch, world, kept, on).err();
+                n_abreast += stretch.n_frames - before;
                 is_side_by_side = n == WIDE;
-            } else if course.frame(&mut riders, &mut stretch) {
+            } else if !follows_time && course.frame(&mut riders, &mut stretch) {
                 stretch.n_frames += 1;
                 if kept.is_traced {
                     riders.iter().for_each(|rider| rider.write_back(world, kept));
                     failure = keep(&mut riders, None, world, kept, on).err();
                 }
-                is_side_by_side = riders.iter().all(|rider| rider.form.is_for_lanes());
+                is_side_by_side = are_for_lanes(&riders);
             } else {
                 break;
             }
@@ -151,6 +157,7 @@ impl Solver {
             world.pass(if kept.is_traced { 0 } else { stretch.n_frames });
         }
         self.counts.closed += stretch.n_frames * riders.len() as u64;
+        self.counts.abreast += n_abreast * riders.len() as u64;
         for rider in riders {
             let k = rider.k;
             self.partition.give_back(k, rider.dismount(stretch.n_frames, world));
@@ -158,21 +165,22 @@ impl Solver {
         failure.map_or(Ok(stretch), Err)
     }
 
-    /// All islands that are awake, if each is at rest but for motors, and these are all that turn;
-    /// else none.
+    /// All islands that are awake, if each is at rest but for motors and what follows time, and these are
+    /// all that drives the scene; else none.
     fn riders(&mut self, world: &mut World, dt: f64) -> Vec<Rider> {
         let mut riders = Vec::with_capacity(self.awake.len());
-        let Some(n_motors) = world.motors_alone().map(<[ConstraintId]>::len) else {
+        if !world.is_known_ahead() {
             return riders;
-        };
-        let mut n_turning = 0;
+        }
+        let n_drivers = [world.motors().len(), world.driven().len()];
+        let mut n_driving = [0; 2];
         let Self { awake, partition, notes, .. } = self;
         for &k in awake.iter() {
             let Some(island) = partition.lend(k) else { break };
             notes.note_visit(&island, world);
             match Rider::mount(k, island, world, dt) {
                 Ok(rider) => {
-                    n_turning += rider.n_turning;
+                    n_driving = std::array::from_fn(|k| n_driving[k] + rider.n_driving[k]);
                     riders.push(rider);
                 }
                 Err(island) => {
@@ -181,7 +189,7 @@ impl Solver {
                 }
             }
         }
-        if riders.len() != awake.len() || n_turning != n_motors {
+        if riders.len() != awake.len() || n_driving != n_drivers {
             for rider in riders.drain(..) {
                 partition.give_back(rider.k, rider.dismount(0, world));
             }
@@ -214,12 +222,12 @@ fn measure(
     let mut rates = |world: &mut World| {
         let still = || vec![Vector::ZERO; world.points().column().len()];
         let mut rates = Rates { velocity: still(), acceleration: still() };
+        let fields = velocity::field_rates(world, &rates)?;
         for rider in riders.iter_mut() {
             if let Some(l) = lane {
                 rider.show(l);
             }
-            // Nothing but motors changes in time.
-            velocity::add_rates(&mut rider.island, &[], &mut rates);
+            velocity::add_rates(&mut rider.island, &fields, &mut rates);
         }
         Ok(rates)
     };

@@ -93,6 +93,103 @@ fn what_is_measured_makes_no_difference() {
     let measures = "trace B; measure swing = angle(A, B); measure rise = velocity(C).y";
     check_same("measured", &format!("{}\n{measures}", scene("w1-four-bar")), 100);
     check_same("measured", &format!("{CARRIED}\ntrace Q; measure rise = velocity(Q).y"), 50);
+    let measures =
+        "trace Q; measure rise = velocity(Q).y; measure turned = phi; measure far = P.x + r";
+    check_same("measured", &format!("{}\n{measures}", timed("polar(r, phi)")), 90);
+}
+
+/// What a point may be put to by time: all kinds of expressions, with parameters and without.
+const TIMED: [&str; 16] = [
+    "polar(2, 60deg * sin(time * 1rev))",
+    "(1 + time, -time)",
+    "(r, phi / 3) + polar(r / 9, 2 * phi)",
+    "rotate((1, 0.5), phi - 90deg * cos(phi))",
+    "(triangle(time), mod(time, 0.3))",
+    "(abs(time - 0.5), sign(time - 0.4))",
+    "(sqrt(1 + time), ln(2 + time) + exp(-time))",
+    "(atan2(sin(phi), 2 + cos(phi)), hypot(time, 1))",
+    "(min(time, 0.3, r), max(0.5 - time, 0.1))",
+    "(clamp(time, 0.2, 0.5), clamp(time, 0.1, 0.9))",
+    "(floor(8 * time) / 8, round(time * 9) / 9 + ceil(time) / 2)",
+    "(time ^ 2, (1 + time) ^ time)",
+    "midpoint((time, 0), polar(1, phi)) + norm((time, r)) * (0.1, 0)",
+    "(dot((time, 1), (r, phi)) / 9, cross((time, 1), (1, phi)) / 9)",
+    "(tan(time), asin(time / 2) + acos(time / 2) * atan(time))",
+    "(distance((time, 0), (0, 1)), angle((0, 0), (1, time)))",
+];
+
+/// A point that time puts somewhere carries a dyad; beside it a crank goes round.
+fn timed(expression: &str) -> String {
+    format!(
+        "set dt 1/90
+         let phi = time * 1rev; let r = 1.5 + sin(phi + 0.1); let k = 0.25
+         point O = (0, 0) frozen, P = O + {expression}, Q = (4, 3), R = (6, 0) frozen
+         point S = (5, 5), X = (9, 0) frozen, Y = (8, 0)
+         coordinate P at O + {expression}
+         length P Q = 5; length Q R = 4.5
+         length Q S = r / 9 + 2; length R S = 4 + k
+         motor X Y speed 0.7rev"
+    )
+}
+
+/// How many of the last frames of a scene were found side by side.
+#[track_caller]
+fn n_abreast(scene: &str, n: u32) -> u64 {
+    let mut talking = Talking::after(&format!("{scene}\nstep"));
+    let before = talking.session.frame_counts().abreast;
+    talking.run(&format!("step {n}"));
+    talking.session.frame_counts().abreast - before
+}
+
+#[test]
+fn what_follows_time_is_found_side_by_side() {
+    for expression in TIMED {
+        // The crank's mechanism is one more island.
+        let n = n_abreast(&timed(expression), 80);
+        assert!(n >= 2 * 72, "{expression}: {n}");
+    }
+    let angles = ANGLES.replace("VALUE", "30deg * sin(time * 1rev)");
+    for scene in [&*angles, &timed_bars(), &scene("w3-peaucellier")] {
+        let n = n_abreast(&format!("{scene}\nset dt 1/360"), 80);
+        assert!(n >= 72, "{scene}: {n}");
+    }
+}
+
+#[test]
+fn what_follows_time_makes_no_difference() {
+    for expression in TIMED {
+        check_same(expression, &timed(expression), 100);
+    }
+}
+
+#[test]
+fn what_follows_time_and_stands_still_now_and_then_sleeps() {
+    // Nothing else moves the points, so that they fall asleep and wake up again.
+    for expression in ["(max(0.2, min(time, 0.5)), 0)", "(floor(20 * time) / 99, 0)"] {
+        let scene = timed(expression).replace("motor X Y speed 0.7rev", "");
+        check_same(expression, &scene, 100);
+    }
+}
+
+#[test]
+fn what_follows_time_ends_frames_where_it_has_no_value() {
+    for (expression, frame) in [
+        ("(sqrt(0.5 - time), 0)", 46),
+        ("(1 / (0.5 - time) / 1000, 0)", 45),
+        ("(1e58 * (1 + 10000 * time) * k - 1e58 * k, 0)", 4),
+        ("(clamp(time, 0, 0.5 - time), 0)", 46),
+    ] {
+        let scene = timed(expression);
+        let scene = format!("{scene}\nstep");
+        let mut all = ["step 99", "for i in 1..99 { step }"].map(|run| {
+            let mut talking = Talking::after(&scene);
+            let problem = talking.execute(run).unwrap_err();
+            (talking.drawn(&problem), talking.script())
+        });
+        let told = std::mem::take(&mut all[0].0);
+        assert!(told.contains(&format!("at frame {frame}")), "{expression}: {told}");
+        assert_eq!(all[0].1, all[1].1, "{expression}");
+    }
 }
 
 #[test]
@@ -264,6 +361,23 @@ const ACTUATORS: &str = "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0),
     orientation A D, B F = 70deg
     point G = (1, 9)
     length F G = swell";
+
+/// The same where all follow time, and no link at an angle changes.
+fn timed_bars() -> String {
+    ACTUATORS.replace("crank.angle / 100rev", "time / 100").replace("swell / 2", "1.5")
+}
+
+#[test]
+fn bars_that_follow_time_make_no_difference() {
+    for dt in ["1/360", "1/48", "1/13"] {
+        check_same(dt, &format!("{}\nset dt {dt}", timed_bars()), 100);
+    }
+    // Long bars count for how large all is, and with it for what is near enough.
+    let tall = "point T = (0, 0) frozen, U = (4, 4) frozen, V = (5, 3)
+        length T V = 5 + 2 * sin(time * 1rev); length U V = 3.5 + sin(time * 1.3rev) / 4
+        measure m = V.x; trace V";
+    check_same("tall", &format!("{tall}\nset dt 1/90"), 100);
+}
 
 #[test]
 fn bars_whose_lengths_change_are_steps() {

@@ -1,0 +1,270 @@
+//! Values of an island that follow time alone, for the frames of all lanes.
+
+use super::abreast::{Abreast, WIDE};
+use super::direction::angle;
+use super::length::bar;
+use super::run::place;
+use super::{ClosedForm, Step};
+use crate::constraint::{
+    Constraint, ConstraintKind as _, Field, LARGEST, Point, PointIdx, Register, sines_and_cosines,
+};
+use crate::solve::island::Island;
+use crate::world::{Clock, ConstraintId, Timetable, World};
+
+/// The values that drive an island, and the frames for which they are known.
+pub(super) struct Schedule {
+    table: Timetable<WIDE>,
+    /// The instant after which the frames come that are to be found next.
+    clock: Clock,
+    constraints: Vec<Scheduled>,
+    /// How many of them are lengths.
+    n_lengths: usize,
+    /// Whether a motor turns, so that something moves in each frame.
+    is_turned: bool,
+    /// Where it set out: the instant, and the constraints then.
+    start: (Clock, Vec<Constraint>),
+}
+
+/// A constraint whose values follow time.
+struct Scheduled {
+    /// Its number in the island.
+    c: usize,
+    /// As it is after the last frame that was looked at.
+    now: Constraint,
+    /// Its values, and where they are in the table.
+    values: Vec<(Field, Register)>,
+    /// Which of the numbers that drive frames are its own, or which of the lengths that follow time it is.
+    drive: usize,
+    step: Driven,
+}
+
+/// What a constraint says to its step.
+enum Driven {
+    /// Where this point is.
+    Place(PointIdx),
+    /// At which angle a link is, how long it is, less than nothing where it is named from its end, and
+    /// in which sense the angle turns it.
+    Angle { link: f64, sense: f64 },
+    /// How long a bar is.
+    Length,
+}
+
+impl Driven {
+    /// What the constraint of number `c` drives alone, and by which numbers.
+    fn by(steps: &[Step], c: u32) -> Option<(usize, Self)> {
+        steps.iter().find_map(|step| match step {
+            Step::Place { to, constraint, drive } if *constraint == c => {
+                Some((*drive as usize, Self::Place(*to)))
+            }
+            Step::Direction(link) if link.constraint == c => {
+                let [length, sense] = link.factors();
+                Some((link.drive as usize, Self::Angle { link: length, sense }))
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Whether a link at an angle to another is as long as the bar of number `c` says: where its end is then
+/// follows from two values.
+fn is_of_link(steps: &[Step], c: u32) -> bool {
+    steps.iter().any(|step| matches!(step, Step::Direction(link) if link.bar() == Some(c)))
+}
+
+impl Schedule {
+    /// The schedule of an island in a world that is known ahead; none if some value that follows time
+    /// is not asked for by a step.
+    pub fn new(form: &ClosedForm, island: &Island, world: &World, is_turned: bool) -> Option<Self> {
+        let driven = world.driven();
+        let numbers =
+            (0..island.ids.len()).filter(|&c| driven.binary_search(&island.ids[c]).is_ok());
+        let numbers: Vec<usize> = numbers.collect();
+        let table = world.timetable(numbers.iter().map(|&c| island.ids[c]));
+        let mut n_lengths = 0;
+        let mut length = |c: u32| {
+            let is_followed = bar(&island.constraints[c as usize]).is_some()
+                && form.takes(c)
+                && !is_of_link(&form.steps, c);
+            n_lengths += usize::from(is_followed);
+            is_followed.then(|| (n_lengths - 1, Driven::Length))
+        };
+        let constraint = |&c: &usize| {
+            let driven = Driven::by(&form.steps, c as u32);
+            let (drive, step) = driven.or_else(|| length(c as u32))?;
+            let own = table.values().iter().filter(|value| value.constraint == island.ids[c]);
+            let values = own.map(|value| (value.field, value.register)).collect();
+            Some(Scheduled { c, now: island.constraints[c].clone(), values, drive, step })
+        };
+        let constraints = numbers.iter().map(constraint).collect::<Option<Vec<_>>>()?;
+        let clock = *world.clock();
+        let start = (clock, Vec::new());
+        Some(Self { table, clock, constraints, n_lengths, is_turned, start })
+    }
+
+    /// How many lengths are among them.
+    pub fn n_lengths(&self) -> usize {
+        self.n_lengths
+    }
+
+    /// The numbers of these lengths in the island, and among those that follow time.
+    pub fn lengths(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
+        lengths.map(|it| (it.c as u32, it.drive as u32))
+    }
+
+    /// The longest of them in a frame.
+    pub fn longest(&self, l: usize) -> f64 {
+        let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
+        let values = lengths.flat_map(|it| &it.values).map(|(_, at)| self.table.get(*at)[l]);
+        values.fold(0.0, f64::max)
+    }
+
+    /// How many constraints it has.
+    pub fn n_constraints(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// Goes on by all lanes; gives how many of their frames may be found so. `at` is where a point is
+    /// before the first.
+    #[inline(always)]
+    pub fn turn_on(
+        &mut self,
+        at: impl Fn(PointIdx) -> Point,
+        abreast: &mut Abreast<WIDE>,
+    ) -> usize {
+        self.table.evaluate(&self.clock);
+        self.clock.frame += WIDE as u64;
+        let mut n_known = self.table.first_failure();
+        let mut moves = [self.is_turned; WIDE];
+        for constraint in &mut self.constraints {
+            n_known = n_known.min(constraint.turn_on(&self.table, &at, abreast, &mut moves));
+        }
+        // Where nothing moves an island, it goes to sleep.
+        n_known.min(moves.iter().position(|moves| !moves).unwrap_or(WIDE))
+    }
+
+    /// The last `n` frames do not count: the constraints are those after the others.
+    pub fn take_back(&mut self, n: usize, constraints: &[Constraint]) {
+        self.clock.frame -= n as u64;
+        self.constraints.iter_mut().for_each(|it| it.now.clone_from(&constraints[it.c]));
+    }
+
+    /// Gives constraints the values that they have in a frame.
+    pub fn show(&self, l: usize, constraints: &mut [Constraint]) {
+        for constraint in &self.constraints {
+            constraint.give(l, &self.table, &mut constraints[constraint.c]);
+        }
+    }
+
+    /// The same to those of a world, which have these handles.
+    pub fn hand_over(&self, l: usize, ids: &[ConstraintId], world: &mut World) {
+        for constraint in &self.constraints {
+            let there = world.constraint_state_mut(ids[constraint.c]);
+            constraint.give(l, &self.table, there);
+        }
+    }
+
+    /// Tells those of a world, which have these handles, the values that these have.
+    pub fn tell(&self, constraints: &[Constraint], ids: &[ConstraintId], world: &mut World) {
+        for constraint in &self.constraints {
+            let there = world.constraint_state_mut(ids[constraint.c]);
+            for &(field, _) in &constraint.values {
+                if let Some(value) = constraints[constraint.c].get(field) {
+                    there.set(field, value);
+                }
+            }
+        }
+    }
+
+    /// Sets out from where an island is.
+    pub fn set_out(&mut self, constraints: &[Constraint]) {
+        let own = self.constraints.iter().map(|it| constraints[it.c].clone());
+        self.start = (self.clock, own.collect());
+    }
+
+    /// Goes back to where it set out.
+    pub fn go_back(&mut self, constraints: &mut [Constraint]) {
+        let (clock, start) = &self.start;
+        self.clock = *clock;
+        for (own, start) in self.constraints.iter_mut().zip(start) {
+            own.now.clone_from(start);
+            constraints[own.c].clone_from(start);
+        }
+    }
+}
+
+impl Scheduled {
+    /// Takes in what its values are in each lane; gives how many of them, from the first on, it may have,
+    /// and tells in which it changes.
+    #[inline(always)]
+    fn turn_on(
+        &mut self,
+        table: &Timetable<WIDE>,
+        at: &impl Fn(PointIdx) -> Point,
+        abreast: &mut Abreast<WIDE>,
+        moves: &mut [bool; WIDE],
+    ) -> usize {
+        let mut n_known = WIDE;
+        let mut go_to = |l: usize, now: &mut Constraint| {
+            let mut is_sound = true;
+            let mut has_changed = false;
+            for &(field, register) in &self.values {
+                let value = table.get(register)[l];
+                is_sound &= value.abs() <= LARGEST;
+                has_changed |= now.get(field) != Some(value);
+                now.set(field, value);
+            }
+            if !(is_sound && now.traits().flaw.is_none()) {
+                n_known = n_known.min(l);
+            }
+            moves[l] |= has_changed;
+            has_changed
+        };
+        match self.step {
+            Driven::Place(to) => {
+                let turned = &mut abreast.turned[self.drive];
+                let mut before = at(to);
+                for l in 0..WIDE {
+                    let is_moved = go_to(l, &mut self.now);
+                    let place = place(&self.now);
+                    let way = if is_moved { place.distance(before) } else { 0.0 };
+                    turned.set(l, place.to_vector(), way);
+                    before = place;
+                }
+            }
+            Driven::Angle { link, sense } => {
+                let turned = &mut abreast.turned[self.drive];
+                let mut angles = [0.0; WIDE];
+                let mut before = angle(&self.now);
+                for l in 0..WIDE {
+                    go_to(l, &mut self.now);
+                    let now = angle(&self.now);
+                    angles[l] = sense * now;
+                    turned.way[l] = (now - before).abs() * link.abs();
+                    before = now;
+                }
+                let [sines, cosines] = sines_and_cosines(&angles);
+                [turned.x, turned.y] = [cosines, sines].map(|parts| parts.map(|part| link * part));
+            }
+            Driven::Length => {
+                let length = |now: &Constraint| bar(now).map_or(f64::NAN, |(_, length)| length);
+                let timed = &mut abreast.lengths[self.drive];
+                let mut before = length(&self.now);
+                for l in 0..WIDE {
+                    go_to(l, &mut self.now);
+                    let now = length(&self.now);
+                    (timed.now[l], timed.changed[l]) = (now, (now - before).abs());
+                    before = now;
+                }
+            }
+        }
+        n_known
+    }
+
+    /// Gives a constraint the values that this one has in a frame.
+    fn give(&self, l: usize, table: &Timetable<WIDE>, to: &mut Constraint) {
+        for &(field, register) in &self.values {
+            to.set(field, table.get(register)[l]);
+        }
+    }
+}
