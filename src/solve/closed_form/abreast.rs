@@ -11,8 +11,9 @@ use crate::constraint::{Point, PointIdx, Vector};
 /// How many frames pass side by side, where they do.
 pub(crate) const WIDE: usize = 8;
 
-/// Where a point is in each frame.
+/// Where a point is in each frame. What is aligned is read and written whole.
 #[derive(Clone, Copy)]
+#[repr(align(64))]
 pub(super) struct Places<const N: usize> {
     pub x: [f64; N],
     pub y: [f64; N],
@@ -71,6 +72,7 @@ impl<const N: usize> Poses<N> for [Places<N>] {
 
 /// Where a crank points in each frame, or a place is.
 #[derive(Clone, Copy)]
+#[repr(align(64))]
 pub(super) struct Turned<const N: usize> {
     /// Where its end is, from the centre; or where the place is.
     pub x: [f64; N],
@@ -252,9 +254,8 @@ pub(super) trait Meeting<const K: usize> {
         for l in 0..N {
             gauges[l] = self.gauge(places.each_ref().map(|p| p.at(l)));
         }
-        let mut before = [*self.last(); N];
-        before[1..].copy_from_slice(&gauges[..N - 1]);
-        *self.last() = gauges[N - 1];
+        let last = std::mem::replace(self.last(), gauges[N - 1]);
+        let before: [f64; N] = std::array::from_fn(|l| if l == 0 { last } else { gauges[l - 1] });
         let turned = self.drive().map_or(Turned::NOT, |k| abreast.turned[k as usize]);
         let (mut at, mut way) = (Places::all(Point::ORIGIN), [0.0; N]);
         for l in 0..N {

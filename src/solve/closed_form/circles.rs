@@ -1,7 +1,7 @@
 //! Where two circles around known points meet.
 
 use super::abreast::{Meeting, Met};
-use super::found::larger;
+use super::found::{larger, over_sine};
 use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
@@ -35,11 +35,11 @@ pub(super) struct Numbers {
     clear: [f64; 2],
     /// Their squares.
     clear_squares: [f64; 2],
-    /// Twice the product of the radii, at most: [`area_squared`] over its square is at least that of the
-    /// sine of the angle between them.
-    scale: f64,
-    /// One over the square of that at the end.
+    /// One over the square of twice the product of the radii at the end: [`area_squared`] times that is the
+    /// square of the sine of the angle between them.
     inverse_square: f64,
+    /// The same on the way, at least.
+    least_inverse_square: f64,
     /// [`area_squared`] below which the pose is nearly singular.
     least: f64,
     /// How far the radii changed.
@@ -60,8 +60,8 @@ impl Numbers {
             reach_squares: reach.map(|r| r * r),
             clear,
             clear_squares: clear.map(|r| r * r),
-            scale: longest,
             inverse_square: 1.0 / (scale * scale),
+            least_inverse_square: 1.0 / (longest * longest),
             least: (NEARLY_SINGULAR * longest) * (NEARLY_SINGULAR * longest),
             changed,
         }
@@ -178,7 +178,7 @@ impl Meeting<2> for Circles {
         Met {
             at,
             // Its velocity is that of the centres and radii over the sine, at most.
-            way: (way + of.changed) * of.scale / least.sqrt(),
+            way: (way + of.changed) * over_sine(least * of.least_inverse_square),
             off: if is_proved { off } else { f64::NAN },
             side_squared: squared * of.inverse_square,
         }

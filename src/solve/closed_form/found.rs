@@ -34,9 +34,28 @@ pub(super) fn larger(worst: f64, off: f64) -> f64 {
     if (worst >= off) | worst.is_nan() { worst } else { off }
 }
 
+/// One over the sine of an angle whose square is that, or a little more; infinite where it may be 0. Numbers
+/// of half the length do for how far something went at most, and take half the time.
+#[inline(always)]
+pub(super) fn over_sine(sine_squared: f64) -> f64 {
+    const MORE: f64 = 1.0 + 1e-6;
+    MORE * f64::from(1.0 / (sine_squared as f32).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_over_a_sine_is_no_less_than_that() {
+        for k in 1..=100_000 {
+            let sine = f64::from(k) / 100_000.0;
+            let over = over_sine(sine * sine) * sine;
+            assert!((1.0..1.0 + 2e-6).contains(&over), "{sine}: {over}");
+        }
+        assert_eq!(over_sine(0.0), f64::INFINITY);
+        assert!(over_sine(-1e-9).is_nan() && over_sine(f64::NAN).is_nan());
+    }
 
     #[test]
     fn what_is_not_a_number_meets_nothing() {

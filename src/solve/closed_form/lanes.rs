@@ -65,14 +65,31 @@ impl Lanes {
             self.places.extend(island.x.iter().map(|&at| Places::all(at)));
         }
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // Vectors of four numbers instead of two. The bits are the same: what is fused is so where
+        if is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("fma")
+        {
+            // Vectors of all eight numbers. The bits are the same as with others: what is fused is so where
             // it says so, and then it is on all machines.
+            #[allow(unsafe_code)]
+            // SAFETY: the instructions exist, as was just asked.
+            return unsafe { self.run_avx512(form, &mut island.constraints, dt) };
+        }
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // Vectors of four numbers instead of two.
             #[allow(unsafe_code)]
             // SAFETY: the instructions exist, as was just asked.
             return unsafe { self.run_avx2(form, &mut island.constraints, dt) };
         }
         self.run(form, &mut island.constraints, dt);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,fma")]
+    fn run_avx512(&mut self, form: &mut ClosedForm, constraints: &mut [Constraint], dt: f64) {
+        self.run(form, constraints, dt);
     }
 
     #[cfg(target_arch = "x86_64")]

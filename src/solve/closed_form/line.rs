@@ -1,7 +1,7 @@
 //! Where a circle around a known point meets a line that stands still.
 
 use super::abreast::{Meeting, Met};
-use super::found::larger;
+use super::found::{larger, over_sine};
 use super::length::{Length, Values};
 use crate::constraint::{Point, PointIdx, Vector};
 use crate::solve::frame::branch::NEARLY_SINGULAR;
@@ -34,6 +34,8 @@ pub(super) struct Numbers {
     /// The squares of what it was at least and at most on its way.
     least_square: f64,
     most_square: f64,
+    /// One over the last.
+    over_most_square: f64,
     /// How far it changed.
     changed: f64,
 }
@@ -42,11 +44,13 @@ impl Numbers {
     #[inline(always)]
     fn new(Length { now, changed, .. }: Length) -> Self {
         let least = if now > changed { now - changed } else { 0.0 };
+        let most_square = (now + changed) * (now + changed);
         Self {
             square: now * now,
             half_inverse: 0.5 / now,
             least_square: least * least,
-            most_square: (now + changed) * (now + changed),
+            most_square,
+            over_most_square: 1.0 / most_square,
             changed,
         }
     }
@@ -157,7 +161,7 @@ impl Meeting<3> for CircleLine {
         Met {
             at,
             // Its velocity is that of centre and radius over the cosine of the angle of the bar, at most.
-            way: (way + of.changed) * (of.most_square / least).sqrt(),
+            way: (way + of.changed) * over_sine(least * of.over_most_square),
             off: if is_proved { off } else { f64::NAN },
             side_squared: squared / of.square,
         }
