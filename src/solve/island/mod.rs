@@ -6,6 +6,7 @@ pub mod fingerprint;
 pub mod history;
 pub mod inputs;
 pub mod known_sides;
+pub mod member;
 pub mod memory;
 mod packed;
 pub mod partition;
@@ -15,7 +16,6 @@ pub mod snapshot;
 pub mod structure;
 pub mod workspaces;
 
-use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use super::closed_form::Compiled;
@@ -30,6 +30,7 @@ use crate::world::{ConstraintId, PointId, Record};
 use before::Before;
 use history::History;
 use inputs::Inputs;
+use member::Member;
 use snapshot::Snapshot;
 use structure::Structure;
 
@@ -115,45 +116,6 @@ pub(crate) struct Island {
     still: OnceLock<u64>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
-}
-
-/// A constraint on its way into an island.
-pub(crate) struct Member<'a> {
-    /// Its handle.
-    pub id: ConstraintId,
-    /// The constraint, over handles of points.
-    pub constraint: &'a Constraint,
-    /// Its own coefficient.
-    pub rho: Option<f64>,
-    /// Whether its values change with time or with other values.
-    pub is_live: bool,
-}
-
-impl<'a> Member<'a> {
-    /// A constraint of the world, by its handle.
-    pub fn new(id: ConstraintId, record: &'a Record) -> Self {
-        let is_live = !record.drivers().is_empty();
-        Self { id, constraint: &record.constraint, rho: record.rho(), is_live }
-    }
-
-    /// What tells it from another one of its kind on the same points for good; nothing where that
-    /// changes by itself.
-    fn rank(&self) -> Vec<u64> {
-        let mut rank = vec![self.rho.map_or(0, f64::to_bits)];
-        if !self.is_live && self.constraint.traits().carried == Carried::Nothing {
-            self.constraint.content(&mut |word| rank.push(word));
-        }
-        rank
-    }
-
-    fn order(&self, other: &Self) -> Ordering {
-        let (one, two) = (self.constraint, other.constraint);
-        let kinds = one.kind().cmp(&two.kind());
-        kinds
-            .then_with(|| one.points().cmp(two.points()))
-            .then_with(|| self.rank().cmp(&other.rank()))
-            .then_with(|| self.id.cmp(&other.id))
-    }
 }
 
 /// The evaluations of a constraint that a first visit is expected to make.

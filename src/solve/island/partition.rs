@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use super::{Island, Member};
+use super::Island;
+use super::member::Member;
 use crate::constraint::ConstraintKind;
 use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
-use crate::solve::parallel::Effort;
 use crate::world::marks::Marks;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
@@ -66,16 +66,6 @@ impl Partition {
     /// The same, for a change.
     pub fn get_mut(&mut self, k: u32) -> Option<&mut Island> {
         self.islands.get_mut(k as usize)?.as_deref_mut()
-    }
-
-    /// What visiting these islands was last time.
-    pub fn effort_of(&self, islands: &[u32]) -> Effort {
-        let mut effort = Effort::default();
-        for island in islands.iter().filter_map(|&k| self.get(k)) {
-            effort.n_constraints += island.constraints.len() as u64;
-            effort.n_evaluations += u64::from(island.n_evaluations);
-        }
-        effort
     }
 
     /// Takes an island out, to be given back before anything else is asked.
