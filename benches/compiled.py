@@ -1,8 +1,8 @@
 """Many frames in one call, ours and others', beside the closed form: `python3 benches/compiled.py`.
 
 pylinkage compiles a linkage, CasADi an equation; NumPy evaluates the closed form over an array of
-frames; SciPy solves each frame from the last. The closed form in C pays for the sine and cosine of
-its crank, once with each frame waiting for the last, as frames do that go on from each other, and
+frames; SciPy solves each frame from the last (W1 and W2). The closed form in C pays for the sines and
+cosines of what drives it, once with each frame waiting for the last, as frames do that go on from each other, and
 once with frames that overlap. All take turns; times are of the processor, medians of the rounds.
 """
 
@@ -26,7 +26,14 @@ OTHERS = {
     "pylinkage 1.3.0, `step`": ("pylinkage-step", 3_600),
     "SciPy, `root` frame by frame": ("scipy-root", 720),
 }
-SCRIPTS = {"W1": "w1-four-bar", "W2": "w2-jansen"}
+SCRIPTS = {
+    "W1": "w1-four-bar",
+    "W2": "w2-jansen",
+    "W3": "w3-peaucellier",
+    "W4": "w4-crankshaft",
+}
+# Those that the others are asked for.
+COMPARED = ["W1", "W2"]
 ROUNDS = 5
 FRAMES = 1_000_000
 
@@ -69,16 +76,20 @@ for work in SCRIPTS:
         times["closed form in C, each frame waits for the last"].append(dependent)
         times["closed form in C, frames overlap"].append(overlapped)
         times["linkwork, `step n`"].append(ours(work))
-        for name, (run, n) in OTHERS.items():
+        for name, (run, n) in OTHERS.items() if work in COMPARED else ():
             used, error, *_ = answer(python, HERE / "beside" / "compiled.py", run, work, n)
             times[name].append(used)
             errors[name] = max(errors.get(name, 0.0), error)
     for name, all_rounds in times.items():
-        rows[name][work] = statistics.median(all_rounds)
+        if all_rounds:
+            rows[name][work] = statistics.median(all_rounds)
 first = rows["closed form in C, each frame waits for the last"]
 lines = []
 for name, of in rows.items():
-    cells = [f"{of[work]:.3g} ns ({of[work] / first[work]:.2f}x)" for work in SCRIPTS]
+    cells = [
+        f"{of[work]:.3g} ns ({of[work] / first[work]:.2f}x)" if work in of else ""
+        for work in SCRIPTS
+    ]
     error = errors.get(name)
     lines.append([name, *cells, "" if error is None else f"{error:.0e}"])
 print(table(["a frame", *SCRIPTS, "worst bar / size"], lines))

@@ -123,6 +123,7 @@ impl World {
     pub(super) fn compile_in_time(
         &self,
         ids: impl Iterator<Item = ConstraintId>,
+        also: impl Iterator<Item = ParameterId>,
     ) -> (Program, Vec<Formula>, Vec<TimedValue>) {
         let mut compiler = Compiler::new(self, |depends| depends.on_time, &[]);
         let mut values = Vec::new();
@@ -130,6 +131,10 @@ impl World {
             let record = self.constraint(constraint).expect("a driven constraint lives");
             let own = compiler.values(record.live()).into_iter();
             values.extend(own.map(|(field, register)| TimedValue { constraint, field, register }));
+        }
+        for parameter in also.filter_map(|id| self.parameter(id)) {
+            compiler.compile_parameters(&parameter.formula);
+            compiler.compile(&parameter.formula);
         }
         (compiler.program, compiler.inputs, values)
     }

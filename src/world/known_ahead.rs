@@ -2,15 +2,16 @@
 //! follow time alone.
 
 use super::environments::Here;
-use super::{Clock, ConstraintId, Depends, Formula, User, Value, World};
+use super::{Clock, ConstraintId, Depends, Formula, ParameterId, User, Value, World};
 use crate::constraint::{Field, Program, Register};
 
 impl World {
     /// Whether what drives the scene is known ahead. It is not where a frame measures or counts
     /// something, or is the first.
     pub fn is_known_ahead(&mut self) -> bool {
-        self.sort_parameters();
         self.sort_constraints();
+        // Those that follow points which stand still may be of where these stood before an edit.
+        self.refresh_parameters();
         let live = &self.dependencies;
         self.clock.frame > 0
             && live.ramps().is_empty()
@@ -20,8 +21,6 @@ impl World {
             && self.driven().iter().all(|&id| self.follows_time(id))
             && live.order().iter().all(|&id| {
                 self.parameter(id).is_some_and(|parameter| self.is_of_time(&parameter.formula))
-                    // What nothing follows would have to be looked at all the same: it may have no value.
-                    && live.users(id).any(|user| self.drives(user))
             })
     }
 
@@ -56,21 +55,30 @@ impl World {
         !others.is_live() && !(depends.on_points && self.follows_motion(formula))
     }
 
-    /// Whether a user of a parameter is among what drives the scene, or what that follows.
-    fn drives(&self, user: User) -> bool {
-        match user {
+    /// Whether something follows time in a scene that is known ahead.
+    pub fn has_timetable(&self) -> bool {
+        !(self.driven().is_empty() && self.dependencies.order().is_empty())
+    }
+
+    /// The parameters of such a scene that follow time and drive nothing: that one has no value ends a frame
+    /// all the same.
+    pub fn spare_parameters(&self) -> impl Iterator<Item = ParameterId> + '_ {
+        let drives = |user: User| match user {
             User::Parameter(_) => true,
             User::Constraint(id) => self.driven().binary_search(&id).is_ok(),
             User::Measure(_) => false,
-        }
+        };
+        let live = &self.dependencies;
+        live.order().iter().copied().filter(move |&id| !live.users(id).any(drives))
     }
 
-    /// The values of some of the driven constraints of a scene that is known ahead.
+    /// The values of some of the driven constraints of a scene that is known ahead, and some parameters.
     pub fn timetable<const N: usize>(
         &self,
         ids: impl Iterator<Item = ConstraintId>,
+        also: impl Iterator<Item = ParameterId>,
     ) -> Timetable<N> {
-        let (program, inputs, values) = self.compile_in_time(ids);
+        let (program, inputs, values) = self.compile_in_time(ids, also);
         let here = Here::new(self, None);
         let inputs = inputs.into_iter().map(|formula| {
             if formula.is_time() {
@@ -110,6 +118,11 @@ enum Input {
 }
 
 impl<const N: usize> Timetable<N> {
+    /// Whether there is nothing to evaluate.
+    pub fn is_empty(&self) -> bool {
+        self.program.is_empty()
+    }
+
     /// The values, constraint by constraint.
     pub fn values(&self) -> &[TimedValue] {
         &self.values

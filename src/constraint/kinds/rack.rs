@@ -99,8 +99,25 @@ impl Rack {
         self.pitch != Pitch::Height
     }
 
+    /// The direction of the rim point from its centre while everything else is at these places, radians; none
+    /// while the line has none.
+    pub fn rim_angle(&self, [o, _, p, q]: [Point; 4]) -> Option<f64> {
+        let line = q - p;
+        let s = line.dot(o - p) / line.norm();
+        let theta = (self.k - self.wound() - s) / self.radius;
+        has_direction(p, q).then(|| line.angle() + theta)
+    }
+
+    /// What is left of the equation at these places, length units; none while something has no direction.
+    pub fn value_at(&self, places: [Point; 4]) -> Option<f64> {
+        Self::arms_at(places).map(|arms| self.value(&arms))
+    }
+
     fn arms(&self, x: &[Point]) -> Option<Arms> {
-        let [o, a, p, q] = self.points.map(|p| x[p as usize]);
+        Self::arms_at(self.points.map(|p| x[p as usize]))
+    }
+
+    fn arms_at([o, a, p, q]: [Point; 4]) -> Option<Arms> {
         (has_direction(o, a) && has_direction(p, q)).then_some(Arms {
             line: q - p,
             spoke: a - o,

@@ -61,6 +61,11 @@ impl Program {
         self.operations.len() as Register - 1
     }
 
+    /// Whether it has no operations.
+    pub const fn is_empty(&self) -> bool {
+        self.operations.is_empty()
+    }
+
     /// Evaluates it; `point` and `input` are by their places. `look` gets all results.
     pub fn evaluate<T: Real, R>(
         &self,

@@ -4,8 +4,8 @@ use super::abreast::Abreast;
 use super::length::{Length, bar};
 use super::nearest::gather;
 use super::{
-    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Direction, Nearest, Radius, Ray, Step,
-    Sum, Wheel,
+    Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Crossing, Direction, Line, Nearest,
+    Radius, Ray, Step, Sum, Wheel,
 };
 use crate::constraint::{Carried, Constraint, ConstraintKind as _, Point, PointIdx};
 use crate::solve::frame::decomposition::{Block, Plan};
@@ -15,8 +15,8 @@ use crate::solve::frame::decomposition::{Block, Plan};
 pub(super) enum Locus {
     /// A circle around another point.
     Circle(PointIdx, Radius),
-    /// The line through two others; whether only the part between them.
-    Line([PointIdx; 2], bool),
+    /// A line.
+    Line(Line),
     /// The line from another through a slider; whether only the part beyond it.
     Beyond(PointIdx, PointIdx, bool),
 }
@@ -178,14 +178,14 @@ impl<'a> Compiler<'a> {
 
     /// The step that finds a point by one or two constraints.
     fn step(&mut self, to: PointIdx, which: &[u32], is_determined: bool) -> Option<Step> {
-        let all = self.given.constraints;
+        let Given { constraints: all, n_free, .. } = self.given;
         match *which {
             [c] if is_determined && all[c as usize].traits().is_linear => self.assignment(c, to),
             [one, two] if is_determined => {
                 let pair = [one, two].map(|c| (c, &all[c as usize]));
                 let mut turned = |by, bar| self.turned(to, by, &locus(bar, to)?);
                 let turned = turned(pair[0], pair[1]).or_else(|| turned(pair[1], pair[0]));
-                turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?))
+                turned.or_else(|| meeting(to, locus(pair[0], to)?, locus(pair[1], to)?, n_free))
             }
             [one] if !is_determined => match locus((one, &all[one as usize]), to)? {
                 Locus::Circle(from, radius) => {
@@ -219,8 +219,8 @@ impl<'a> Compiler<'a> {
     pub fn turned(&mut self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
         let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
         match by {
-            (c, Constraint::Cog(cog)) => {
-                let wheel = Wheel::new(to, from, length.now, (c, cog))?;
+            (_, Constraint::Cog(_) | Constraint::Rack(_)) => {
+                let wheel = Wheel::new(to, from, length.now, by)?;
                 self.form.held.extend(length.bar());
                 Some(Step::Wheel(wheel))
             }
@@ -236,19 +236,28 @@ impl<'a> Compiler<'a> {
 /// Whether a step may keep what a constraint keeps from frame to frame.
 pub(super) fn may_have_a_step(constraint: &Constraint) -> bool {
     let is_told = matches!(constraint.traits().carried, Carried::Nothing | Carried::ByClock);
-    is_told || matches!(constraint, Constraint::Cog(_) | Constraint::Orientation(_))
+    is_told
+        || matches!(
+            constraint,
+            Constraint::Cog(_) | Constraint::Rack(_) | Constraint::Orientation(_)
+        )
 }
 
-/// The step that finds a point on two loci.
-pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus) -> Option<Step> {
+/// The step that finds a point on two loci; as many points as that, the first, are free.
+pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus, n_free: usize) -> Option<Step> {
     match (one, two) {
         (Locus::Circle(a, Radius::Fixed(l)), Locus::Circle(b, Radius::Fixed(m))) => {
             (a != b).then_some(Step::Circles(Circles::new(to, [a, b], [l, m])?))
         }
-        (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line, is_bounded))
-        | (Locus::Line(line, is_bounded), Locus::Circle(from, Radius::Fixed(l))) => {
-            Some(Step::CircleLine(CircleLine::new(to, from, line, l, is_bounded)?))
+        (Locus::Circle(from, Radius::Fixed(l)), Locus::Line(line))
+        | (Locus::Line(line), Locus::Circle(from, Radius::Fixed(l))) => {
+            if line.is_fixed(n_free) {
+                Some(Step::CircleLine(CircleLine::new(to, from, line, l)?))
+            } else {
+                Some(Step::CircleMovingLine(CircleLine::new(to, from, line, l)?))
+            }
         }
+        (Locus::Line(one), Locus::Line(two)) => Some(Step::Crossing(Crossing::new(to, [one, two]))),
         (Locus::Circle(centre, Radius::Fixed(l)), Locus::Beyond(from, slider, is_bounded))
         | (Locus::Beyond(from, slider, is_bounded), Locus::Circle(centre, Radius::Fixed(l)))
             if centre == from =>
@@ -269,9 +278,19 @@ pub(super) fn locus((c, constraint): (u32, &Constraint), p: PointIdx) -> Option<
         Constraint::Glider(glider) => {
             let [slider, a, b] = glider.points;
             if slider == p {
-                return (a != p && b != p).then_some(Locus::Line([a, b], glider.bounded));
+                let line = Line::through([a, b], glider.bounded);
+                return (a != p && b != p && a != b).then_some(Locus::Line(line));
             }
             Some(Locus::Beyond(other_end([a, b], p)?, slider, glider.bounded))
+        }
+        Constraint::Distance(distance) if distance.bounds.is_equality() => {
+            let [own, a, b] = distance.points;
+            let line = Line::beside([a, b], distance.bounds.lo);
+            (own == p && a != p && b != p && a != b).then_some(Locus::Line(line))
+        }
+        Constraint::Aligned(aligned) => {
+            let from = other_end(aligned.points, p)?;
+            Some(Locus::Line(Line::parallel_to_axis(from, aligned)))
         }
         Constraint::Equal(equal) if equal.bounds.is_equality() && equal.ratio > 0.0 => {
             let [a, b, c, d] = equal.points;

@@ -52,7 +52,7 @@ use direction::Direction;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
-use line::CircleLine;
+use line::{CircleLine, Crossing, Line};
 use nearest::Nearest;
 use ray::Ray;
 use schedule::Schedule;
@@ -118,8 +118,12 @@ enum Step {
     },
     /// Where two circles meet.
     Circles(Circles),
-    /// Where a circle meets a line.
-    CircleLine(CircleLine),
+    /// Where a circle meets a line that stands still.
+    CircleLine(CircleLine<true>),
+    /// Where a circle meets a line that may move.
+    CircleMovingLine(CircleLine<false>),
+    /// Where two lines cross.
+    Crossing(Crossing),
     /// At the end of a slotted link.
     Ray(Ray),
     /// At the end of a link at an angle to another.

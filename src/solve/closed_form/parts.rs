@@ -175,12 +175,13 @@ impl Compiler<'_> {
     /// The step that finds a point of bodies of which a point is known each, by constraints and by
     /// these bodies.
     fn hang(&mut self, to: PointIdx, ready: &[u32], circles: &[Locus]) -> Option<()> {
-        let all = self.given.constraints;
+        let Given { constraints: all, n_free, .. } = self.given;
         let mut by_one = |circle: &Locus| {
             ready.iter().find_map(|&c| {
                 let constraint = &all[c as usize];
                 let turned = self.turned(to, (c, constraint), circle);
-                let step = turned.or_else(|| meeting(to, *circle, locus((c, constraint), to)?))?;
+                let step =
+                    turned.or_else(|| meeting(to, *circle, locus((c, constraint), to)?, n_free))?;
                 Some((step, Some(c)))
             })
         };
@@ -189,7 +190,9 @@ impl Compiler<'_> {
                 .iter()
                 .enumerate()
                 .flat_map(|(k, one)| circles[k + 1..].iter().map(move |other| (*one, *other)));
-            pairs.into_iter().find_map(|(one, other)| Some((meeting(to, one, other)?, None)))
+            pairs
+                .into_iter()
+                .find_map(|(one, other)| Some((meeting(to, one, other, n_free)?, None)))
         };
         let (step, by) = circles.iter().find_map(&mut by_one).or_else(by_two)?;
         self.push(step, ready.iter().copied().filter(|&c| Some(c) != by))

@@ -11,7 +11,7 @@ use crate::constraint::{
 use crate::solve::island::Island;
 use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
-use crate::world::{ConstraintId, World};
+use crate::world::{ConstraintId, ParameterId, World};
 
 impl ClosedForm {
     /// Whether it is known of the pose of now what has to be.
@@ -27,12 +27,14 @@ impl ClosedForm {
             match step {
                 Step::Circles(circles) => circles.look(x),
                 Step::CircleLine(meeting) => meeting.look(x),
+                Step::CircleMovingLine(meeting) => meeting.look(x),
                 Step::Ray(ray) => ray.look(x),
                 Step::Direction(link) => link.look(x),
                 Step::Body(body) => fits &= body.fits(x),
                 Step::Block(block) => block.look(x),
                 Step::Crank(_)
                 | Step::Place { .. }
+                | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Bar(_)
@@ -55,6 +57,7 @@ impl ClosedForm {
             match step {
                 Step::Circles(circles) => circles.drive(&values),
                 Step::CircleLine(meeting) => meeting.drive(&values),
+                Step::CircleMovingLine(meeting) => meeting.drive(&values),
                 Step::Ray(ray) => ray.drive(&values),
                 Step::Direction(link) => link.drive(&values),
                 Step::Bar(bar) => bar.drive(&values),
@@ -65,6 +68,7 @@ impl ClosedForm {
                 }
                 Step::Crank(_)
                 | Step::Place { .. }
+                | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Body(_) => {}
@@ -149,20 +153,21 @@ impl ClosedForm {
         }
     }
 
-    /// Makes ready for frames that follow motors and time, in lanes; gives how many constraints follow time,
-    /// none if some of their values are not asked for by a step.
+    /// Makes ready for frames that follow motors and time, in lanes, and in which some parameters are looked at
+    /// besides; gives how many constraints follow time, none if some of their values are not asked for by a step.
     pub fn follow_time(
         &mut self,
         island: &Island,
         world: &World,
+        also: &[ParameterId],
         is_turned: bool,
     ) -> Option<usize> {
-        let schedule = Schedule::new(self, island, world, is_turned)?;
+        let schedule = Schedule::new(self, island, world, also, is_turned)?;
         let n = schedule.n_constraints();
         for (c, k) in schedule.lengths() {
             self.lengths_mut(|length| length.set_timed(c, Some(k)));
         }
-        self.schedule = (n > 0).then(|| Box::new(schedule));
+        self.schedule = (!schedule.is_empty()).then(|| Box::new(schedule));
         Some(n)
     }
 
@@ -198,6 +203,7 @@ impl ClosedForm {
             match step {
                 Step::Circles(circles) => circles.radii_mut().iter_mut().for_each(&mut visit),
                 Step::CircleLine(meeting) => visit(meeting.radius_mut()),
+                Step::CircleMovingLine(meeting) => visit(meeting.radius_mut()),
                 Step::Ray(ray) => visit(ray.length_mut()),
                 Step::Direction(link) => visit(link.length_mut()),
                 Step::Bar(bar) => visit(bar.length_mut()),
@@ -208,6 +214,7 @@ impl ClosedForm {
                 Step::Block(_)
                 | Step::Crank(_)
                 | Step::Place { .. }
+                | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Body(_) => {}
@@ -300,6 +307,8 @@ pub(super) fn make<const N: usize>(
             Step::Crank(k) => cranks[*k as usize].run(*k, x, abreast),
             Step::Circles(circles) => circles.run(x, abreast),
             Step::CircleLine(meeting) => meeting.run(x, abreast),
+            Step::CircleMovingLine(meeting) => meeting.run(x, abreast),
+            Step::Crossing(meeting) => meeting.run(x, abreast),
             Step::Ray(ray) => ray.run(x, abreast),
             Step::Direction(link) => link.run(x, abreast),
             Step::Wheel(wheel) => wheel.run(x, constraints, abreast),

@@ -9,7 +9,7 @@ use crate::constraint::{
     Constraint, ConstraintKind as _, Field, LARGEST, Point, PointIdx, Register, sines_and_cosines,
 };
 use crate::solve::island::Island;
-use crate::world::{Clock, ConstraintId, Timetable, World};
+use crate::world::{Clock, ConstraintId, ParameterId, Timetable, World};
 
 /// The values that drive an island, and the frames for which they are known.
 pub(super) struct Schedule {
@@ -72,14 +72,20 @@ fn is_of_link(steps: &[Step], c: u32) -> bool {
 }
 
 impl Schedule {
-    /// The schedule of an island in a world that is known ahead; none if some value that follows time
+    /// The schedule of an island in a world that is known ahead, which looks at some parameters besides; none if some value that follows time
     /// is not asked for by a step.
-    pub fn new(form: &ClosedForm, island: &Island, world: &World, is_turned: bool) -> Option<Self> {
+    pub fn new(
+        form: &ClosedForm,
+        island: &Island,
+        world: &World,
+        also: &[ParameterId],
+        is_turned: bool,
+    ) -> Option<Self> {
         let driven = world.driven();
         let numbers =
             (0..island.ids.len()).filter(|&c| driven.binary_search(&island.ids[c]).is_ok());
         let numbers: Vec<usize> = numbers.collect();
-        let table = world.timetable(numbers.iter().map(|&c| island.ids[c]));
+        let table = world.timetable(numbers.iter().map(|&c| island.ids[c]), also.iter().copied());
         let mut n_lengths = 0;
         let mut length = |c: u32| {
             let is_followed = bar(&island.constraints[c as usize]).is_some()
@@ -117,6 +123,11 @@ impl Schedule {
         let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
         let values = lengths.flat_map(|it| &it.values).map(|(_, at)| self.table.get(*at)[l]);
         values.fold(0.0, f64::max)
+    }
+
+    /// Whether it has nothing to look at.
+    pub fn is_empty(&self) -> bool {
+        self.table.is_empty()
     }
 
     /// How many constraints it has.

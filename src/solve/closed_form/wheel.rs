@@ -1,37 +1,45 @@
-//! Where the marker of a wheel is that another turns.
+//! Where the marker of a wheel is that another turns, or a line that it rolls along.
 
 use super::abreast::{Abreast, Places, Poses};
-use crate::constraint::{Cog, Constraint, Point, PointIdx, Vector};
+use crate::constraint::{Cog, Constraint, Point, PointIdx, Rack, Vector};
 
 /// A frame may turn a wheel, the wheel that turns it, and the line of their centres by less than half a
 /// turn; this is somewhat less, radians.
 const MOST: f64 = 3.0;
 
-/// A point at a given distance from the centre of its wheel, at the angle that a wheel in mesh, or a belt,
-/// leaves it.
+/// A point at a given distance from the centre of its wheel, at the angle that a wheel in mesh, a belt, or a
+/// rack leaves it.
 pub(super) struct Wheel {
     /// The point that is found.
     to: PointIdx,
-    /// The centre and the marker of the one wheel, those of the other.
+    /// The centre and the marker of the one wheel, those of the other or the ends of the line.
     points: [PointIdx; 4],
     /// Whether it is the marker of the other.
     is_second: bool,
     /// The distance from its centre.
     radius: f64,
-    /// The constraint that holds the wheels together.
-    cog: u32,
+    /// The constraint that turns it.
+    by: u32,
 }
 
 impl Wheel {
     /// A point at the distance `radius` from another, which the constraint of number `c` turns; none
     /// where it does not.
-    pub fn new(to: PointIdx, from: PointIdx, radius: f64, (c, cog): (u32, &Cog)) -> Option<Self> {
-        let points = cog.points;
-        let is_second = points[3] == to;
+    pub fn new(
+        to: PointIdx,
+        from: PointIdx,
+        radius: f64,
+        (c, by): (u32, &Constraint),
+    ) -> Option<Self> {
+        let (points, is_second) = match by {
+            Constraint::Cog(cog) => (cog.points, cog.points[3] == to),
+            Constraint::Rack(rack) => (rack.points, false),
+            _ => return None,
+        };
         let own = if is_second { [points[2], points[3]] } else { [points[0], points[1]] };
         let is_once = points.iter().filter(|&&p| p == to).count() == 1;
         let is_sound = is_once && own == [from, to] && radius > 0.0;
-        is_sound.then_some(Self { to, points, is_second, radius, cog: c })
+        is_sound.then_some(Self { to, points, is_second, radius, by: c })
     }
 
     /// Puts the marker where it belongs, if that is told without counting turns anew. Frames side by
@@ -44,8 +52,9 @@ impl Wheel {
     ) {
         let places = self.points.map(|p| x.get(p).at(N - 1));
         let ways = self.points.map(|p| abreast.ways[p as usize][N - 1]);
-        let found = match &constraints[self.cog as usize] {
+        let found = match &constraints[self.by as usize] {
             Constraint::Cog(cog) if N == 1 => self.marker(cog, places, ways),
+            Constraint::Rack(rack) if N == 1 => self.rim_point(rack, places, ways),
             _ => None,
         };
         let (at, way, off) = found.unwrap_or((places[0], 0.0, f64::NAN));
@@ -62,12 +71,8 @@ impl Wheel {
         ways: [f64; 4],
     ) -> Option<(Point, f64, f64)> {
         let own = if self.is_second { 3 } else { 1 };
+        let turned = |from: usize, to: usize| turned(places, ways, [from, to]);
         let angle = cog.marker_angle(self.is_second, places)?;
-        // A vector turns by no more than its ends went over what is left of its length.
-        let turned = |from: usize, to: usize| {
-            let way = ways[from] + ways[to];
-            if way == 0.0 { 0.0 } else { way / (places[from].distance(places[to]) - way) }
-        };
         let line = if cog.mesh().follows_centres() { turned(0, 2) } else { 0.0 };
         let other = if self.is_second { turned(0, 1) } else { turned(2, 3) };
         let own_turn = cog.mesh().most_turned(self.is_second, other, line);
@@ -78,4 +83,29 @@ impl Wheel {
         let off = cog.value_at(places)? * self.radius;
         is_told.then_some((at, ways[own - 1] + self.radius * own_turn, off))
     }
+
+    /// The same of a wheel on a rack.
+    fn rim_point(
+        &self,
+        rack: &Rack,
+        mut places: [Point; 4],
+        ways: [f64; 4],
+    ) -> Option<(Point, f64, f64)> {
+        let angle = rack.rim_angle(places)?;
+        let line = turned(places, ways, [2, 3]);
+        // How far it rolls: what the centre and the line go past each other.
+        let rolled = ways[0] + ways[2] + (places[0].distance(places[2]) + ways[0] + ways[2]) * line;
+        let own_turn = line + rolled / rack.radius().abs();
+        places[1] = places[0] + Vector::polar(self.radius, angle);
+        let off = rack.value_at(places)?;
+        let is_told = [line, own_turn].iter().all(|turn| (0.0..MOST).contains(turn));
+        is_told.then_some((places[1], ways[0] + self.radius * own_turn, off))
+    }
+}
+
+/// By how much the vector from one place to another turned at most: by no more than its ends went over
+/// what is left of its length.
+fn turned(places: [Point; 4], ways: [f64; 4], [from, to]: [usize; 2]) -> f64 {
+    let way = ways[from] + ways[to];
+    if way == 0.0 { 0.0 } else { way / (places[from].distance(places[to]) - way) }
 }

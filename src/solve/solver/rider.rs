@@ -4,7 +4,7 @@ use crate::solve::closed_form::{ClosedForm, Compiled, Found, Lanes, WIDE};
 use crate::solve::dispatch::write_back;
 use crate::solve::frame::predict::Doubt;
 use crate::solve::island::Island;
-use crate::world::{PointId, World};
+use crate::world::{ParameterId, PointId, World};
 
 /// What frames came to that passed at once. Each was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,11 +69,13 @@ pub(super) struct Rider {
 }
 
 impl Rider {
-    /// Makes an island ready, if nothing but motors and time drives it; gives it back otherwise.
+    /// Makes an island ready, if nothing but motors and time drives it; gives it back otherwise. It looks at some
+    /// parameters besides.
     pub fn mount(
         k: u32,
         mut island: Box<Island>,
         world: &World,
+        also: &[ParameterId],
         dt: f64,
     ) -> Result<Self, Box<Island>> {
         if !island.is_under_way() || !island.inputs.is_empty() {
@@ -82,9 +84,11 @@ impl Rider {
         let Some(mut form) = island.take_closed_form() else { return Err(island) };
         let there = |c: usize| world.constraint(island.ids[c]).map(|record| &record.constraint);
         let n_turning = form.begin(&island.x, &island.constraints, there, dt);
-        let n_followed = n_turning.and_then(|n| match world.driven() {
-            [] => Some(0),
-            _ => form.follow_time(&island, world, n > 0),
+        let n_followed = n_turning.and_then(|n| {
+            if world.driven().is_empty() && also.is_empty() {
+                return Some(0);
+            }
+            form.follow_time(&island, world, also, n > 0)
         });
         match n_turning.zip(n_followed) {
             Some((n_turning, n_followed)) if n_turning + n_followed > 0 => {

@@ -13,7 +13,7 @@ use crate::solve::parallel::{ISLANDS, map_reduce, n_cores};
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
 use crate::solve::velocity;
-use crate::world::{Extremes, Measuring, Rates, World};
+use crate::world::{Extremes, Measuring, ParameterId, Rates, World};
 
 /// How far a stretch goes, and what is kept on the way.
 pub struct Along<'a> {
@@ -120,7 +120,7 @@ impl Solver {
         let mut failure = None;
         let tolerance = budget.tolerance_of(settings);
         let course = Course { dt, tolerance, promised: budget.tolerance };
-        let follows_time = !world.driven().is_empty();
+        let follows_time = world.has_timetable();
         let are_for_lanes = |riders: &[Rider]| riders.iter().all(|it| it.form.is_for_lanes());
         let mut is_side_by_side = follows_time && are_for_lanes(&riders);
         let mut leg = Leg::new(&riders);
@@ -172,13 +172,16 @@ impl Solver {
         if !world.is_known_ahead() {
             return riders;
         }
+        let spare: Vec<ParameterId> = world.spare_parameters().collect();
         let n_drivers = [world.motors().len(), world.driven().len()];
         let mut n_driving = [0; 2];
         let Self { awake, partition, notes, .. } = self;
         for &k in awake.iter() {
             let Some(island) = partition.lend(k) else { break };
             notes.note_visit(&island, world);
-            match Rider::mount(k, island, world, dt) {
+            // The first looks at what drives none.
+            let also = if riders.is_empty() { &*spare } else { &[] };
+            match Rider::mount(k, island, world, also, dt) {
                 Ok(rider) => {
                     n_driving = std::array::from_fn(|k| n_driving[k] + rider.n_driving[k]);
                     riders.push(rider);

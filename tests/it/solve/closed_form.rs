@@ -156,6 +156,33 @@ fn what_follows_time_is_found_side_by_side() {
 }
 
 #[test]
+fn a_fixed_point_that_an_expression_mentions_may_be_moved_between_runs() {
+    let scene =
+        "point M = (2, 1) frozen, O = (0, 0) frozen, P = (3, 1), Q = (3, 4), R = (6, 0) frozen
+        let far = distance(M, O)
+        coordinate P at M + polar(far / 3, time * 1rev)
+        length P Q = 4; length Q R = 5
+        set dt 1/90
+        step 30; move M to (2.1, 1.1); step 30; move M to (2, 1)";
+    check_same("moved", scene, 60);
+    let mut talking = Talking::after(scene);
+    talking.run("step 20; assert P = M + polar(far / 3, time * 1rev) within 1e-12");
+}
+
+#[test]
+fn a_parameter_that_drives_nothing_ends_frames_where_it_has_no_value() {
+    let scene =
+        format!("{}\nlet r = 1 + time; let root = sqrt(0.25 - time) / r", scene("w1-four-bar"));
+    assert_eq!(n_abreast(&scene, 80), 72);
+    for run in ["step 360", "for i in 1..90 { step }; step"] {
+        let mut talking = Talking::after(&scene);
+        let problem = talking.execute(run).unwrap_err();
+        let told = talking.drawn(&problem);
+        assert!(told.contains("at frame 91"), "{told}");
+    }
+}
+
+#[test]
 fn what_follows_time_makes_no_difference() {
     for expression in TIMED {
         check_same(expression, &timed(expression), 100);
@@ -322,6 +349,97 @@ fn links_at_an_angle_to_others_are_steps() {
             ));
         }
     }
+}
+
+/// What holds a wheel over the line that it rolls along, and how far it rolls in a turn over 2 pi.
+const ROLLING: [(&str, &str, &str); 2] = [("0.5", "", "0.5"), ("0.5", "radius 0.7", "0.7")];
+
+#[test]
+fn wheels_that_roll_are_steps() {
+    for (height, pitch, radius) in ROLLING {
+        let scene = format!(
+            "point A = (0, 0) frozen, B = (1, 0), P = (-9, 0) frozen, Q = (9, 0) frozen
+             let far = 1 + sqrt(9 - {height} ^ 2)
+             point O = (far, {height}), T = O + polar(0.4, 1)
+             motor A B speed 1rev
+             length B O = 3; distance O to P Q = {height}
+             length O T = 0.4
+             rack O T on P Q {pitch}
+             set dt 1/90"
+        );
+        check_same(pitch, &scene, 100);
+        let mut talking = Talking::after(&scene);
+        for _ in 0..5 {
+            talking.run(&format!(
+                "step 31
+                 assert O = (B.x + sqrt(9 - (B.y - {height}) ^ 2), {height}) within 1e-11
+                 assert T = O + polar(0.4, 1 - (O.x - far) / {radius}) within 1e-11"
+            ));
+        }
+        let counts = talking.session.frame_counts();
+        assert!(counts.closed >= 5 * 31 - 1 && counts.open == 0, "{pitch}: {counts:?}");
+    }
+}
+
+/// A crank B about A, a rocker E that swings, and a point P on lines; with where that is, in closed form.
+const ON_LINES: [(&str, &str); 8] = [
+    ("vertical B P; glider P on L R", "(B.x, -1)"),
+    ("horizontal P B; vertical E P", "(E.x, B.y)"),
+    // A link that goes round within the circle, and crosses it once on either side.
+    ("glider P on A B unbounded; length D P = 3", "polar(cos(phi) + sqrt(8 + cos(phi)^2), phi)"),
+    ("distance P to L R = 0.5; length P B = 3", "(B.x + sqrt(9 - (B.y + 0.5)^2), -0.5)"),
+    (
+        "distance P to A B = 0.4; length D P = 3",
+        "polar(cos(phi) + sqrt(9 - (0.4 + sin(phi))^2), phi) + polar(0.4, phi + 90deg)",
+    ),
+    ("horizontal P B; length D P = 5", "(1 + sqrt(25 - B.y^2), B.y)"),
+    ("glider P on A E unbounded; vertical V P", "(3, 3 * tan(swing))"),
+    ("distance P to A E = 0.2; distance P to L R = 0", "(-0.2 / sin(swing) - 1 / tan(swing), -1)"),
+];
+
+fn on_lines(held: &str) -> String {
+    format!(
+        "let phi = 20deg + time * 1rev; let swing = -40deg + 20deg * sin(time * 1.3rev)
+         point A = (0, 0) frozen, D = (1, 0) frozen, V = (3, 0) frozen
+         point L = (-9, -1) frozen, R = (9, -1) frozen
+         point B = polar(1, phi), E = polar(2, swing), P = (3, 0.4)
+         motor A B phase 20deg speed 1rev
+         coordinate E at polar(2, swing)
+         {held}"
+    )
+}
+
+#[test]
+fn points_on_lines_are_steps_also_where_these_move() {
+    for (held, place) in ON_LINES {
+        let scene = on_lines(held);
+        for dt in ["1/360", "1/48"] {
+            check_same(held, &format!("{scene}\nset dt {dt}"), 100);
+        }
+        let mut talking = Talking::after(&format!("{scene}\nset dt 1/360"));
+        for _ in 0..7 {
+            talking.run(&format!("step 77; assert P = {place} within 1e-11"));
+        }
+        let counts = talking.session.frame_counts();
+        assert!(counts.closed >= 7 * 77 - 2, "{held}: {counts:?}");
+        assert!(counts.abreast >= 7 * 72, "{held}: {counts:?}");
+    }
+}
+
+#[test]
+fn lines_that_come_to_be_parallel_are_followed() {
+    // Where the moving line is parallel to the fixed one the point is nowhere.
+    let scene = "point A = (0, 0) frozen, L = (-9, -1) frozen, R = (9, -1) frozen
+        point B = (0, -1), P = (0, -1)
+        motor A B phase -90deg speed 1rev
+        glider P on A B unbounded; distance P to L R = 0
+        set dt 1/360
+        step 80
+        assert P = (tan(time * 1rev), -1) within 1e-9";
+    let mut talking = Talking::after(scene);
+    talking.run("step 20");
+    let counts = talking.session.frame_counts();
+    assert!(counts.closed < 100, "{counts:?}");
 }
 
 /// A four-bar whose coupler carries a point by three bars, one of which follows from the others.
