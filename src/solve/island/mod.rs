@@ -367,10 +367,11 @@ impl Island {
         self.wanted = Some(self.wanted());
     }
 
-    /// The same while some lengths change from frame to frame: these do not count.
-    pub fn prepare_without(&mut self, is_left_out: impl Fn(usize) -> bool) {
-        let all = self.constraints.iter().enumerate();
-        let lengths = all.filter(|(c, _)| !is_left_out(*c)).map(|(_, it)| it.nominal_length());
+    /// The same while the lengths of these numbers, ascending, change from frame to frame: they do not count.
+    pub fn prepare_without(&mut self, changing: &[u32]) {
+        let all = self.constraints.iter().zip(0..);
+        let lengths = all.filter(|(_, c)| changing.binary_search(c).is_err());
+        let lengths = lengths.map(|(constraint, _)| constraint.nominal_length());
         self.wanted = Some(lengths.fold(0.0, f64::max));
     }
 
