@@ -30,6 +30,9 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use laws::random_command::{beginning, command};
 use laws::steadfast::{Held, hold_out};
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Bytes of a seed.
 const SEED: usize = 8;
 /// The most statements after the beginning.

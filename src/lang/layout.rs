@@ -64,7 +64,30 @@ impl<'a> Layout<'a> {
         self.expects_more
     }
 
-    /// The next statement. After a flaw no more come: what follows cannot be told apart.
+    /// Where the statement with a flaw, the last one, is broken off: what is behind the end of this line
+    /// may be another one. None where that would be within a block.
+    pub fn broken_off(&self, flaw: Flaw) -> Option<usize> {
+        let is_block = |at: usize| self.text.as_bytes()[at] == b'{';
+        let (opener, at) = match flaw {
+            Flaw::Unclosed { outermost, .. } => (Some(outermost), outermost),
+            Flaw::CutOff { opener, semicolon: at } | Flaw::Mismatched { opener, closer: at } => {
+                (Some(opener), at)
+            }
+            Flaw::Unopened { closer: at }
+            | Flaw::OpenString { quote: at, .. }
+            | Flaw::TooDeep { opener: at }
+            | Flaw::AfterBlock { at } => (None, at),
+        };
+        let mut openers = self.open.iter().map(|(_, at)| *at).chain(opener);
+        (!openers.any(is_block)).then_some(at)
+    }
+
+    /// Goes on from there after a flaw.
+    pub fn go_on(&mut self, at: usize) {
+        self.at = at.min(self.end);
+    }
+
+    /// The next statement. After a flaw no more come, unless it is told where to go on.
     pub fn next_piece(&mut self) -> Option<Result<Piece, Flaw>> {
         self.skip_to_statement();
         if self.at >= self.end {

@@ -2,17 +2,34 @@
 
 use super::message::ClientId;
 use crate::constraint::Point;
+use crate::session::Session;
 use crate::world::PointId;
 
 /// A point that a page holds.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(super) struct Grip {
     pub client: ClientId,
     pub point: PointId,
+    /// Its name: another point may have the handle once it is gone.
+    name: String,
     /// Where it was led last.
     pub place: Option<Point>,
     /// Whether it is to be led there still.
     pub is_to_move: bool,
+}
+
+impl Grip {
+    /// Of a point that is there.
+    pub fn new(client: ClientId, point: PointId, session: &Session) -> Self {
+        let name = session.world().points().name(point).to_owned();
+        Self { client, point, name, place: None, is_to_move: false }
+    }
+
+    /// Whether what is held is still there.
+    pub fn holds(&self, session: &Session) -> bool {
+        let points = session.world().points();
+        points.is_alive(self.point) && points.name(self.point) == self.name
+    }
 }
 
 /// Part of a px that nobody can point at.

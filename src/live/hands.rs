@@ -28,12 +28,17 @@ impl Live {
         self.rest(session, host);
         match session.take_hold(point, self.pace.is_some()) {
             Ok(_) => {
-                self.grip = Some(Grip { client, point, place: None, is_to_move: false });
+                self.grip = Some(Grip::new(client, point, session));
                 self.note_change();
                 json!({ "ok": true, "said": [] })
             }
             Err(problem) => refused(&problem.message),
         }
+    }
+
+    /// What was carried out may have taken away what is held.
+    pub(super) fn keep_hold(&mut self, session: &Session) {
+        self.grip.take_if(|grip| !grip.holds(session));
     }
 
     pub(super) fn hold_still(&mut self, session: &Session) {
@@ -57,13 +62,12 @@ impl Live {
         if self.ongoing.is_none() {
             // It begins with what was tried.
             self.keep(session, host);
-            self.ongoing = match self.grip {
+            self.ongoing = match &self.grip {
                 None => Some(Ongoing::time()),
                 Some(grip) => session.take_hold(grip.point, self.pace.is_some()).ok(),
             };
         }
         let Some(ongoing) = &mut self.ongoing else {
-            // It was deleted meanwhile.
             self.grip = None;
             return false;
         };

@@ -78,7 +78,7 @@ impl Live {
     /// A page has gone. What it held is let go.
     pub fn leave(&mut self, client: ClientId, session: &mut Session, host: &mut dyn Host) {
         self.viewers.remove(&client);
-        if self.grip.is_some_and(|grip| grip.client == client) {
+        if self.grip.as_ref().is_some_and(|grip| grip.client == client) {
             self.let_go(session, host);
         }
         if self.viewers.is_empty() {
@@ -104,6 +104,7 @@ impl Live {
 
     /// Others may have changed the session.
     pub fn take_back_over(&mut self, session: &Session) {
+        self.keep_hold(session);
         if self.note_journal(session, "prompt") {
             self.note_change();
         }

@@ -88,7 +88,7 @@ impl Live {
                 }
             }
             Wish::Release => {
-                if self.grip.is_none_or(|grip| grip.client != client) {
+                if self.grip.as_ref().is_none_or(|grip| grip.client != client) {
                     return Some(json!({ "ok": false, "said": [], "statement": null }));
                 }
                 return Some(self.let_go(session, host));
@@ -145,11 +145,11 @@ impl Live {
             return self.lead(session, host);
         };
         for _ in 0..n {
-            if self.grip.is_some_and(|grip| grip.place.is_none()) {
+            if self.grip.as_ref().is_some_and(|grip| grip.place.is_none()) {
                 // Held and not led: it stays where it is.
                 self.hold_still(session);
             }
-            let to = self.grip.and_then(|grip| grip.place);
+            let to = self.grip.as_ref().and_then(|grip| grip.place);
             if !self.go_on(to, session, host) {
                 break;
             }

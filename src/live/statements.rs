@@ -20,6 +20,7 @@ impl Live {
         let Outcome { flow, failure } = self.transcript.enter(text, session, &mut listener);
         let Listener { said, wrote, .. } = listener;
         host.forget_stop();
+        self.keep_hold(session);
         self.note_change();
         let mut answer = json!({ "ok": failure.is_none(), "said": said, "wrote": wrote });
         match flow {

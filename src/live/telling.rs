@@ -86,7 +86,7 @@ impl Live {
                     self.analysis = state::analysis(session);
                 }
             }
-            let held = self.grip.map(|grip| (grip.point, grip.client));
+            let held = self.grip.as_ref().map(|grip| (grip.point, grip.client));
             let mut state = state::progress(session, held);
             state.insert("playing".to_owned(), json!(self.pace.is_some()));
             state.insert("speed".to_owned(), json!(self.speed));

@@ -2,7 +2,7 @@
 //! follow time alone.
 
 use super::environments::Here;
-use super::{Clock, ConstraintId, Depends, Formula, ParameterId, User, Value, World};
+use super::{Clock, ConstraintId, Depends, Formula, ParameterId, Record, User, Value, World};
 use crate::constraint::{Field, Program, Register};
 
 impl World {
@@ -44,7 +44,7 @@ impl World {
 
     /// Whether the live values of a constraint follow time alone.
     fn follows_time(&self, id: ConstraintId) -> bool {
-        let mut live = self.constraint(id).into_iter().flat_map(|record| record.live());
+        let mut live = self.constraint(id).into_iter().flat_map(Record::live);
         live.all(|(_, formula)| self.is_of_time(formula))
     }
 
@@ -52,7 +52,7 @@ impl World {
     fn is_of_time(&self, formula: &Formula) -> bool {
         let depends = self.depends(formula);
         let others = Depends { on_time: false, on_parameters: false, on_points: false, ..depends };
-        !others.is_live() && !(depends.on_points && self.follows_motion(formula))
+        !(others.is_live() || depends.on_points && self.follows_motion(formula))
     }
 
     /// Whether something follows time in a scene that is known ahead.

@@ -1,7 +1,10 @@
 //! What running changes, as it was before a command changed it first: what it takes to go back is as
 //! much as what was touched, however large the scene.
 
+use std::sync::Arc;
+
 use super::marks::Marks;
+use super::repeated::Repeated;
 use super::same::States;
 use super::tally::TallyMark;
 use super::trace::Tail;
@@ -9,14 +12,17 @@ use super::turning::TurnCounts;
 use super::{Clock, ConstraintId, Ghost, MeasureId, PointId, SampleList};
 use crate::constraint::{Constraint, Heading, Point};
 
+/// Where points were, one behind the other.
+pub(crate) type Places = Arc<Vec<Point>>;
+
 /// What takes back all that running changed since a moment, and does it again: of points, motors
 /// and constraints those that changed, as they were.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    pub(super) points: Vec<PointId>,
-    pub(super) at: Vec<Point>,
+    pub(super) points: Repeated<PointId>,
+    pub(super) at: Places,
     /// Motors of which nothing changed but how far they have turned.
-    pub(super) motors: Vec<ConstraintId>,
+    pub(super) motors: Repeated<ConstraintId>,
     pub(super) headings: Vec<Heading>,
     /// Constraints that changed in another way, whole.
     pub(super) constraints: Vec<(ConstraintId, Constraint)>,
@@ -50,9 +56,9 @@ impl Motion {
         let measured = self.tallies.iter().map(|(_, mark)| mark.n_bytes()).sum::<usize>();
         let exposed = self.ghosts.then().iter().map(Ghost::n_bytes).sum::<usize>();
         size_of::<Self>()
-            + size_of_val(&**points)
-            + size_of_val(&**at)
-            + size_of_val(&**motors)
+            + points.n_bytes()
+            + size_of_val(&***at)
+            + motors.n_bytes()
             + size_of_val(&**headings)
             + size_of_val(&**constraints)
             + start.as_ref().map_or(0, |s| size_of_val(&*s.at) + 80 * s.states.len())
@@ -72,13 +78,9 @@ impl Motion {
             || self.tallies.iter().any(|(_, mark)| mark.has_readings())
     }
 
-    /// Gives up room that is not needed.
-    pub(super) fn shrink(&mut self) {
-        self.points.shrink_to_fit();
-        self.at.shrink_to_fit();
-        self.motors.shrink_to_fit();
-        self.headings.shrink_to_fit();
-        self.constraints.shrink_to_fit();
+    /// Where the points were; none where none moved.
+    pub(crate) fn places(&self) -> Option<&Places> {
+        (!self.at.is_empty()).then_some(&self.at)
     }
 }
 
@@ -87,13 +89,17 @@ impl Motion {
 pub(super) struct Log {
     /// All of it; none while nobody asks.
     pub motion: Option<Box<Motion>>,
+    /// Where the points of the motion are, while they are noted.
+    pub at: Vec<Point>,
     pub points: Marks,
+    /// Where in the motion the place of a point is, where it was noted last.
+    pub places: Vec<u32>,
     pub constraints: Marks,
     pub headings: Marks,
     /// Where in the motion the heading of a motor is, where it was noted.
     pub heading_places: Vec<u32>,
-    /// How many points moved last.
-    pub n_points: usize,
+    /// The points that moved last, and the motors that turned: often the same do again.
+    pub last: (Repeated<PointId>, Repeated<ConstraintId>),
     /// Whether the headings of all motors that are running now are noted.
     pub has_headings: bool,
 }

@@ -49,6 +49,7 @@ mod moment;
 mod motion;
 mod noting;
 mod quadrature;
+pub(crate) mod repeated;
 mod same;
 mod turn_count;
 mod turning;
@@ -68,6 +69,7 @@ pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 pub(crate) use known_ahead::Timetable;
 #[doc(hidden)]
 pub use log::Motion;
+pub(crate) use log::Places;
 pub(crate) use measure::Measuring;
 #[doc(hidden)]
 pub use moment::Moment;

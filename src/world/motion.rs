@@ -1,11 +1,13 @@
 //! Time going on: what a frame advances, and what takes back all that running changed.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::dependencies::Ramp;
 use super::environments::Within;
-use super::log::Motion;
+use super::log::{Motion, Places};
 use super::quadrature::mean;
+use super::repeated::Repeated;
 use super::same::{are_same_places, are_same_states, is_same_constraint, same_place};
 use super::tally::TallyMark;
 use super::trace::Tail;
@@ -41,9 +43,9 @@ impl World {
     pub(super) fn bare_motion(&self) -> Motion {
         let (traces, ghosts) = self.tails();
         Motion {
-            points: Vec::new(),
-            at: Vec::new(),
-            motors: Vec::new(),
+            points: Repeated::default(),
+            at: Places::default(),
+            motors: Repeated::default(),
             headings: Vec::new(),
             constraints: Vec::new(),
             start: None,
@@ -57,7 +59,7 @@ impl World {
 
     /// Whether a motion would leave everything as it is.
     pub(super) fn is_at(&self, motion: &Motion) -> bool {
-        let mut places = motion.points.iter().zip(&motion.at);
+        let mut places = motion.points.iter().zip(&*motion.at);
         let mut motors = motion.motors.iter().zip(&motion.headings);
         let mut traces = self.traces.iter().zip(&motion.traces);
         let constraint = |id: &ConstraintId| self.constraint(*id).map(|record| &record.constraint);
@@ -89,7 +91,7 @@ impl World {
 
     /// Puts everything back as a motion has it; gives the motion that takes this back.
     pub(super) fn swap_motion(&mut self, mut motion: Motion) -> Motion {
-        for (id, at) in motion.points.iter().zip(&mut motion.at) {
+        for (id, at) in motion.points.iter().zip(Arc::make_mut(&mut motion.at)) {
             std::mem::swap(&mut self.points.at[id.idx()], at);
             // Those that constraints may move the solver knows of itself.
             if self.points.is_frozen[id.idx()] {
@@ -126,7 +128,6 @@ impl World {
         }
         motion.tallies = self.swap_tallies(motion.tallies);
         motion.ghosts = motion.ghosts.swap(&mut self.ghosts);
-        motion.shrink();
         self.turns_ahead = TurnsAhead::default();
         self.dependencies.note_change();
         motion

@@ -1,7 +1,10 @@
 //! Notes, while a command is under way, what running changes as it was before it changes first.
 
-use super::log::Start;
+use std::sync::Arc;
+
+use super::log::{Log, Start};
 use super::motion::{heading, swap_heading};
+use super::repeated::Repeated;
 use super::{ConstraintId, Motion, PointId, World};
 
 impl World {
@@ -10,8 +13,11 @@ impl World {
         let mut motion = Box::new(self.bare_motion());
         let log = &mut self.log;
         // As much as moved last often moves again.
-        motion.points.reserve_exact(log.n_points);
-        motion.at.reserve_exact(log.n_points);
+        let (points, motors) = &log.last;
+        motion.points = Repeated::beside(points);
+        motion.motors = Repeated::beside(motors);
+        log.at = Vec::with_capacity(points.len());
+        motion.headings.reserve_exact(motors.len());
         log.points.begin();
         log.constraints.begin();
         log.headings.begin();
@@ -22,19 +28,34 @@ impl World {
     /// What brings back all that running changed since [`begin_motion`](Self::begin_motion).
     pub fn end_motion(&mut self) -> Option<Box<Motion>> {
         let mut motion = self.log.motion.take()?;
-        self.log.n_points = motion.points.len();
-        motion.shrink();
+        motion.points.shrink_to_fit();
+        motion.motors.shrink_to_fit();
+        motion.headings.shrink_to_fit();
+        motion.constraints.shrink_to_fit();
+        let mut at = std::mem::take(&mut self.log.at);
+        at.shrink_to_fit();
+        motion.at = Arc::new(at);
+        self.log.last = (motion.points.clone(), motion.motors.clone());
         Some(motion)
+    }
+
+    /// Where among the places that a command noted that of a point is, if the last one that moved it
+    /// was the last that moved any.
+    pub(crate) fn noted_place(&self, id: PointId) -> usize {
+        self.log.places.get(id.idx()).map_or(usize::MAX, |place| *place as usize)
     }
 
     /// A point is about to be put elsewhere.
     #[inline]
     pub(super) fn note_place(&mut self, id: PointId) {
-        if let Some(motion) = &mut self.log.motion
-            && self.log.points.mark(id.idx())
-        {
+        let Log { motion: Some(motion), at, points, places, .. } = &mut self.log else { return };
+        if points.mark(id.idx()) {
+            if id.idx() >= places.len() {
+                places.resize(id.idx() + 1, u32::MAX);
+            }
+            places[id.idx()] = at.len() as u32;
             motion.points.push(id);
-            motion.at.push(self.points.at[id.idx()]);
+            at.push(self.points.at[id.idx()]);
         }
     }
 

@@ -38,8 +38,9 @@ pub(super) use signs::Signs;
 
 /// Reads the statements of `text`, which diagnostics know as `source`.
 ///
-/// A statement that cannot be read gives one diagnostic, and the next one follows. After a
-/// bracket or string that is never closed nothing follows.
+/// A statement that cannot be read gives one diagnostic, and the next one follows: where it is not
+/// told where the statement ends, as a bracket is never closed, the next line that begins with a
+/// command. Within a block nothing follows then.
 ///
 /// ```
 /// use linkwork::diag::SourceId;
@@ -50,11 +51,19 @@ pub(super) use signs::Signs;
 /// assert!(statements.next().unwrap().is_err());
 /// assert!(statements.next().unwrap().is_ok());
 /// assert!(statements.next().is_none());
+///
+/// let mut statements = parse(SourceId(0), "point A = (0,\n  0\npoint B = (1, 1)");
+/// assert!(statements.next().unwrap().is_err());
+/// assert!(statements.next().unwrap().is_ok());
 /// ```
 pub fn parse(source: SourceId, text: &str) -> Statements<'_> {
     // A byte order mark is no part of the text.
     let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-    Statements { reader: Reader { source, text }, layout: Layout::new(text, start..text.len()) }
+    Statements {
+        reader: Reader { source, text },
+        layout: Layout::new(text, start..text.len()),
+        n_broken: 0,
+    }
 }
 
 /// The statements of a text, read one by one; made by [`parse`].
@@ -62,7 +71,13 @@ pub fn parse(source: SourceId, text: &str) -> Statements<'_> {
 pub struct Statements<'a> {
     reader: Reader<'a>,
     layout: Layout<'a>,
+    /// How many statements were broken off.
+    n_broken: usize,
 }
+
+/// After so many statements that are broken off nothing follows: each was looked for an end up to the end
+/// of the text.
+const MOST_BROKEN: usize = 64;
 
 impl Iterator for Statements<'_> {
     type Item = Result<Statement, Diagnostic>;
@@ -70,7 +85,15 @@ impl Iterator for Statements<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         Some(match self.layout.next_piece()? {
             Ok(piece) => self.reader.statement(&piece),
-            Err(flaw) => Err(self.reader.flaw(flaw)),
+            Err(flaw) => {
+                self.n_broken += 1;
+                if let Some(broken) = self.layout.broken_off(flaw)
+                    && self.n_broken < MOST_BROKEN
+                {
+                    self.layout.go_on(self.reader.next_command(broken));
+                }
+                Err(self.reader.flaw(flaw))
+            }
         })
     }
 }
@@ -89,7 +112,7 @@ impl Iterator for Statements<'_> {
 /// assert!(!is_incomplete("print )("));
 /// ```
 pub fn is_incomplete(text: &str) -> bool {
-    let Statements { reader, layout } = parse(SourceId(0), text);
+    let Statements { reader, layout, .. } = parse(SourceId(0), text);
     matches!(reader.state(layout), State::Open)
 }
 
@@ -141,9 +164,26 @@ impl<'a> Reader<'a> {
         Ok(Statement { command, span: self.span(piece.whole.clone()) })
     }
 
+    /// Where the first line behind a place begins that begins with a command; the end, if none does.
+    fn next_command(&self, behind: usize) -> usize {
+        let mut ends = self.text[behind..].match_indices('\n').map(|(end, _)| behind + end + 1);
+        let begins_with_command = |at: &usize| {
+            let line = self.text[*at..].lines().next().unwrap_or_default();
+            let head = at + line.len() - line.trim_start().len()..at + line.len();
+            let has_word = !prefix::first_word(&self.text[head.clone()]).is_empty();
+            has_word
+                && self.prefix(&head).is_ok_and(|(prefix, verb)| {
+                    let rule = self.verb(&prefix, &(verb..head.end));
+                    rule.is_ok_and(|(_, rule)| rule != Rule::bare)
+                })
+        };
+        ends.find(begins_with_command).unwrap_or(self.text.len())
+    }
+
     fn block(&self, inside: &Range<usize>) -> Result<Body, Diagnostic> {
         let layout = Layout::new(self.text, inside.clone());
-        let statements: Result<Vec<_>, _> = Statements { reader: *self, layout }.collect();
+        let statements: Result<Vec<_>, _> =
+            Statements { reader: *self, layout, n_broken: 0 }.collect();
         statements.map(Body::from)
     }
 

@@ -210,6 +210,7 @@ impl History {
     fn end_motion(&mut self, state: &mut State) {
         if let (Some(place), Some(motion)) = (self.journal.motion.take(), state.world.end_motion())
         {
+            state.solver.note_motion(&motion);
             self.journal.current.insert(place, Change::World(Edit::Motion(motion)));
         }
     }

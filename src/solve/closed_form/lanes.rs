@@ -39,8 +39,7 @@ impl Lanes {
         for (to, turned) in abreast.turned.iter_mut().zip(&form.one.turned) {
             (0..WIDE).for_each(|l| to.set(l, turned.at(0).0, 0.0));
         }
-        let n_lengths = form.schedule.as_ref().map_or(0, |schedule| schedule.n_lengths());
-        abreast.lengths = vec![Timed::NOT; n_lengths];
+        abreast.lengths = vec![Timed::NOT; form.timed_lengths().len()];
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
             abreast,

@@ -55,12 +55,9 @@ impl Length {
         (self.bar != NONE).then_some(self.bar)
     }
 
-    /// In lanes it is one of those that differ between them, of this number, if that is of the bar that
-    /// says it; or, without a number, not any more.
-    pub fn set_timed(&mut self, bar: u32, timed: Option<u32>) {
-        if self.bar == bar {
-            self.timed = timed.unwrap_or(NONE);
-        }
+    /// In lanes it differs between them if one of these bars, ascending, says it.
+    pub fn set_timed(&mut self, bars: &[u32]) {
+        self.timed = bars.binary_search(&self.bar).map_or(NONE, |k| k as u32);
     }
 
     /// Whether it differs between lanes.

@@ -164,8 +164,8 @@ impl ClosedForm {
     ) -> Option<usize> {
         let schedule = Schedule::new(self, island, world, also, is_turned)?;
         let n = schedule.n_constraints();
-        for (c, k) in schedule.lengths() {
-            self.lengths_mut(|length| length.set_timed(c, Some(k)));
+        if !schedule.lengths().is_empty() {
+            self.lengths_mut(|length| length.set_timed(schedule.lengths()));
         }
         self.schedule = (!schedule.is_empty()).then(|| Box::new(schedule));
         Some(n)
@@ -174,27 +174,21 @@ impl ClosedForm {
     /// What follows time does no more.
     pub fn end_schedule(&mut self) {
         let Some(schedule) = self.schedule.take() else { return };
-        for (c, _) in schedule.lengths() {
-            self.lengths_mut(|length| length.set_timed(c, None));
+        if !schedule.lengths().is_empty() {
+            self.lengths_mut(|length| length.set_timed(&[]));
             // What it was before the frame that comes next is to be asked.
             self.knows_lengths = false;
         }
     }
 
-    /// How many lengths among its values follow time.
-    pub fn n_timed_lengths(&self) -> usize {
-        self.schedule.as_ref().map_or(0, |schedule| schedule.n_lengths())
+    /// The constraints of an island that are lengths which follow time, by their numbers, ascending.
+    pub fn timed_lengths(&self) -> &[u32] {
+        self.schedule.as_ref().map_or(&[], |schedule| schedule.lengths())
     }
 
     /// The longest of these in a lane; 0 if there is none.
     pub fn longest(&self, l: usize) -> f64 {
         self.schedule.as_ref().map_or(0.0, |schedule| schedule.longest(l))
-    }
-
-    /// Whether the constraint of this number is one of these lengths.
-    pub fn is_timed_length(&self, c: usize) -> bool {
-        let lengths = self.schedule.iter().flat_map(|schedule| schedule.lengths());
-        lengths.into_iter().any(|(length, _)| length as usize == c)
     }
 
     /// Calls `visit` for each length that steps keep to.

@@ -17,8 +17,8 @@ pub(super) struct Schedule {
     /// The instant after which the frames come that are to be found next.
     clock: Clock,
     constraints: Vec<Scheduled>,
-    /// How many of them are lengths.
-    n_lengths: usize,
+    /// The numbers in the island of those that are lengths, ascending.
+    lengths: Vec<u32>,
     /// Whether a motor turns, so that something moves in each frame.
     is_turned: bool,
     /// Where it set out: the instant, and the constraints then.
@@ -49,31 +49,38 @@ enum Driven {
     Length,
 }
 
-impl Driven {
-    /// What the constraint of number `c` drives alone, and by which numbers.
-    fn by(steps: &[Step], c: u32) -> Option<(usize, Self)> {
-        steps.iter().find_map(|step| match step {
-            Step::Place { to, constraint, drive } if *constraint == c => {
-                Some((*drive as usize, Self::Place(*to)))
-            }
-            Step::Direction(link) if link.constraint == c => {
-                let [length, sense] = link.factors();
-                Some((link.drive as usize, Self::Angle { link: length, sense }))
-            }
-            _ => None,
-        })
+/// What the constraints of an island say to steps by themselves, each with which of the numbers that drive
+/// frames these are.
+fn driven(form: &ClosedForm, constraints: &[Constraint]) -> Vec<Option<(usize, Driven)>> {
+    let mut all: Vec<Option<(usize, Driven)>> = Vec::new();
+    all.resize_with(constraints.len(), || None);
+    for (c, constraint) in constraints.iter().enumerate() {
+        let is_followed = bar(constraint).is_some() && form.takes(c as u32);
+        all[c] = is_followed.then_some((0, Driven::Length));
     }
-}
-
-/// Whether a link at an angle to another is as long as the bar of number `c` says: where its end is then
-/// follows from two values.
-fn is_of_link(steps: &[Step], c: u32) -> bool {
-    steps.iter().any(|step| matches!(step, Step::Direction(link) if link.bar() == Some(c)))
+    for step in &form.steps {
+        match step {
+            Step::Place { to, constraint, drive } => {
+                all[*constraint as usize] = Some((*drive as usize, Driven::Place(*to)));
+            }
+            Step::Direction(link) => {
+                let [length, sense] = link.factors();
+                let angle = Driven::Angle { link: length, sense };
+                all[link.constraint as usize] = Some((link.drive as usize, angle));
+                // Where the end of a link is that changes follows from two values.
+                if let Some(bar) = link.bar() {
+                    all[bar as usize] = None;
+                }
+            }
+            _ => {}
+        }
+    }
+    all
 }
 
 impl Schedule {
-    /// The schedule of an island in a world that is known ahead, which looks at some parameters besides; none if some value that follows time
-    /// is not asked for by a step.
+    /// The schedule of an island in a world that is known ahead, which looks at some parameters besides; none if
+    /// some value that follows time is not asked for by a step.
     pub fn new(
         form: &ClosedForm,
         island: &Island,
@@ -81,45 +88,40 @@ impl Schedule {
         also: &[ParameterId],
         is_turned: bool,
     ) -> Option<Self> {
-        let driven = world.driven();
-        let numbers =
-            (0..island.ids.len()).filter(|&c| driven.binary_search(&island.ids[c]).is_ok());
+        let ids = &island.ids;
+        let live = world.driven();
+        let numbers = (0..ids.len()).filter(|&c| live.binary_search(&ids[c]).is_ok());
         let numbers: Vec<usize> = numbers.collect();
-        let table = world.timetable(numbers.iter().map(|&c| island.ids[c]), also.iter().copied());
-        let mut n_lengths = 0;
-        let mut length = |c: u32| {
-            let is_followed = bar(&island.constraints[c as usize]).is_some()
-                && form.takes(c)
-                && !is_of_link(&form.steps, c);
-            n_lengths += usize::from(is_followed);
-            is_followed.then(|| (n_lengths - 1, Driven::Length))
-        };
-        let constraint = |&c: &usize| {
-            let driven = Driven::by(&form.steps, c as u32);
-            let (drive, step) = driven.or_else(|| length(c as u32))?;
-            let own = table.values().iter().filter(|value| value.constraint == island.ids[c]);
-            let values = own.map(|value| (value.field, value.register)).collect();
-            Some(Scheduled { c, now: island.constraints[c].clone(), values, drive, step })
-        };
-        let constraints = numbers.iter().map(constraint).collect::<Option<Vec<_>>>()?;
+        let table = world.timetable(numbers.iter().map(|&c| ids[c]), also.iter().copied());
+        let mut driven = driven(form, &island.constraints);
+        let mut lengths = Vec::new();
+        let mut constraints = Vec::with_capacity(numbers.len());
+        let own = table.values().chunk_by(|a, b| a.constraint == b.constraint);
+        for (c, own) in numbers.into_iter().zip(own) {
+            let (mut drive, step) = driven[c].take()?;
+            if matches!(step, Driven::Length) {
+                drive = lengths.len();
+                lengths.push(c as u32);
+            }
+            let values = own.iter().map(|value| (value.field, value.register)).collect();
+            let now = island.constraints[c].clone();
+            constraints.push(Scheduled { c, now, values, drive, step });
+        }
         let clock = *world.clock();
         let start = (clock, Vec::new());
-        Some(Self { table, clock, constraints, n_lengths, is_turned, start })
+        Some(Self { table, clock, constraints, lengths, is_turned, start })
     }
 
-    /// How many lengths are among them.
-    pub fn n_lengths(&self) -> usize {
-        self.n_lengths
+    /// The numbers in the island of the lengths among them, ascending.
+    pub fn lengths(&self) -> &[u32] {
+        &self.lengths
     }
 
-    /// The numbers of these lengths in the island, and among those that follow time.
-    pub fn lengths(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
-        lengths.map(|it| (it.c as u32, it.drive as u32))
-    }
-
-    /// The longest of them in a frame.
+    /// The longest of these in a frame.
     pub fn longest(&self, l: usize) -> f64 {
+        if self.lengths.is_empty() {
+            return 0.0;
+        }
         let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
         let values = lengths.flat_map(|it| &it.values).map(|(_, at)| self.table.get(*at)[l]);
         values.fold(0.0, f64::max)
@@ -208,6 +210,7 @@ impl Scheduled {
     /// Takes in what its values are in each lane; gives how many of them, from the first on, it may have,
     /// and tells in which it changes.
     #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "one loop over all lanes")]
     fn turn_on(
         &mut self,
         table: &Timetable<WIDE>,

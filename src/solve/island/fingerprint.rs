@@ -3,7 +3,7 @@
 use super::Island;
 use super::snapshot::Fingerprint;
 use super::structure::Structure;
-use crate::constraint::{Constraint, ConstraintKind};
+use crate::constraint::{Constraint, ConstraintKind, Point};
 
 /// The FNV-1a hash, a word at a time: the same on every machine, today and tomorrow.
 struct Hasher(u64);
@@ -20,6 +20,11 @@ impl Hasher {
         // Words differ most in their upper bits, which the product alone never moves down.
         self.0 ^= self.0 >> 29;
     }
+
+    fn add_place(&mut self, at: Point) {
+        self.add(at.x.to_bits());
+        self.add(at.y.to_bits());
+    }
 }
 
 /// What the residuals of a constraint depend on besides its points.
@@ -33,16 +38,26 @@ impl Island {
     /// What later results depend on besides what is remembered.
     pub fn fingerprint(&self) -> Fingerprint {
         let structure = *self.structure.get_or_init(|| self.hash_of_structure());
-        let mut inputs = Hasher::default();
-        self.w.iter().for_each(|w| inputs.add(w.to_bits()));
-        self.constraints.iter().for_each(|c| c.content(&mut |word| inputs.add(word)));
-        let mut pose = Hasher::default();
-        for (p, at) in self.x.iter().enumerate() {
-            let hasher = if p < self.n_free { &mut pose } else { &mut inputs };
-            hasher.add(at.x.to_bits());
-            hasher.add(at.y.to_bits());
-        }
+        let still = *self.still.get_or_init(|| self.hash_of_still());
+        debug_assert_eq!(still, self.hash_of_still(), "what stands still was changed unnoticed");
+        let (mut inputs, mut pose) = (Hasher(still), Hasher::default());
+        let moving = self.moving.iter().map(|&c| &self.constraints[c as usize]);
+        moving.for_each(|c| c.content(&mut |word| inputs.add(word)));
+        self.x[..self.n_free].iter().for_each(|at| pose.add_place(*at));
         Fingerprint { structure, inputs: inputs.0, pose: pose.0 }
+    }
+
+    /// Of what drives it that which mostly stays as it is.
+    fn hash_of_still(&self) -> u64 {
+        let mut still = Hasher::default();
+        self.w.iter().for_each(|w| still.add(w.to_bits()));
+        for (c, constraint) in self.constraints.iter().enumerate() {
+            if self.moving.binary_search(&(c as u32)).is_err() {
+                constraint.content(&mut |word| still.add(word));
+            }
+        }
+        self.x[self.n_free..].iter().for_each(|at| still.add_place(*at));
+        still.0
     }
 
     fn hash_of_structure(&self) -> u64 {

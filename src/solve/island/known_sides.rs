@@ -6,8 +6,9 @@ use crate::solve::frame::decomposition::Side;
 /// On which side everything was when last looked at, as far as that is known.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KnownSides {
+    /// None where it has to be worked out again.
     pub blocks: Box<[Side]>,
-    /// Whether it has to be worked out again, see [`leave_closed_form`](super::Island::leave_closed_form).
+    /// Whether it has to be, see [`leave_closed_form`](super::Island::leave_closed_form).
     pub are_old: bool,
     /// Of what is watched in parts that are solved as a whole; none if nothing is.
     pub watched: Option<Box<WatchedSides>>,

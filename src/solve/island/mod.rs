@@ -6,6 +6,7 @@ pub mod fingerprint;
 pub mod history;
 pub mod inputs;
 pub mod known_sides;
+pub mod member;
 pub mod memory;
 mod packed;
 pub mod partition;
@@ -17,7 +18,6 @@ pub mod snapshot;
 pub mod structure;
 pub mod workspaces;
 
-use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use super::closed_form::Compiled;
@@ -32,6 +32,7 @@ use crate::world::{ConstraintId, PointId, Record};
 use before::Before;
 use history::History;
 use inputs::Inputs;
+use member::Member;
 use snapshot::Snapshot;
 use structure::Structure;
 
@@ -57,6 +58,8 @@ pub(crate) struct Island {
     pub own_rho: Vec<Option<f64>>,
     /// Those that carry something on from pose to pose: unwrapped angles and the like.
     pub stateful: Vec<u32>,
+    /// These, and motors: those that time and motion change.
+    moving: Box<[u32]>,
     /// What can be found point by point.
     pub plan: Plan,
     /// The list of steps that finds its pose, if there is one; once it was asked for.
@@ -116,47 +119,10 @@ pub(crate) struct Island {
     pub remembered: OnceLock<Arc<Snapshot>>,
     /// The hash of what it is built on, which stays; once asked for.
     pub(super) structure: OnceLock<u64>,
+    /// The hash of what drives it and stays until it is edited; once asked for.
+    still: OnceLock<u64>,
     /// What limits the relaxation coefficient; once relaxation ran.
     pub spectrum: Option<Box<Spectrum>>,
-}
-
-/// A constraint on its way into an island.
-pub(crate) struct Member<'a> {
-    /// Its handle.
-    pub id: ConstraintId,
-    /// The constraint, over handles of points.
-    pub constraint: &'a Constraint,
-    /// Its own coefficient.
-    pub rho: Option<f64>,
-    /// Whether its values change with time or with other values.
-    pub is_live: bool,
-}
-
-impl<'a> Member<'a> {
-    /// A constraint of the world, by its handle.
-    pub fn new(id: ConstraintId, record: &'a Record) -> Self {
-        let is_live = !record.drivers().is_empty();
-        Self { id, constraint: &record.constraint, rho: record.rho(), is_live }
-    }
-
-    /// What tells it from another one of its kind on the same points for good; nothing where that
-    /// changes by itself.
-    fn rank(&self) -> Vec<u64> {
-        let mut rank = vec![self.rho.map_or(0, f64::to_bits)];
-        if !self.is_live && self.constraint.traits().carried == Carried::Nothing {
-            self.constraint.content(&mut |word| rank.push(word));
-        }
-        rank
-    }
-
-    fn order(&self, other: &Self) -> Ordering {
-        let (one, two) = (self.constraint, other.constraint);
-        let kinds = one.kind().cmp(&two.kind());
-        kinds
-            .then_with(|| one.points().cmp(two.points()))
-            .then_with(|| self.rank().cmp(&other.rank()))
-            .then_with(|| self.id.cmp(&other.id))
-    }
 }
 
 /// The evaluations of a constraint that a first visit is expected to make.
@@ -197,9 +163,12 @@ impl Island {
         let plan = Plan::new(&constraints, n_free, points.len());
         let stateful = constraints.iter().enumerate().filter(|(_, c)| is_stateful(c));
         let stateful = stateful.map(|(c, _)| c as u32);
+        let moving = constraints.iter().enumerate();
+        let moving = moving.filter(|(_, c)| c.traits().carried != Carried::Nothing);
         let mut island = Self {
             n_free,
             stateful: stateful.collect(),
+            moving: moving.map(|(c, _)| c as u32).collect(),
             x: points.iter().map(|&p| at(p)).collect(),
             w: points.iter().map(|&p| w(p)).collect(),
             ids: members.iter().map(|m| m.id).collect(),
@@ -233,6 +202,7 @@ impl Island {
             part_workspaces: Vec::new(),
             remembered: OnceLock::new(),
             structure: OnceLock::new(),
+            still: OnceLock::new(),
             spectrum: None,
         };
         for block in &island.plan.blocks {
@@ -299,6 +269,7 @@ impl Island {
         if new.nominal_length() != self.constraints[c].nominal_length() {
             self.wanted = None;
         }
+        self.still.take();
         self.closed_form.note_values(c as u32, [&self.constraints[c], &new]);
         let old = std::mem::replace(&mut self.constraints[c], new);
         self.inputs.note_values(c as u32, old);
@@ -310,6 +281,7 @@ impl Island {
         self.remembered.take();
         let old = std::mem::replace(&mut self.x[p], at);
         if p >= self.n_free {
+            self.still.take();
             self.inputs.points.push((p as u32, old));
         } else {
             self.inputs.is_disturbed = true;
@@ -385,10 +357,11 @@ impl Island {
         self.wanted = Some(self.wanted());
     }
 
-    /// The same while some lengths change from frame to frame: these do not count.
-    pub fn prepare_without(&mut self, is_left_out: impl Fn(usize) -> bool) {
-        let all = self.constraints.iter().enumerate();
-        let lengths = all.filter(|(c, _)| !is_left_out(*c)).map(|(_, it)| it.nominal_length());
+    /// The same while the lengths of these numbers, ascending, change from frame to frame: they do not count.
+    pub fn prepare_without(&mut self, changing: &[u32]) {
+        let all = self.constraints.iter().zip(0..);
+        let lengths = all.filter(|(_, c)| changing.binary_search(c).is_err());
+        let lengths = lengths.map(|(constraint, _)| constraint.nominal_length());
         self.wanted = Some(lengths.fold(0.0, f64::max));
     }
 

@@ -1,10 +1,9 @@
 //! What is remembered of many islands in one column of numbers: a command in which a thousand move
-//! keeps them at the cost of a copy.
+//! keeps them at the cost of a few numbers each.
 //!
-//! Of the last three poses of an island two are those that the command before kept, where each command
-//! lets one frame pass: these are not kept again.
-
-use std::sync::Arc;
+//! Of an island that is under way little changes from command to command. Its last poses are those at
+//! which the commands before began, where each lets one frame pass: these are kept already, for the world.
+//! On which side it is its pose tells, and how it is put together stays the same.
 
 use super::Island;
 use super::known_sides::KnownSides;
@@ -12,169 +11,194 @@ use super::snapshot::{Exact, Fingerprint, Snapshot};
 use crate::constraint::Point;
 use crate::solve::frame::decomposition::Side;
 use crate::solve::report::Status;
-
-/// The last poses of islands, one behind the other.
-pub(crate) type Poses = Arc<Vec<Point>>;
+use crate::world::Places;
+use crate::world::PointId;
+use crate::world::repeated::Repeated;
 
 /// Snapshots of islands that were under way, one behind the other.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Packed {
+    rows: Repeated<Row>,
+    /// What changes from frame to frame, and what only some have.
     words: Vec<u64>,
-    /// The last pose of each.
-    poses: Poses,
-    /// The same of the command before, and of the one before that.
-    older: [Poses; 2],
+    /// Where points were when the commands before began, the last first.
+    older: OlderPlaces,
 }
 
-/// How many words there are before those of the points.
-const HEADER: usize = 7;
+/// Where points were when the last commands began, the last first, as far as these moved them.
+pub(crate) type OlderPlaces = [Places; 3];
 
-/// What is true of an island, a bit each.
-const HAS_DEGREE: u64 = 1;
-const IS_SMOOTH: u64 = 2;
-const IS_EDITED: u64 = 4;
-const IS_AWAKE: u64 = 8;
-const HAS_OLD_SIDES: u64 = 16;
-/// The poses before its last are those of the commands before.
-const SHARES: u64 = 32;
-/// How many bits that are, how many the number of its past poses has, and that of its points.
-const N_FLAGS: u32 = 6;
-const PAST_BITS: u32 = 2;
-const FREE_BITS: u32 = 32 - N_FLAGS - PAST_BITS;
-
-const fn flag(is: bool, bit: u64) -> u64 {
-    if is { bit } else { 0 }
+/// What is mostly the same when the next command begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Row {
+    /// The first free point.
+    pub first: PointId,
+    /// Where its words begin.
+    at: u32,
+    /// Where its points are among the older places.
+    place: u32,
+    n_free: u32,
+    n_past: u32,
+    n_sides: u32,
+    n_evaluations: u32,
+    structure: u64,
+    probed_at: f64,
+    flags: Flags,
 }
 
-/// Two numbers in a word.
-const fn both(upper: usize, lower: u64) -> u64 {
-    (upper as u64) << 32 | lower
+/// What is true of an island.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+struct Flags {
+    has_degree: bool,
+    is_smooth: bool,
+    is_edited: bool,
+    is_awake: bool,
+    has_old_sides: bool,
+    /// Its past poses are among the older places.
+    has_shared_past: bool,
 }
 
-/// Whether two poses are the same to the bit.
+/// How many words of each there are before those of its past and its sides.
+const HEADER: usize = 3;
+
+/// Whether places are the same to the bit.
 fn are_same_places(a: &[Point], b: &[Point]) -> bool {
     let bits = |p: &Point| [p.x.to_bits(), p.y.to_bits()];
-    a.iter().map(bits).eq(b.iter().map(bits))
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bits(a) == bits(b))
 }
 
 impl Packed {
-    /// With as much room as another one took; `older` are the poses of the commands before.
-    pub fn like((n_words, n_poses): (usize, usize), older: [Poses; 2]) -> Self {
-        let poses = Arc::new(Vec::with_capacity(n_poses));
-        Self { words: Vec::with_capacity(n_words), poses, older }
+    /// With as much room as another one took, beside which it is likely to be much the same.
+    pub fn beside(other: &Self, n_words: usize, older: OlderPlaces) -> Self {
+        let words = Vec::with_capacity(n_words);
+        Self { rows: Repeated::beside(&other.rows), words, older }
     }
 
-    /// How much room it takes: words and poses.
-    pub fn len(&self) -> (usize, usize) {
-        (self.words.len(), self.poses.len())
+    /// The islands, in the order in which they came.
+    pub(super) fn rows(&self) -> &[Row] {
+        &self.rows
     }
 
-    /// The poses for the command that comes next.
-    pub fn poses(&self) -> [Poses; 2] {
-        [self.poses.clone(), self.older[0].clone()]
+    /// The same rows without what changes.
+    pub fn without_words(&self) -> Self {
+        Self { rows: self.rows.clone(), ..Self::default() }
+    }
+
+    /// How many words it keeps.
+    pub fn n_words(&self) -> usize {
+        self.words.len()
     }
 
     /// The bytes that it alone keeps.
     pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.words) + size_of_val(&**self.poses)
+        size_of_val(&*self.words) + self.rows.n_bytes()
     }
 
     /// Gives room back.
     pub fn shrink_to_fit(&mut self) {
         self.words.shrink_to_fit();
-        if let Some(poses) = Arc::get_mut(&mut self.poses) {
-            poses.shrink_to_fit();
-        }
+        self.rows.shrink_to_fit();
     }
 
-    /// Appends what is remembered of an island, and gives where it begins; none if that is more than
-    /// words are kept of here.
-    pub fn push(&mut self, island: &Island) -> Option<u32> {
+    /// Appends what is remembered of an island; false if that is more than is kept here. Its points
+    /// are likely to be at that place among the older ones.
+    pub fn push(&mut self, island: &Island, place: usize) -> bool {
         let is_under_way = island.status == Status::Converged
             && !island.is_new
             && island.feasible.is_none()
             && island.spectrum.is_none()
             && island.inputs.is_empty()
             && !island.is_watched();
-        let n_free = island.n_free;
-        let at = i32::try_from(self.words.len()).ok()? as u32;
-        let first = u32::try_from(self.poses.len()).ok()? as usize;
-        let poses = Arc::get_mut(&mut self.poses)?;
-        if !is_under_way || n_free >> FREE_BITS > 0 {
-            return None;
+        let Ok(at) = u32::try_from(self.words.len()) else { return false };
+        if !is_under_way {
+            return false;
         }
-        let (are_old, sides) = island.block_sides();
         let Fingerprint { structure, inputs, pose } = island.fingerprint();
-        let n_past = island.history.n_past();
+        self.words.extend_from_slice(&[island.residual.to_bits(), inputs, pose]);
+        let (n_free, n_past) = (island.n_free, island.history.n_past());
         let is_there = |k: usize| {
-            let kept = self.older.get(k - 2).and_then(|older| older.get(first..first + n_free));
-            kept.is_some_and(|kept| are_same_places(kept, island.history.past(k)))
+            let there = self.older[k - 1].get(place..place.saturating_add(n_free));
+            there.is_some_and(|there| are_same_places(there, island.history.past(k)))
         };
-        let shares = (2..=n_past).all(is_there);
-        let flags = flag(island.has_degree, HAS_DEGREE)
-            | flag(shares, SHARES)
-            | flag(island.is_smooth(), IS_SMOOTH)
-            | flag(island.is_edited, IS_EDITED)
-            | flag(island.is_awake, IS_AWAKE)
-            | flag(are_old, HAS_OLD_SIDES);
-        let header: [u64; HEADER] = [
-            both(first, ((n_free << PAST_BITS | n_past) as u64) << N_FLAGS | flags),
-            both(sides.len(), u64::from(island.n_evaluations)),
-            island.residual.to_bits(),
-            island.probed_at.to_bits(),
-            structure,
-            inputs,
-            pose,
-        ];
-        self.words.extend_from_slice(&header);
-        if n_past > 0 {
-            poses.extend_from_slice(island.history.past(1));
+        let has_shared_past = (1..=n_past).all(is_there);
+        if !has_shared_past {
+            for p in (1..=n_past).flat_map(|k| island.history.past(k)) {
+                self.words.extend_from_slice(&[p.x.to_bits(), p.y.to_bits()]);
+            }
         }
-        for p in (2..=n_past).filter(|_| !shares).flat_map(|k| island.history.past(k)) {
-            self.words.extend_from_slice(&[p.x.to_bits(), p.y.to_bits()]);
-        }
+        let (has_old_sides, sides) = island.block_sides();
+        let n_sides = sides.len() as u32;
         sides.for_each(|it| {
             self.words.extend_from_slice(&[it.sine.to_bits(), u64::from(it.other)]);
         });
-        debug_assert_eq!(self.get(at), Snapshot::of(island), "what is kept is what there was");
-        Some(at)
+        self.rows.push(Row {
+            first: island.points[0],
+            at,
+            place: if has_shared_past { place as u32 } else { 0 },
+            n_free: n_free as u32,
+            n_past: n_past as u32,
+            n_sides,
+            n_evaluations: island.n_evaluations,
+            structure,
+            probed_at: island.probed_at,
+            flags: Flags {
+                has_degree: island.has_degree,
+                is_smooth: island.is_smooth(),
+                is_edited: island.is_edited,
+                is_awake: island.is_awake,
+                has_old_sides,
+                has_shared_past,
+            },
+        });
+        debug_assert_eq!(
+            self.rows.last().map(|row| self.get(row)),
+            Some(Snapshot::of(island)),
+            "what is kept is what there was"
+        );
+        true
     }
 
-    /// The snapshot that begins there.
-    pub fn get(&self, at: u32) -> Snapshot {
-        let (header, rest) = self.words[at as usize..].split_at(HEADER);
-        let (first, flags) = ((header[0] >> 32) as usize, header[0]);
-        let counts = flags as u32 >> N_FLAGS;
-        let (n_free, n_past) = ((counts >> PAST_BITS) as usize, (counts & 3) as usize);
-        let shares = flags & SHARES != 0;
-        let n_own = if shares { 0 } else { n_past.saturating_sub(1) };
+    /// The snapshot that a row is of.
+    pub(super) fn get(&self, row: &Row) -> Snapshot {
+        let (header, rest) = self.words[row.at as usize..].split_at(HEADER);
+        let (n_free, n_past, flags) = (row.n_free as usize, row.n_past as usize, row.flags);
+        let n_own = if flags.has_shared_past { 0 } else { n_past };
         let (own, rest) = rest.split_at(2 * n_free * n_own);
-        let sides = &rest[..2 * (header[1] >> 32) as usize];
+        let sides = rest[..2 * row.n_sides as usize].as_chunks::<2>().0;
         let number = f64::from_bits;
-        let point = |p: &[u64; 2]| Point::new(number(p[0]), number(p[1]));
+        let past = if flags.has_shared_past {
+            let place = row.place as usize;
+            let older = self.older[..n_past].iter().flat_map(|there| &there[place..place + n_free]);
+            older.copied().collect()
+        } else {
+            let point = |p: &[u64; 2]| Point::new(number(p[0]), number(p[1]));
+            own.as_chunks::<2>().0.iter().map(point).collect()
+        };
         let side = |s: &[u64; 2]| Side { sine: number(s[0]), other: s[1] as u32 };
-        let columns = std::iter::once(&self.poses).chain(&self.older);
-        let kept = columns.take(if shares { n_past } else { n_past.min(1) });
-        let kept = kept.flat_map(|poses| &poses[first..first + n_free]).copied();
         Snapshot {
             n_free,
             status: Status::Converged,
-            residual: number(header[2]),
-            probed_at: number(header[3]),
-            has_degree: flags & HAS_DEGREE != 0,
-            is_smooth: flags & IS_SMOOTH != 0,
-            is_edited: flags & IS_EDITED != 0,
-            is_awake: flags & IS_AWAKE != 0,
-            fingerprint: Fingerprint { structure: header[4], inputs: header[5], pose: header[6] },
-            past: kept.chain(own.as_chunks::<2>().0.iter().map(point)).collect(),
+            residual: number(header[0]),
+            probed_at: row.probed_at,
+            has_degree: flags.has_degree,
+            is_smooth: flags.is_smooth,
+            is_edited: flags.is_edited,
+            is_awake: flags.is_awake,
+            fingerprint: Fingerprint {
+                structure: row.structure,
+                inputs: header[1],
+                pose: header[2],
+            },
+            past,
             feasible: Box::default(),
             direction: Box::default(),
             exact: Some(Exact {
                 is_new: false,
-                n_evaluations: header[1] as u32,
+                n_evaluations: row.n_evaluations,
                 sides: KnownSides {
-                    blocks: sides.as_chunks::<2>().0.iter().map(side).collect(),
-                    are_old: flags & HAS_OLD_SIDES != 0,
+                    blocks: sides.iter().map(side).collect(),
+                    are_old: flags.has_old_sides,
                     watched: None,
                 },
                 inputs: None,

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-use super::{Island, Member};
+use super::Island;
+use super::member::Member;
 use crate::constraint::{Constraint, ConstraintKind, Point};
 use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
-use crate::solve::parallel::Effort;
 use crate::world::marks::Marks;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
@@ -91,16 +91,6 @@ impl Partition {
 
     pub(super) fn islands_mut(&mut self) -> impl Iterator<Item = &mut Island> {
         self.islands.iter_mut().filter_map(Option::as_deref_mut)
-    }
-
-    /// What visiting these islands was last time.
-    pub fn effort_of(&self, islands: &[u32]) -> Effort {
-        let mut effort = Effort::default();
-        for island in islands.iter().filter_map(|&k| self.get(k)) {
-            effort.n_constraints += island.constraints.len() as u64;
-            effort.n_evaluations += u64::from(island.n_evaluations);
-        }
-        effort
     }
 
     /// Takes an island out, to be given back before anything else is asked.

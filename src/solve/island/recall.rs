@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::Island;
 use super::memory::snapshot_of;
-use super::packed::{Packed, Poses};
+use super::packed::{OlderPlaces, Packed, Row};
 use super::snapshot::Snapshot;
 use crate::solve::settings::Settings;
-use crate::world::PointId;
 use crate::world::marks::Marks;
+use crate::world::{Places, PointId, World};
 
 /// What is remembered under a point: nothing where no island begins with it, or where what it
 /// remembers does not count.
@@ -27,55 +27,51 @@ impl From<Option<Arc<Snapshot>>> for Kept {
     }
 }
 
-/// Where in a list of many it is: in the column, or, with the highest bit, among those that are kept one
-/// by one.
-#[derive(Debug, Clone, Copy)]
-struct Noted(u32);
-
-const IS_KEPT: u32 = 1 << 31;
-
-/// What was remembered of some islands, each filed under its first free point, in their order.
+/// What was remembered of some islands, each filed under its first free point.
 #[derive(Debug, Clone, Default)]
 pub struct Recall {
-    islands: Vec<(PointId, Noted)>,
-    kept: Vec<Kept>,
     packed: Packed,
+    /// Those of which more is to be kept, one by one.
+    kept: Vec<(PointId, Kept)>,
     /// The settings of the last call then.
     pub(crate) settings: Option<Settings>,
 }
 
 impl Recall {
     /// What brings this back, of islands in the order of their first points.
-    pub(crate) fn new(islands: Vec<(PointId, Kept)>, settings: Option<Settings>) -> Self {
-        let mut recall = Self { settings, ..Self::default() };
-        islands.into_iter().for_each(|(first, kept)| recall.keep(first, kept));
-        recall
+    pub(crate) fn new(kept: Vec<(PointId, Kept)>, settings: Option<Settings>) -> Self {
+        Self { kept, settings, ..Self::default() }
     }
 
     /// Roughly how many bytes it holds.
     pub fn n_bytes(&self) -> usize {
-        let kept = self.kept.iter().map(|kept| size_of_val(kept) + kept.n_bytes as usize);
-        size_of::<Self>()
-            + size_of_val(&*self.islands)
-            + self.packed.n_bytes()
-            + kept.sum::<usize>()
+        let kept = self.kept.iter().map(|it| size_of_val(it) + it.1.n_bytes as usize);
+        size_of::<Self>() + self.packed.n_bytes() + kept.sum::<usize>()
     }
 
-    fn keep(&mut self, first: PointId, kept: Kept) {
-        self.islands.push((first, Noted(self.kept.len() as u32 | IS_KEPT)));
-        self.kept.push(kept);
+    /// What it is filed under.
+    fn firsts(&self) -> impl Iterator<Item = PointId> {
+        let packed = self.packed.rows().iter().map(|row| row.first);
+        packed.chain(self.kept.iter().map(|(first, _)| *first))
     }
 
     /// What was remembered, in the order of the first points.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (PointId, Kept)> {
-        self.islands.iter().map(|&(first, Noted(at))| {
-            if at & IS_KEPT == 0 {
-                (first, Some(Arc::new(self.packed.get(at))).into())
-            } else {
-                (first, self.kept[(at & !IS_KEPT) as usize].clone())
-            }
+        let packed = self.packed.rows().iter().map(|row| (row.first, Noted::Packed(row)));
+        let kept = self.kept.iter().map(|(first, kept)| (*first, Noted::Kept(kept)));
+        let mut islands: Vec<(PointId, Noted)> = packed.chain(kept).collect();
+        islands.sort_by_key(|(first, _)| *first);
+        islands.into_iter().map(|(first, noted)| match noted {
+            Noted::Packed(row) => (first, Some(Arc::new(self.packed.get(row))).into()),
+            Noted::Kept(kept) => (first, kept.clone()),
         })
     }
+}
+
+/// Where it is kept.
+enum Noted<'a> {
+    Packed(&'a Row),
+    Kept(&'a Kept),
 }
 
 /// Notes what is remembered of islands before it changes.
@@ -84,38 +80,38 @@ pub(crate) struct Notes {
     /// What was noted; none while nobody asks.
     recall: Option<Recall>,
     firsts: Marks,
-    /// How many islands changed last, and how much room that took.
-    n_last: (usize, (usize, usize)),
-    /// The poses that the last commands kept.
-    older: [Poses; 2],
+    /// The islands that the last command let move, and how much room what was noted of them took: often the
+    /// same move again.
+    last: (Packed, usize),
+    older: OlderPlaces,
+    /// Whether the command that is about to end let time pass.
+    has_run: bool,
 }
 
 impl Notes {
     /// From here on the first changes are noted; gives what was noted for who asked before.
     pub fn begin(&mut self, settings: Option<Settings>) -> Option<Recall> {
         self.firsts.begin();
-        // As many as changed last often change again.
-        let (n_islands, room) = self.n_last;
-        let islands = Vec::with_capacity(n_islands);
-        let packed = Packed::like(room, self.older.clone());
-        self.recall.replace(Recall { islands, kept: Vec::new(), packed, settings })
+        let (last, n_words) = &self.last;
+        let packed = Packed::beside(last, *n_words, self.older.clone());
+        self.recall.replace(Recall { packed, kept: Vec::new(), settings })
     }
 
     /// What was noted; `outer` goes on noting.
     pub fn end(&mut self, outer: Option<Recall>) -> Option<Recall> {
         let mut recall = std::mem::replace(&mut self.recall, outer)?;
         recall.packed.shrink_to_fit();
-        self.n_last = (recall.islands.len(), recall.packed.len());
-        if recall.packed.len().1 > 0 {
-            self.older = recall.packed.poses();
-        }
-        // Of what was noted twice the first counts; a stable order keeps it in front.
-        recall.islands.sort_by_key(|(first, _)| *first);
-        recall.islands.dedup_by_key(|(first, _)| *first);
-        recall.islands.shrink_to_fit();
         recall.kept.shrink_to_fit();
-        // What the outer one noted since it began was marked in a round that is over.
         self.firsts.begin();
+        match &self.recall {
+            None if std::mem::take(&mut self.has_run) => {
+                self.last = (recall.packed.without_words(), recall.packed.n_words());
+            }
+            None => {}
+            Some(outer) => outer.firsts().for_each(|first| {
+                self.firsts.mark(first.idx());
+            }),
+        }
         Some(recall)
     }
 
@@ -124,21 +120,38 @@ impl Notes {
         self.recall.is_some()
     }
 
+    /// A command that is about to end noted where points were when it began.
+    pub fn note_places(&mut self, places: Places) {
+        self.has_run = true;
+        let [last, before, _] = std::mem::take(&mut self.older);
+        self.older = [places, last, before];
+    }
+
     /// An island is about to change.
-    #[inline]
     pub fn note(&mut self, island: &Island) {
+        self.note_at(island, usize::MAX);
+    }
+
+    /// An island is about to be visited: the world knows where among the places of the command before
+    /// those of its points are.
+    #[inline]
+    pub fn note_visit(&mut self, island: &Island, world: &World) {
+        self.note_at(island, world.noted_place(island.points[0]));
+    }
+
+    #[inline]
+    fn note_at(&mut self, island: &Island, place: usize) {
+        let first = island.points[0];
         if let Some(recall) = &mut self.recall
-            && self.firsts.mark(island.points[0].idx())
+            && self.firsts.mark(first.idx())
         {
             if island.is_blank {
-                return recall.keep(island.points[0], Kept::default());
+                return recall.kept.push((first, Kept::default()));
             }
             // What was asked for since the last visit is shared.
             let is_shared = island.remembered.get().is_some();
-            let packed = if is_shared { None } else { recall.packed.push(island) };
-            match packed {
-                Some(at) => recall.islands.push((island.points[0], Noted(at))),
-                None => recall.keep(island.points[0], Some(snapshot_of(island)).into()),
+            if is_shared || !recall.packed.push(island, place) {
+                recall.kept.push((first, Some(snapshot_of(island)).into()));
             }
         }
     }
@@ -148,7 +161,7 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(first.idx())
         {
-            recall.keep(first, kept);
+            recall.kept.push((first, kept));
         }
     }
 }

@@ -40,14 +40,11 @@ impl Island {
         KnownSides { blocks: blocks.collect(), are_old, watched }
     }
 
-    /// The same of its blocks, and whether it has to be worked out again.
+    /// The same of its blocks, and whether it has to be worked out again: what they were before does
+    /// not matter then, and is left out.
     pub fn block_sides(&self) -> (bool, impl ExactSizeIterator<Item = Side>) {
-        // Where the last frame left it, what was put off is worked out here. Of parts that are solved
-        // as a whole that takes more than to do so when it is asked for.
-        let is_due = self.are_sides_old && self.inputs.is_empty() && self.plan.is_complete();
-        let blocks = &self.plan.blocks;
-        let side = move |k| if is_due { self.side_of_block(k) } else { blocks[k].side };
-        (self.are_sides_old && !is_due, (0..blocks.len()).map(side))
+        let blocks = if self.are_sides_old { &[][..] } else { &self.plan.blocks };
+        (self.are_sides_old, blocks.iter().map(|block| block.side))
     }
 
     /// Brings back what [`known_sides`](Self::known_sides) gave.

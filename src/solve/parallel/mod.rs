@@ -32,7 +32,7 @@ pub(super) const SHARE: usize = 2_048;
 pub(super) const ISLANDS: usize = 16;
 
 /// The work that islands were when they were last visited.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Effort {
     /// The constraints they hold.
     pub n_constraints: u64,

@@ -7,6 +7,7 @@ use crate::solve::island::Island;
 use crate::solve::island::memory;
 use crate::solve::island::partition::{Home, Partition};
 use crate::solve::island::recall::Kept;
+use crate::solve::parallel::Effort;
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
 use crate::world::{ConstraintId, PointId, Touched, World};
@@ -80,6 +81,10 @@ impl Solver {
             match self.partition.home(id) {
                 Home::None => {}
                 Home::Checked => self.check(world, id, settings),
+                // One that sleeps is woken if the values are others.
+                Home::Island(k) if cause == Cause::Clock && self.is_awake(k) => {
+                    self.delayed.push(k, (id, self.partition.local_constraint(id)));
+                }
                 Home::Island(k) => self.apply_values(world, k, id),
             }
         }
@@ -213,12 +218,30 @@ impl Solver {
     fn apply_values(&mut self, world: &World, k: u32, id: ConstraintId) {
         let c = self.partition.local_constraint(id);
         if let (Some(island), Some(record)) = (self.partition.get_mut(k), world.constraint(id)) {
-            self.notes.note(island);
+            self.notes.note_visit(island, world);
             if island.set_values(c, &record.constraint) {
                 self.wake(k);
                 self.edited.push(k);
             }
         }
+    }
+
+    /// An island is about to be visited: it takes in what the frame changes of it.
+    pub(super) fn prepare_visit(&mut self, world: &World, k: u32) {
+        let Self { partition, notes, delayed, .. } = self;
+        let Some(island) = partition.get_mut(k) else { return };
+        if notes.is_on() {
+            notes.note_visit(island, world);
+        }
+        while let Some((id, c)) = delayed.pop(k) {
+            if let Some(record) = world.constraint(id) {
+                island.set_values(c, &record.constraint);
+            }
+        }
+    }
+
+    fn is_awake(&self, k: u32) -> bool {
+        self.is_awake.get(k as usize).copied().unwrap_or(false)
     }
 
     fn apply_move(&mut self, world: &World, p: PointId, settings: &Settings) {
@@ -258,8 +281,15 @@ impl Solver {
         }
         if !std::mem::replace(&mut self.is_awake[at], true) {
             self.awake.push(k);
+            if at >= self.efforts.len() {
+                self.efforts.resize(at + 1, Effort::default());
+            }
             if let Some(island) = self.partition.get_mut(k) {
                 island.is_awake = true;
+                self.efforts[at] = Effort {
+                    n_constraints: island.constraints.len() as u64,
+                    n_evaluations: island.n_evaluations.into(),
+                };
             }
         }
     }

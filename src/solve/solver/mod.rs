@@ -1,6 +1,7 @@
 //! The solver as the session knows it: a world goes in as it is driven and comes out solved.
 
 mod changes;
+mod delayed;
 mod rider;
 mod stretch;
 mod visits;
@@ -17,12 +18,14 @@ use super::island::memory::{self, Memory};
 use super::island::partition::{Home, Partition};
 use super::island::recall::{Kept, Notes, Recall};
 use super::island::snapshot::Snapshot;
+use super::parallel::Effort;
 use super::report::{Budget, Counters, FrameCounts, Report, Status};
 use super::settings::{Method, Settings};
 use super::velocity;
 use crate::constraint::Point;
 use crate::diag::Diagnostic;
-use crate::world::{ConstraintId, PointId, Rates, Touched, World};
+use crate::world::{ConstraintId, Motion, PointId, Rates, Touched, World};
+use delayed::Delayed;
 
 /// Everything the solver keeps from one call to the next.
 #[derive(Default)]
@@ -31,10 +34,14 @@ pub struct Solver {
     /// Islands to be visited in the next frame, each once.
     awake: Vec<u32>,
     is_awake: Vec<bool>,
+    /// By number of an island, what visiting it was when it was last listed there.
+    efforts: Vec<Effort>,
     /// Room for the lists of what changed.
     touched: Option<Box<Touched>>,
     /// Islands of which values or places were changed from outside, while that is taken in.
     edited: Vec<u32>,
+    /// What the frame under way changes of islands that are yet to be visited in it.
+    delayed: Delayed,
     /// Room for the list of those that are visited now.
     due: Vec<u32>,
     /// Islands that could follow until the last frame and could not in it.
@@ -237,6 +244,7 @@ impl Solver {
         self.awake.clear();
         self.is_awake.clear();
         self.edited.clear();
+        self.delayed.clear();
         self.missed.clear();
         self.unsolved.clear();
         self.unsatisfiable.clear();
@@ -251,6 +259,14 @@ impl Solver {
     /// What brings back what was remembered when that was asked for; `outer` goes on.
     pub fn end_recall(&mut self, outer: Option<Recall>) -> Option<Recall> {
         self.notes.end(outer)
+    }
+
+    /// A command ends that let time pass: the next one finds where islands were in what this one keeps
+    /// of the world.
+    pub(crate) fn note_motion(&mut self, motion: &Motion) {
+        if let Some(places) = motion.places() {
+            self.notes.note_places(places.clone());
+        }
     }
 
     /// Remembers again what was noted; gives what takes this back. The world has to be as it was, or
@@ -314,15 +330,6 @@ impl Solver {
     fn note_pending(&mut self) {
         for (first, kept) in &self.pending {
             self.notes.note_as(*first, kept.clone());
-        }
-    }
-
-    /// An island is about to change.
-    pub(super) fn note(&mut self, k: u32) {
-        if self.notes.is_on()
-            && let Some(island) = self.partition.get(k)
-        {
-            self.notes.note(island);
         }
     }
 

@@ -92,10 +92,9 @@ impl Rider {
         });
         match n_turning.zip(n_followed) {
             Some((n_turning, n_followed)) if n_turning + n_followed > 0 => {
-                if form.n_timed_lengths() > 0 {
-                    island.prepare_without(|c| form.is_timed_length(c));
-                } else {
-                    island.prepare();
+                match form.timed_lengths() {
+                    [] => island.prepare(),
+                    lengths => island.prepare_without(lengths),
                 }
                 let traces = world.traces().iter();
                 let traced = traces
@@ -336,7 +335,7 @@ impl Rider {
     /// Gives back the island after so many frames, and tells the world where it is.
     pub fn dismount(self, n_frames: u64, world: &mut World) -> Box<Island> {
         let Self { mut island, mut form, found, .. } = self;
-        if form.n_timed_lengths() > 0 {
+        if !form.timed_lengths().is_empty() {
             island.prepare_anew();
         }
         if n_frames > 0 {

@@ -178,7 +178,7 @@ impl Solver {
         let Self { awake, partition, notes, .. } = self;
         for &k in awake.iter() {
             let Some(island) = partition.lend(k) else { break };
-            notes.note(&island);
+            notes.note_visit(&island, world);
             // The first looks at what drives none.
             let also = if riders.is_empty() { &*spare } else { &[] };
             match Rider::mount(k, island, world, also, dt) {

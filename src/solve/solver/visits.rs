@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::solve::dispatch::{Cause, Task, Visit, take_back, turn_back, visit, write_back};
 use crate::solve::frame::pull::{Pulled, pull};
 use crate::solve::island::Island;
-use crate::solve::parallel::{self, ISLANDS};
+use crate::solve::parallel::{self, Effort, ISLANDS};
 use crate::solve::report::{Budget, Counters, Report, Status};
 use crate::solve::settings::Settings;
 use crate::world::{PointId, World};
@@ -69,13 +69,13 @@ impl Solver {
         std::mem::swap(&mut due, &mut self.awake);
         for &k in &due {
             self.is_awake[k as usize] = false;
-            self.note(k);
         }
         let can_share = budget.stop.is_none() && due.len() > 1;
-        if can_share && parallel::pays(&self.partition.effort_of(&due)) {
+        if can_share && parallel::pays(&self.effort_of(&due)) {
             self.visit_side_by_side(&due, world, settings, budget, task, &mut report);
         } else {
             for &k in &due {
+                self.prepare_visit(world, k);
                 if budget.is_spent() {
                     report.is_interrupted = true;
                     self.wake(k);
@@ -85,6 +85,7 @@ impl Solver {
                 }
             }
         }
+        self.delayed.clear();
         due.clear();
         self.due = due;
         world.follow_turns();
@@ -141,6 +142,16 @@ impl Solver {
         report
     }
 
+    /// What visiting these islands was last time.
+    fn effort_of(&self, islands: &[u32]) -> Effort {
+        let mut effort = Effort::default();
+        for of_one in islands.iter().filter_map(|&k| self.efforts.get(k as usize)) {
+            effort.n_constraints += of_one.n_constraints;
+            effort.n_evaluations += of_one.n_evaluations;
+        }
+        effort
+    }
+
     /// Visits islands on all cores, and takes in what that came to in their order.
     fn visit_side_by_side(
         &mut self,
@@ -154,6 +165,7 @@ impl Solver {
         // Who may stop the work is asked between rounds.
         let n_at_once = if interrupt::is_heard() { ROUND } else { due.len() };
         for due in due.chunks(n_at_once) {
+            due.iter().for_each(|&k| self.prepare_visit(world, k));
             let islands = due.iter().filter_map(|&k| Some((k, self.partition.lend(k)?)));
             let mut guests: Vec<Guest> =
                 islands.map(|(k, island)| Guest { k, island, visit: None }).collect();

@@ -110,7 +110,9 @@ fn walk(talking: &mut Talking, statement: &str) {
 /// Carries statements out, with failures, undo and redo among them, and again with nothing but what
 /// took effect; both are then the same, and so is what is loaded from their file.
 pub fn hold_out(beginning: &[String], statements: &[String], held: Held) {
-    let mut talking = patient();
+    // Who is to blame for a pose is nearly half of all work: it is told where that is held against one
+    // who is not told.
+    let mut talking = if held.to(Held::Failing) { patient() } else { deaf() };
     let mut others: Vec<Talking> = Vec::new();
     if held.to(Held::Failing) {
         others.push(deaf());

@@ -39,19 +39,24 @@ fn poses_that_the_commands_before_kept_are_not_kept_again() {
          for i in 1..{n} {{
            point A[i] = (0, 6 * i) frozen, D[i] = (4, 6 * i) frozen
            point B[i] = (1, 6 * i), C[i] = (3, 6 * i + 2.9)
-           motor A[i] B[i] speed 1rev
            length B[i] C[i] = 3.5
            length C[i] D[i] = 3
-         }}"
+         }}
+         for i in 1..{n} {{ motor A[{n} + 1 - i] B[{n} + 1 - i] speed 1rev }}"
     ));
     talking.run("step 4; step 4");
     let alone = kept_by(&mut talking, "step 4");
     talking.run("step; step; step; step");
     let [first, second] = [(); 2].map(|()| kept_by(&mut talking, "step"));
     assert_eq!(first, second);
-    // Two poses of two points of each, at least.
-    let shared = 2 * 2 * 16 * n;
+    // Three poses of two points of each.
+    let shared = 3 * 2 * 16 * n;
     assert!(alone - first >= shared, "{alone} bytes alone, {first} behind another");
+    // Two places, a heading, and three numbers of the solver's.
+    let own = 2 * 16 + 40 + 3 * 8;
+    assert!(first <= own * n + 1000, "{first} bytes for {n} four-bars");
+    talking.run("print velocity(B[1]), velocity(B[2])");
+    assert_eq!(kept_by(&mut talking, "step"), first, "behind a look");
     let mut before = Vec::new();
     for _ in 0..8 {
         before.push(talking.script());

@@ -124,9 +124,28 @@ fn a_statement_goes_on_with_a_prompt_of_its_own() {
     terminal.press("\r");
     terminal.wait_for("is never closed");
     terminal.wait_for_prompt();
+    // Or Ctrl-C gives it up.
+    terminal.press("point Z = (1,\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("\x03");
+    terminal.wait_for_prompt();
     // It comes back as one.
     terminal.press(&format!("{UP}{UP}"));
     terminal.wait_for("for i in 1..2 {");
+}
+
+#[test]
+fn a_command_behind_an_open_bracket_is_one_of_its_own() {
+    let home = tempdir().expect("a folder");
+    let terminal = session(home.path());
+    terminal.press("point Y = (0, 0\r");
+    terminal.wait_for_line("...   ");
+    terminal.press("point Z = (7, 11)\r");
+    terminal.wait_for("is never closed");
+    terminal.wait_for_prompt();
+    terminal.press("Z\rY\r");
+    terminal.wait_for("(7, 11)\n");
+    terminal.wait_for("unknown name `Y`");
 }
 
 #[test]

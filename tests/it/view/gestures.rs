@@ -162,6 +162,34 @@ fn a_point_that_is_gone_is_not_held() {
 }
 
 #[test]
+fn another_point_in_the_place_of_what_was_held_is_not_held() {
+    let mut viewed = Viewed::on(&scene());
+    let mut page = viewed.open();
+    let points = |k: u32| format!("point p[{k}] = (5, 0), q[{k}] = (0, 0), r[{k}] = (4, 0)");
+    page.exec(&format!("clear; {}", points(0)));
+    let seen = |page: &mut Page, k: u32| {
+        let name = format!("q[{k}]");
+        page.until(|message| message["state"]["points"][1]["name"] == name.as_str());
+    };
+    for k in [1, 2] {
+        seen(&mut page, k - 1);
+        hold(&mut page, &format!("q[{}]", k - 1));
+        lead(&mut page, &WAY[..1]);
+        let line = format!("clear; {}", points(k));
+        if k == 1 {
+            page.exec(&line);
+        } else {
+            viewed.enter(&line);
+            seen(&mut page, k);
+        }
+        let before = page.script();
+        lead(&mut page, &WAY[1..]);
+        assert_eq!(page.ask(json!({ "do": "release" }))["ok"], false);
+        assert_eq!(page.script(), before);
+    }
+}
+
+#[test]
 fn a_hand_that_is_not_moved_holds_its_point_while_time_passes() {
     let viewed = Viewed::on(&scene());
     let mut page = viewed.open();
