@@ -111,7 +111,7 @@ impl Execution<'_> {
         }
         // The residual is relative to what hangs together; the scene is at least as large.
         freedoms(&self.state.world, &[])
-            .position_error(summary.worst_residual * self.state.solver.size())
+            .position_error(summary.worst_residual * self.state.solver.size(&self.state.world))
             .map(|at_the_end| at_the_end.max(summary.error_on_the_way))
     }
 }

@@ -64,7 +64,7 @@ impl State {
             tick(LOOK);
             self.solver.violation(&self.world, id)
         });
-        violations.fold(0.0, f64::max) / self.solver.size()
+        violations.fold(0.0, f64::max) / self.solver.size(&self.world)
     }
 
     /// What pictures of the present scene carry along, if this was the last run.

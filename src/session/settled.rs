@@ -63,7 +63,7 @@ impl Settled {
         // What has no value now is not met: the verdict says so.
         let _ = world.refresh_driven();
         let report = solver.settle(&mut world, settings, &Budget::default());
-        let size = solver.size();
+        let size = solver.size(&world);
         let slack = settings.tolerance.max(1e-9) * size;
         let verdict = verdict(&world, settings);
         let status = verdict.ending(report.status);

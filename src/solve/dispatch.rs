@@ -72,6 +72,7 @@ pub(super) fn visit(
         island.is_awake = false;
         return visit;
     }
+    island.begin_change();
     island.prepare();
     if task == Task::Frame && settings.method == Method::Auto {
         let tolerance = budget.tolerance_of(settings);
@@ -87,6 +88,8 @@ pub(super) fn visit(
     island.leave_closed_form();
     let limits = island.limits(settings, budget);
     let is_first = island.is_new;
+    let start: Option<Box<[Point]>> =
+        (is_first && island.is_passive()).then(|| island.x[..island.n_free].into());
     let before = *work;
     if (island.is_new || island.is_edited) && task == Task::Frame && settings.method == Method::Auto
     {
@@ -108,6 +111,10 @@ pub(super) fn visit(
         (work.factorisations - before.factorisations) * island.constraints.len() as u64;
     island.n_evaluations =
         u32::try_from(n_evaluations + FACTORISATION * n_factored).unwrap_or(u32::MAX);
+    if !outcome.is_converged() && island.feasible.is_none() && settings.method == Method::Auto {
+        // Everything may have held there before it was edited.
+        island.feasible = start;
+    }
     island.is_new = false;
     island.is_edited = false;
     island.status = outcome.status;
@@ -251,7 +258,7 @@ pub(super) fn take_back(island: &mut Island, world: &World) {
     island.status = Status::Stalled;
     island.is_awake = true;
     island.history.forget();
-    island.remembered.take();
+    island.begin_change();
     let violations = island.constraints.iter().map(|c| c.violation(&island.x, &island.w));
     island.residual = violations.fold(0.0, f64::max) / island.size();
 }

@@ -174,6 +174,11 @@ impl World {
         self.touched.is_empty()
     }
 
+    /// What changed since it was last taken.
+    pub(crate) fn touched(&self) -> &Touched {
+        &self.touched
+    }
+
     /// What changed since this was last asked for. `room` lends its lists to what comes next.
     pub fn take_touched(&mut self, mut room: Box<Touched>) -> Box<Touched> {
         room.clear();

@@ -128,7 +128,7 @@ impl Island {
 
     /// Frames were passed by the list of steps, the last of which left this.
     pub fn end_stretch(&mut self, worst: f64, n_constraints: u32) {
-        self.remembered.take();
+        self.begin_change();
         // Values that follow time went on with it.
         self.still.take();
         self.before = None;

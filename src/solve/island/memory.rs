@@ -72,9 +72,9 @@ impl Memory {
         self.made_by
     }
 
-    /// Adds what is remembered of an island; nothing of one that was never solved.
+    /// Adds what is remembered of an island; nothing of one that was never solved, or is blank.
     pub(crate) fn insert(&mut self, island: &Island) {
-        if !island.is_new {
+        if !island.is_new && !island.is_blank {
             self.put(island.points[0], snapshot_of(island));
         }
     }

@@ -10,7 +10,9 @@ pub mod member;
 pub mod memory;
 mod packed;
 pub mod partition;
+pub mod postponed;
 pub mod recall;
+pub mod rest;
 pub mod sides;
 pub mod snapshot;
 pub mod structure;
@@ -81,6 +83,11 @@ pub(crate) struct Island {
     pub n_evaluations: u32,
     /// Whether it was never solved.
     pub is_new: bool,
+    /// Whether everything held when it was made, and nothing was solved since: nothing has to be
+    /// remembered of it, as it would be made anew the same.
+    pub is_blank: bool,
+    /// Whether it stands for what edits made of it, until that is put together.
+    pub is_outdated: bool,
     /// Whether the user edited it since it was solved: it is solved as it is before time
     /// goes on.
     pub is_edited: bool,
@@ -183,6 +190,8 @@ impl Island {
             feasible: None,
             n_evaluations: FIRST_VISIT * members.len() as u32,
             is_new: true,
+            is_blank: false,
+            is_outdated: false,
             is_edited: false,
             is_awake: true,
             probed_at: 0.0,
@@ -298,25 +307,6 @@ impl Island {
     pub fn is_smooth(&self) -> bool {
         let first = self.plan.rest.first().and_then(|part| part.points.first());
         first.is_some_and(|&p| self.degree[p as usize] > 1)
-    }
-
-    /// The user changed something since the last visit: a value, or the place of a free point.
-    /// Before time goes on the island has to be solved as it is now.
-    pub fn note_edit(&mut self, is_disturbed: bool) {
-        if is_disturbed {
-            // A point put elsewhere is a wish for another pose.
-            self.feasible = None;
-        } else if self.status == Status::Converged {
-            self.feasible = Some(self.x[..self.n_free].into());
-        }
-        self.status = Status::Stalled;
-        // A saddle of what was is not one of what is.
-        self.probed_at = 0.0;
-        self.is_edited = true;
-        self.is_awake = true;
-        self.history.forget();
-        self.inputs.clear();
-        self.remembered.take();
     }
 
     /// Keeps how it was before a frame that was just tried in vain.

@@ -1,18 +1,18 @@
 //! Which constraints and points make which island, kept up to date edit by edit.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 use super::Island;
 use super::member::Member;
-use crate::constraint::ConstraintKind;
+use crate::constraint::{Constraint, ConstraintKind, Point};
 use crate::interrupt::tick;
 use crate::linalg::DisjointSets;
 use crate::world::marks::Marks;
 use crate::world::{ConstraintId, PointId, Touched, World};
 
 /// Not in any island.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 /// All points are frozen: in no island, but to be checked.
 const CHECKED: u32 = u32::MAX - 1;
 
@@ -49,6 +49,27 @@ pub(crate) struct Partition {
     /// it wrote.
     by_point: Vec<u32>,
     marks: Marks,
+    /// Edits that are not taken in yet.
+    pub(super) postponed: Postponed,
+}
+
+/// What is to be taken in before one of these islands, or of these points, is asked about.
+#[derive(Default)]
+pub(super) struct Postponed {
+    /// The constraints that were edited: as they are, or that they are in no island any more.
+    pub constraints: BTreeMap<ConstraintId, Option<Constraint>>,
+    /// The points of these, and those that were edited themselves, with their places.
+    pub points: BTreeMap<PointId, Point>,
+    /// The islands that are as they were before.
+    pub islands: Vec<u32>,
+}
+
+/// What of a world was otherwise when islands are put together: values of constraints, over handles, and
+/// places.
+#[derive(Default)]
+pub(super) struct Was {
+    pub constraints: BTreeMap<ConstraintId, Constraint>,
+    pub places: BTreeMap<PointId, Point>,
 }
 
 impl Partition {
@@ -66,6 +87,10 @@ impl Partition {
     /// The same, for a change.
     pub fn get_mut(&mut self, k: u32) -> Option<&mut Island> {
         self.islands.get_mut(k as usize)?.as_deref_mut()
+    }
+
+    pub(super) fn islands_mut(&mut self) -> impl Iterator<Item = &mut Island> {
+        self.islands.iter_mut().filter_map(Option::as_deref_mut)
     }
 
     /// Takes an island out, to be given back before anything else is asked.
@@ -127,6 +152,25 @@ impl Partition {
         world: &World,
         leave: &mut dyn FnMut(&Island),
     ) -> Vec<u32> {
+        self.make_room(world);
+        let mut loose = Vec::new();
+        if touched.all {
+            self.islands.iter().flatten().for_each(|island| leave(island));
+            self.clear();
+            loose.extend(world.constraints().map(|(id, _)| id));
+        } else {
+            for &p in outdated {
+                if let Some(k) = self.island_of_point(p) {
+                    self.dissolve(k, &mut loose, leave);
+                }
+            }
+            self.loosen(touched, world, &mut loose, leave);
+        }
+        self.assemble(loose, world, &Was::default())
+    }
+
+    /// Makes room for all that there is.
+    pub(super) fn make_room(&mut self, world: &World) {
         // Islands of what was taken back may be there yet.
         let n_points = world.points().column().len().max(self.of_point.len());
         let n_constraints = world.next_constraint().idx().max(self.of_constraint.len());
@@ -134,30 +178,20 @@ impl Partition {
         self.of_constraint.resize(n_constraints, NONE);
         self.local_constraint.resize(n_constraints, NONE);
         self.by_point.resize(n_points, NONE);
-        let mut loose = Loose { constraints: Vec::new(), leave };
-        if touched.all {
-            for island in self.islands.iter().flatten() {
-                (loose.leave)(island);
-            }
-            self.clear();
-            loose.constraints.extend(world.constraints().map(|(id, _)| id));
-        } else {
-            for &p in outdated {
-                if let Some(k) = self.island_of_point(p) {
-                    self.dissolve(k, &mut loose);
-                }
-            }
-            self.loosen(touched, world, &mut loose);
-        }
-        let mut constraints = loose.constraints;
-        constraints.sort_unstable();
-        constraints.dedup();
-        // One that was switched off or deleted may have been in one of these islands.
-        constraints.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
-        self.assemble(&constraints, world)
+    }
+
+    /// Notes where a constraint is looked after, or that it is nowhere.
+    pub(super) fn set_home(&mut self, id: ConstraintId, k: u32) {
+        self.of_constraint[id.idx()] = k;
+    }
+
+    /// Notes the island of a free point, or that it is in none.
+    pub(super) fn set_island_of_point(&mut self, p: PointId, k: u32) {
+        self.of_point[p.idx()] = k;
     }
 
     fn clear(&mut self) {
+        self.postponed = Postponed::default();
         self.islands.clear();
         self.vacant.clear();
         self.of_point.fill(NONE);
@@ -167,20 +201,26 @@ impl Partition {
     }
 
     /// Collects all constraints whose island may change.
-    fn loosen(&mut self, touched: &Touched, world: &World, loose: &mut Loose<'_>) {
+    fn loosen(
+        &mut self,
+        touched: &Touched,
+        world: &World,
+        loose: &mut Vec<ConstraintId>,
+        leave: &mut dyn FnMut(&Island),
+    ) {
         for &id in &touched.constraints {
-            self.dissolve_home(id, loose);
-            loose.constraints.push(id);
+            self.dissolve_home(id, loose, leave);
+            loose.push(id);
         }
         for &p in &touched.points {
             if let Some(k) = self.island_of_point(p) {
-                self.dissolve(k, loose);
+                self.dissolve(k, loose, leave);
             }
             let holders: Vec<ConstraintId> = self.holders(p, world).collect();
             for id in holders {
                 if self.home(id) != Home::None {
-                    self.dissolve_home(id, loose);
-                    loose.constraints.push(id);
+                    self.dissolve_home(id, loose, leave);
+                    loose.push(id);
                 }
             }
         }
@@ -190,36 +230,47 @@ impl Partition {
             let Some(record) = world.constraint(id) else { continue };
             for &p in record.constraint.points() {
                 if let Some(k) = self.island_of_point(PointId(p)) {
-                    self.dissolve(k, loose);
+                    self.dissolve(k, loose, leave);
                 }
             }
         }
     }
 
-    fn dissolve_home(&mut self, id: ConstraintId, loose: &mut Loose<'_>) {
+    fn dissolve_home(
+        &mut self,
+        id: ConstraintId,
+        loose: &mut Vec<ConstraintId>,
+        leave: &mut dyn FnMut(&Island),
+    ) {
         match self.home(id) {
             Home::None => {}
-            Home::Island(k) => self.dissolve(k, loose),
+            Home::Island(k) => self.dissolve(k, loose, leave),
             Home::Checked => {
                 self.of_constraint[id.idx()] = NONE;
                 self.checked.remove(&id);
-                loose.constraints.push(id);
+                loose.push(id);
             }
         }
     }
 
-    /// Takes an island apart.
-    fn dissolve(&mut self, k: u32, loose: &mut Loose<'_>) {
+    /// Takes an island apart: its constraints, some of which may be there already, belong to none for the
+    /// moment. `leave` takes a last look at it.
+    pub(super) fn dissolve(
+        &mut self,
+        k: u32,
+        loose: &mut Vec<ConstraintId>,
+        leave: &mut dyn FnMut(&Island),
+    ) {
         let Some(island) = self.islands[k as usize].take() else { return };
         self.vacant.push(k);
-        (loose.leave)(&island);
+        leave(&island);
         for p in &island.points[..island.n_free] {
             self.of_point[p.idx()] = NONE;
         }
         for id in &island.ids {
             self.of_constraint[id.idx()] = NONE;
         }
-        loose.constraints.extend_from_slice(&island.ids);
+        loose.extend_from_slice(&island.ids);
         if let Some(holders) = self.holders.get_mut() {
             for holder in frozen_points(&island) {
                 holders.remove(&holder);
@@ -228,7 +279,16 @@ impl Partition {
     }
 
     /// Puts loose constraints together to islands, by the free points they share.
-    fn assemble(&mut self, loose: &[ConstraintId], world: &World) -> Vec<u32> {
+    pub(super) fn assemble(
+        &mut self,
+        mut loose: Vec<ConstraintId>,
+        world: &World,
+        was: &Was,
+    ) -> Vec<u32> {
+        loose.sort_unstable();
+        loose.dedup();
+        // One that was switched off or deleted may have been in one of the islands taken apart.
+        loose.retain(|&id| world.constraint(id).is_some_and(|record| record.is_on));
         let points = world.points();
         let is_free = |p: u32| !points.is_frozen(PointId(p));
         let mut by_point = std::mem::take(&mut self.by_point);
@@ -237,7 +297,7 @@ impl Partition {
         let mut sets =
             Sets { by_point: &mut by_point, marks: &mut self.marks, n_entered: 0, numbers };
         let mut members: Vec<(u32, ConstraintId)> = Vec::with_capacity(loose.len());
-        for &id in loose {
+        for &id in &loose {
             tick(CONSTRAINT);
             let constraint = &world.constraint(id).expect("a loose constraint lives").constraint;
             if constraint.n_rows() == 0 {
@@ -270,12 +330,13 @@ impl Partition {
                 .iter()
                 .map(|&(_, id)| {
                     let record = world.constraint(id).expect("a loose constraint lives");
-                    Member::new(id, record)
+                    let constraint = was.constraints.get(&id).unwrap_or(&record.constraint);
+                    Member { constraint, ..Member::new(id, record) }
                 })
                 .collect();
             let island = Island::new(
                 &mut group,
-                |p| points.at(p),
+                |p| was.places.get(&p).copied().unwrap_or_else(|| points.at(p)),
                 |p| points.inverse_mass(p),
                 &mut by_point,
             );
@@ -314,13 +375,6 @@ fn frozen_points(island: &Island) -> impl Iterator<Item = (PointId, ConstraintId
         let frozen = constraint.points().iter().filter(|&&p| p as usize >= island.n_free);
         frozen.map(move |&p| (island.points[p as usize], id))
     })
-}
-
-/// Constraints that belong to no island for the moment, some of them twice.
-struct Loose<'a> {
-    constraints: Vec<ConstraintId>,
-    /// Takes a last look at the islands they were in.
-    leave: &'a mut dyn FnMut(&Island),
 }
 
 /// Disjoint sets of points, as far as they are named.

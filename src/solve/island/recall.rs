@@ -145,6 +145,9 @@ impl Notes {
         if let Some(recall) = &mut self.recall
             && self.firsts.mark(first.idx())
         {
+            if island.is_blank {
+                return recall.kept.push((first, Kept::default()));
+            }
             // What was asked for since the last visit is shared.
             let is_shared = island.remembered.get().is_some();
             if is_shared || !recall.packed.push(island, place) {

@@ -38,6 +38,9 @@ impl Solver {
             self.partition = Partition::default();
             *touched = Touched::everything();
         }
+        if !touched.all && !self.pending.is_empty() {
+            self.lay_apart(&touched, world, work);
+        }
         if !touched.constraints.is_empty() {
             // A constraint that was changed but holds as many equations on the same points as
             // before leaves its island as it is.
@@ -46,6 +49,14 @@ impl Solver {
             touched.values.extend(values);
             touched.constraints = others;
         }
+        if !touched.all {
+            if self.pending.is_empty() {
+                self.postpone(&mut touched, world);
+            }
+            if self.partition.is_reached(&touched, world) {
+                self.lay_apart(&touched, world, work);
+            }
+        }
         let mut made = Vec::new();
         let is_outdated = !self.pending.is_empty();
         if touched.all
@@ -53,7 +64,7 @@ impl Solver {
             || !touched.points.is_empty()
             || !touched.constraints.is_empty()
         {
-            made = self.make_islands(&touched, world);
+            made = self.make_islands(&touched, world, work);
             work.islands_rebuilt += made.len() as u64;
             if is_doubtful {
                 // What was brought back is as doubtful as what was there.
@@ -86,6 +97,10 @@ impl Solver {
                 && !island.inputs.is_empty()
             {
                 island.note_edit(island.inputs.is_disturbed);
+                if island.is_new && self.rest(k, work) {
+                    self.awake.retain(|&other| other != k);
+                    self.is_awake[k as usize] = false;
+                }
             }
         }
         // What makes islands may have touched everything: that much room is not needed again.
@@ -94,20 +109,21 @@ impl Solver {
     }
 
     /// Makes the islands anew that were touched, or that are to remember something else; gives them.
-    fn make_islands(&mut self, touched: &Touched, world: &World) -> Vec<u32> {
+    fn make_islands(&mut self, touched: &Touched, world: &World, work: &mut Counters) -> Vec<u32> {
         let outdated: Vec<PointId> = self.pending.keys().copied().collect();
         let Self { partition, pending, notes, .. } = self;
         let made = partition.update(touched, &outdated, world, &mut |island| {
+            let is_remembered = !island.is_new && !island.is_blank;
             notes.note(island);
             pending
                 .entry(island.points[0])
-                .or_insert_with(|| (!island.is_new).then(|| memory::snapshot_of(island)).into());
+                .or_insert_with(|| is_remembered.then(|| memory::snapshot_of(island)).into());
         });
         for &k in &made {
             self.is_awake.resize(self.is_awake.len().max(k as usize + 1), false);
             self.is_awake[k as usize] = false;
             self.unsolved.remove(&k);
-            self.restore_island(k);
+            self.restore_island(k, work);
         }
         self.pending.clear();
         let (partition, is_awake) = (&self.partition, &mut self.is_awake);
@@ -125,8 +141,28 @@ impl Solver {
         made
     }
 
-    /// Gives a new island the memory that waits for it.
-    fn restore_island(&mut self, k: u32) {
+    /// Leaves for later what edits of islands at rest come to.
+    fn postpone(&mut self, touched: &mut Touched, world: &World) {
+        let Self { partition, notes, is_awake, .. } = self;
+        let can_sleep = |k: u32| !is_awake.get(k as usize).is_some_and(|is_awake| *is_awake);
+        partition.postpone(touched, world, &can_sleep, &mut |island| notes.note(island));
+    }
+
+    /// Puts together what was left for later, as it was before these changes.
+    pub(super) fn lay_apart(&mut self, touched: &Touched, world: &World, work: &mut Counters) {
+        if self.partition.is_laid_apart() {
+            return;
+        }
+        for k in self.partition.lay_apart(touched, world) {
+            work.islands_rebuilt += 1;
+            if let Some(island) = self.partition.get_mut(k) {
+                island.rest();
+            }
+        }
+    }
+
+    /// Gives a new island the memory that waits for it. One without is at rest where everything holds.
+    fn restore_island(&mut self, k: u32, work: &mut Counters) {
         let Some(island) = self.partition.get_mut(k) else { return };
         let first = island.points[0];
         let remembered = self.pending.remove(&first).and_then(|kept| kept.snapshot);
@@ -134,17 +170,32 @@ impl Solver {
         self.notes.note_as(first, Kept::default());
         if let Some(remembered) = remembered {
             memory::restore(island, &remembered);
-            if !island.is_new && island.status != Status::Converged {
-                self.unsolved.insert(k);
-            }
         }
+        if island.is_new && island.inputs.is_empty() {
+            self.rest(k, work);
+        } else if !island.is_new && island.status != Status::Converged {
+            self.unsolved.insert(k);
+        }
+    }
+
+    /// Leaves an island that was never solved as it is, if everything holds there.
+    fn rest(&mut self, k: u32, work: &mut Counters) -> bool {
+        let Some(island) = self.partition.get_mut(k) else { return false };
+        work.evaluations += island.constraints.len() as u64;
+        let holds = island.holds();
+        if holds {
+            island.rest();
+        }
+        holds
     }
 
     /// What counted as solved may not any more.
     pub(super) fn invalidate(&mut self, is_doubtful: impl Fn(&Island) -> bool) {
         let all: Vec<u32> = self.partition.iter().map(|(k, _)| k).collect();
         for k in all {
+            // What holds as exactly as can be told does so whatever is asked for.
             if let Some(island) = self.partition.get_mut(k)
+                && !island.is_blank
                 && is_doubtful(island)
             {
                 self.notes.note(island);

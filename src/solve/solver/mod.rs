@@ -147,6 +147,9 @@ impl Solver {
         pulled: &[(PointId, Point)],
     ) -> Result<Report, Diagnostic> {
         self.sync(world, settings);
+        if pulled.iter().any(|&(p, _)| self.partition.reaches_point(p)) {
+            self.lay_apart(&Touched::default(), world, &mut Counters::default());
+        }
         let report = self.pull_islands(world, settings, budget, pulled);
         let is_met = report.status == Status::Converged;
         match if is_met { None } else { world.failed_measure() } {
@@ -307,7 +310,7 @@ impl Solver {
             return None;
         }
         let island = self.partition.get(self.partition.island_of_point(first)?)?;
-        (island.points[0] == first).then(|| memory::snapshot_of(island))
+        (island.points[0] == first && !island.is_blank).then(|| memory::snapshot_of(island))
     }
 
     /// All that is remembered is about to change.
@@ -331,9 +334,13 @@ impl Solver {
     }
 
     /// The size of the largest island, length units; 1 if there is none.
-    pub fn size(&self) -> f64 {
-        let sizes = self.partition.iter().map(|(_, island)| island.size());
-        sizes.reduce(f64::max).unwrap_or(1.0)
+    pub fn size(&self, world: &World) -> f64 {
+        let apart = self.partition.apart(world);
+        let islands = self
+            .islands()
+            .filter(|island| !island.is_outdated)
+            .chain(apart.iter().map(|(_, island)| island));
+        islands.map(Island::size).reduce(f64::max).unwrap_or(1.0)
     }
 
     /// Velocities and accelerations of all points at the present pose, exact where it is a
@@ -343,6 +350,7 @@ impl Solver {
     /// A live value that has none now.
     pub fn rates(&mut self, world: &mut World, settings: &Settings) -> Result<Rates, Diagnostic> {
         self.sync(world, settings);
+        self.lay_apart(&Touched::default(), world, &mut Counters::default());
         velocity::rates(&mut self.partition, world)
     }
 
@@ -354,6 +362,7 @@ impl Solver {
     /// How what holds a constraint ended; none for one that is switched off.
     pub fn status_of_constraint(&self, id: ConstraintId) -> Option<Status> {
         match self.partition.home(id) {
+            Home::None if self.partition.is_postponed(id) => Some(Status::Converged),
             Home::None => None,
             Home::Island(k) => Some(self.partition.get(k)?.status),
             Home::Checked if self.unsatisfiable.contains_key(&id) => Some(Status::Unsatisfiable),

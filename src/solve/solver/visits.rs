@@ -130,6 +130,7 @@ impl Solver {
             let Some(island) = self.partition.get_mut(k) else { continue };
             if island.status == Status::Converged {
                 self.notes.note(island);
+                island.begin_change();
                 island.leave_closed_form();
                 let limits = island.limits(settings, budget);
                 pull(island, &pulled, &limits, &mut report.counters);

@@ -104,7 +104,7 @@ fn handles_that_nothing_has_any_more_are_given_out_again() {
         check_same(&talking.script(), &script, "done again");
         talking.run("step; undo 3; clear; point P = (0, 0), Q = (1, 0)");
         assert_eq!(handles(&talking), [2, 0, 0, 0], "{k} cleared");
-        talking.run("length P Q; solve; undo 4");
+        talking.run("length P Q = 2; solve; undo 4");
         let before = talking.script();
         talking.run("for i in 1..1 { step; move Z to (-90, 1.5); solve; clear }");
         assert_eq!(handles(&talking), [0; 4], "{k} moved and cleared");

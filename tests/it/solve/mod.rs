@@ -3,6 +3,7 @@
 mod blocks;
 mod bodies;
 mod closed_form;
+mod edits;
 mod hands;
 mod hard;
 mod live_ratio;
