@@ -1,7 +1,7 @@
 //! Expressions become programs: values that are measured on the pose one that the solver runs at
 //! every pose it tries, values that follow time one that is run for many frames at once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::environments::Here;
 use super::known_ahead::TimedValue;
@@ -107,7 +107,7 @@ impl World {
 
     /// A constraint with measured values, and what its program is given from outside.
     fn compile(&self, constraint: Constraint, measured: &Drivers) -> (Constraint, Drivers) {
-        let mut compiler = Compiler::new(self, |depends| depends.on_points, constraint.points());
+        let mut compiler = Compiler::new(self, Following::Pose, constraint.points());
         let values = compiler.values(measured);
         let Compiler { points, program, inputs, .. } = compiler;
         // What has no value now, as while a saved pose is brought back, will be given one.
@@ -125,7 +125,7 @@ impl World {
         ids: impl Iterator<Item = ConstraintId>,
         also: impl Iterator<Item = ParameterId>,
     ) -> (Program, Vec<Formula>, Vec<TimedValue>) {
-        let mut compiler = Compiler::new(self, |depends| depends.on_time, &[]);
+        let mut compiler = Compiler::new(self, Following::Time, &[]);
         let mut values = Vec::new();
         for constraint in ids {
             let record = self.constraint(constraint).expect("a driven constraint lives");
@@ -151,11 +151,30 @@ impl World {
     }
 }
 
+/// What the values of a program follow.
+#[derive(Clone, Copy, PartialEq)]
+enum Following {
+    /// Where points are.
+    Pose,
+    /// The time.
+    Time,
+}
+
+impl Following {
+    /// Whether what depends on this follows it.
+    const fn is_meant(self, depends: Depends) -> bool {
+        match self {
+            Self::Pose => depends.on_points,
+            Self::Time => depends.on_time,
+        }
+    }
+}
+
 /// A program in the making.
 struct Compiler<'a> {
     world: &'a World,
-    /// Whether what depends on this is to be worked out; else it is given from outside.
-    is_inside: fn(Depends) -> bool,
+    /// What is to be worked out; the rest is given from outside.
+    following: Following,
     /// The points it looks at, those of the constraint first.
     points: Vec<PointIdx>,
     program: Program,
@@ -168,10 +187,10 @@ struct Compiler<'a> {
 }
 
 impl<'a> Compiler<'a> {
-    fn new(world: &'a World, is_inside: fn(Depends) -> bool, points: &[PointIdx]) -> Self {
+    fn new(world: &'a World, following: Following, points: &[PointIdx]) -> Self {
         Self {
             world,
-            is_inside,
+            following,
             points: points.to_vec(),
             program: Program::default(),
             of_points: BTreeMap::new(),
@@ -207,33 +226,42 @@ impl<'a> Compiler<'a> {
     /// Compiles the parameters that a formula mentions and that are to be worked out, each after those
     /// it mentions: a chain of them may be longer than calls can be deep.
     fn compile_parameters(&mut self, formula: &Formula) {
-        let mut wanted = BTreeSet::new();
-        let mut open = vec![formula.clone()];
-        while let Some(formula) = open.pop() {
-            formula.mentions(&mut |mention| {
-                match mention {
-                    Mention::Member(id, Member::Radius) => {
-                        open.extend(self.world.radius_driver(id).cloned());
-                    }
-                    Mention::Member(id, Member::Value) => open.push(self.world.measured_by(id)),
-                    _ => {}
-                }
-                if let Mention::Parameter(id) = mention
-                    && let Some(parameter) = self.world.parameter(id)
-                    && (self.is_inside)(parameter.depends)
-                    && wanted.insert(id)
-                {
-                    open.push(parameter.formula.clone());
-                }
-            });
-        }
-        for &id in self.world.dependencies.order() {
-            if wanted.contains(&id) && !self.of_parameters.contains_key(&id) {
-                let parameter = self.world.parameter(id).expect("a listed parameter lives");
+        let mut open: Vec<(ParameterId, bool)> = self.wanted(formula);
+        while let Some((id, is_ready)) = open.pop() {
+            if self.of_parameters.contains_key(&id) {
+                continue;
+            }
+            let parameter = self.world.parameter(id).expect("a mentioned parameter lives");
+            if is_ready {
                 let place = self.compile(&parameter.formula);
                 self.of_parameters.insert(id, place);
+            } else {
+                open.push((id, true));
+                open.extend(self.wanted(&parameter.formula));
             }
         }
+    }
+
+    /// The parameters that a formula mentions, itself or by a member, and that are to be worked out; none
+    /// of them is ready.
+    fn wanted(&self, formula: &Formula) -> Vec<(ParameterId, bool)> {
+        let mut wanted = Vec::new();
+        let mut open = vec![formula.clone()];
+        while let Some(formula) = open.pop() {
+            formula.mentions(&mut |mention| match mention {
+                Mention::Member(id, Member::Radius) => {
+                    open.extend(self.world.radius_driver(id).cloned());
+                }
+                Mention::Member(id, Member::Value) => open.push(self.world.measured_by(id)),
+                Mention::Parameter(id) => {
+                    let parameter = self.world.parameter(id);
+                    let is_inside = parameter.is_some_and(|it| self.following.is_meant(it.depends));
+                    wanted.extend(is_inside.then_some((id, false)));
+                }
+                _ => {}
+            });
+        }
+        wanted
     }
 
     fn push(&mut self, operation: Operation) -> Register {
@@ -295,7 +323,7 @@ impl<'a> Compiler<'a> {
 
     fn compile(&mut self, formula: &Formula) -> Place {
         let depends = self.world.depends(formula);
-        if !(self.is_inside)(depends) && !depends.is_constant() {
+        if !self.following.is_meant(depends) && !depends.is_constant() {
             return match formula.shape() {
                 Shape::Number => Place::Number(self.input(formula)),
                 Shape::Vector => {
@@ -377,6 +405,15 @@ impl<'a> Compiler<'a> {
         Place::Number(self.push(Operation::Norm(x, y)))
     }
 
+    /// The angle of a vector. That of nothing is none where it follows time; at a pose that is tried it is 0.
+    fn angle(&mut self, x: Register, y: Register) -> Register {
+        if self.following == Following::Time {
+            let length = self.push(Operation::Norm(x, y));
+            self.binary(Operator::Divide, length, length);
+        }
+        self.push(Operation::OfTwo(Function::Atan2, y, x))
+    }
+
     fn call(&mut self, function: Function, arguments: &[Formula]) -> Place {
         let places: Vec<Place> = arguments.iter().map(|a| self.compile(a)).collect();
         let number = |k: usize| places[k].number();
@@ -419,13 +456,13 @@ impl<'a> Compiler<'a> {
             }
             Function::Angle | Function::Turn => {
                 let (x, y) = self.subtract(vector(1), vector(0));
-                self.push(Operation::OfTwo(Function::Atan2, y, x))
+                self.angle(x, y)
             }
             Function::AngleBetween | Function::TurnBetween => {
                 let u = self.subtract(vector(1), vector(0));
                 let v = self.subtract(vector(3), vector(2));
                 let (along, across) = (self.dot(u, v), self.cross(u, v));
-                self.push(Operation::OfTwo(Function::Atan2, across, along))
+                self.angle(along, across)
             }
             Function::Clamp => {
                 let (x, lo, hi) = (number(0), number(1), number(2));

@@ -257,7 +257,9 @@ pub(super) fn meeting(to: PointIdx, one: Locus, two: Locus, n_free: usize) -> Op
                 Some(Step::CircleMovingLine(CircleLine::new(to, from, line, l)?))
             }
         }
-        (Locus::Line(one), Locus::Line(two)) => Some(Step::Crossing(Crossing::new(to, [one, two]))),
+        (Locus::Line(one), Locus::Line(two)) => {
+            Some(Step::Crossing(Crossing::new(to, [one, two])?))
+        }
         (Locus::Circle(centre, Radius::Fixed(l)), Locus::Beyond(from, slider, is_bounded))
         | (Locus::Beyond(from, slider, is_bounded), Locus::Circle(centre, Radius::Fixed(l)))
             if centre == from =>

@@ -34,12 +34,14 @@ pub(super) fn larger(worst: f64, off: f64) -> f64 {
     if (worst >= off) | worst.is_nan() { worst } else { off }
 }
 
-/// One over the sine of an angle whose square is that, or a little more; infinite where it may be 0. Numbers
-/// of half the length do for how far something went at most, and take half the time.
+/// One over the sine of an angle whose square is that, or a little more; infinite where it may be 0, and not a
+/// number where it is the square of no sine. Numbers of half the length do for how far something went at most, and
+/// take half the time.
 #[inline(always)]
 pub(super) fn over_sine(sine_squared: f64) -> f64 {
     const MORE: f64 = 1.0 + 1e-6;
-    MORE * f64::from(1.0 / (sine_squared as f32).sqrt())
+    let over = MORE * f64::from(1.0 / (sine_squared as f32).sqrt());
+    if sine_squared <= MORE { over } else { f64::NAN }
 }
 
 #[cfg(test)]
@@ -54,7 +56,9 @@ mod tests {
             assert!((1.0..1.0 + 2e-6).contains(&over), "{sine}: {over}");
         }
         assert_eq!(over_sine(0.0), f64::INFINITY);
-        assert!(over_sine(-1e-9).is_nan() && over_sine(f64::NAN).is_nan());
+        for none in [-1e-9, 1.1, 1e50, f64::INFINITY, f64::NAN] {
+            assert!(over_sine(none).is_nan(), "{none}");
+        }
     }
 
     #[test]

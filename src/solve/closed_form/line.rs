@@ -53,6 +53,11 @@ impl Line {
         Self { ends: [through; 2], axis, offset: 0.0, is_bounded: false }
     }
 
+    /// Whether it is parallel to an axis.
+    fn is_parallel_to_axis(&self) -> bool {
+        self.axis != Vector::ZERO
+    }
+
     /// Whether nothing but a hand moves it, where the first points are free.
     pub fn is_fixed(&self, n_free: usize) -> bool {
         self.ends.iter().all(|&p| p as usize >= n_free) && self.offset == 0.0
@@ -78,7 +83,7 @@ impl Line {
         let (e, length) = self.along(ends);
         let base = ends[0] + e.perp() * (self.offset / length);
         // Both ends turn it, and it is no shorter on the way than that.
-        let way = if self.ends[0] == self.ends[1] { 0.0 } else { ways[0] + ways[1] };
+        let way = if self.is_parallel_to_axis() { 0.0 } else { ways[0] + ways[1] };
         let least = length - way;
         let turn = if least > NEARLY_SINGULAR * length { way / least } else { f64::NAN };
         Course { base, e, length, turn, way: ways[0] + self.offset.abs() * turn }
@@ -270,9 +275,15 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    /// A point on two lines.
-    pub fn new(to: PointIdx, lines: [Line; 2]) -> Self {
-        Self { to, lines, nothing: 0.0 }
+    /// A point on two lines; none where these are parallel whatever the pose.
+    pub fn new(to: PointIdx, lines: [Line; 2]) -> Option<Self> {
+        let [one, other] = lines;
+        let are_parallel = if one.is_parallel_to_axis() && other.is_parallel_to_axis() {
+            one.axis == other.axis
+        } else {
+            one.ends == other.ends
+        };
+        (!are_parallel).then_some(Self { to, lines, nothing: 0.0 })
     }
 }
 

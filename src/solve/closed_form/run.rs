@@ -88,8 +88,8 @@ impl ClosedForm {
         self.n_constraints
     }
 
-    /// Makes ready for frames in which nothing but motors turns; none if some of these is not on
-    /// its way, or is not the one that `there` shows of the constraint of a number. Gives how many
+    /// Makes ready for frames that motors drive, and what [follows time](Self::follow_time); none if some of the
+    /// motors is not on its way, or is not the one that `there` shows of the constraint of a number. Gives how many
     /// turn.
     pub fn begin<'a>(
         &mut self,

@@ -1,8 +1,8 @@
 //! Many frames at once, where nothing but motors and time drives the scene and each pose has a closed form.
 //!
-//! The first is found by itself, and so is one that those side by side came to and could not vouch for (where
-//! something follows time that is left to who asks for frames one by one); the others are found [side by side](Lanes), and looked at one after the other only where something is
-//! kept of each.
+//! The first is found by itself, and so is one that those side by side came to and could not vouch for; the others
+//! are found [side by side](Lanes), and looked at one after the other only where something is kept of each. Where
+//! something follows time, frames are found side by side or not here.
 
 use super::Solver;
 use super::rider::{Course, Kept, Rider, Stretch};
@@ -111,7 +111,7 @@ impl Solver {
             return Ok(stretch);
         }
         let dt = world.clock().dt;
-        let mut riders = self.riders(world, dt);
+        let mut riders = self.riders(world, dt, on.n);
         if riders.is_empty() {
             return Ok(stretch);
         }
@@ -167,11 +167,13 @@ impl Solver {
 
     /// All islands that are awake, if each is at rest but for motors and what follows time, and these are
     /// all that drives the scene; else none.
-    fn riders(&mut self, world: &mut World, dt: f64) -> Vec<Rider> {
-        let mut riders = Vec::with_capacity(self.awake.len());
-        if !world.is_known_ahead() {
+    fn riders(&mut self, world: &mut World, dt: f64, n_frames: u64) -> Vec<Rider> {
+        let mut riders = Vec::new();
+        let is_too_short = n_frames < WIDE as u64;
+        if !world.is_known_ahead() || is_too_short && world.has_timetable() {
             return riders;
         }
+        riders.reserve(self.awake.len());
         let spare: Vec<ParameterId> = world.spare_parameters().collect();
         let n_drivers = [world.motors().len(), world.driven().len()];
         let mut n_driving = [0; 2];

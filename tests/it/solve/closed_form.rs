@@ -203,8 +203,12 @@ fn what_follows_time_ends_frames_where_it_has_no_value() {
     for (expression, frame) in [
         ("(sqrt(0.5 - time), 0)", 46),
         ("(1 / (0.5 - time) / 1000, 0)", 45),
+        ("(atan2(0, max(0, 0.5 - time)) + sqrt(0.6 - time), 0)", 55),
         ("(1e58 * (1 + 10000 * time) * k - 1e58 * k, 0)", 4),
         ("(clamp(time, 0, 0.5 - time), 0)", 46),
+        ("(angle((0, 0), (max(0, 0.5 - time), 0)) + time, 0)", 45),
+        ("(angle((0, 0), (1, 0), (0, 0), (max(0, 0.5 - time), 0)) + time, 0)", 45),
+        ("(angle((0, 0), 1e-200 * (max(0, 0.5 - time), 0)) + time, 0)", 45),
     ] {
         let scene = timed(expression);
         let scene = format!("{scene}\nstep");

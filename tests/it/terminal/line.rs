@@ -143,8 +143,8 @@ fn a_command_behind_an_open_bracket_is_one_of_its_own() {
     terminal.press("point Z = (7, 11)\r");
     terminal.wait_for("is never closed");
     terminal.wait_for_prompt();
-    terminal.press("Z\rY\r");
-    terminal.wait_for("(7, 11)\n");
+    terminal.press("Z.x + Z.y\rY\r");
+    terminal.wait_for("\n18\n");
     terminal.wait_for("unknown name `Y`");
 }
 
