@@ -64,11 +64,14 @@ impl Chain {
     }
 }
 
+/// An edit of a chain.
+type Make = fn(&mut Chain);
+
 #[test]
 fn edits_of_what_holds_and_rests_are_no_work() {
     let mut chain = Chain::new(1000);
     let moving = chain.work();
-    let edits: [(&str, fn(&mut Chain)); 9] = [
+    let edits: [(&str, Make); 9] = [
         ("off", |chain| chain.switch(500, false)),
         ("on", |chain| chain.switch(500, true)),
         ("freeze", |chain| chain.freeze(300, true)),
