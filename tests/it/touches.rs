@@ -29,13 +29,16 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
             "constraint/kinds/touch.rs",
             "session/commands/constrain.rs",
             "session/commands/touch.rs",
-            // A point on a line that stands still has a closed form.
+            // A point on a line has a closed form.
             "solve/closed_form/compile.rs",
             "solve/frame/dyad.rs",
         ],
     ),
     // Where its point is needs no solving.
-    (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/run.rs"]),
+    (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/schedule.rs"]),
+    // A point on a line, and one on a wheel that rolls, has a closed form.
+    (Kind::Aligned, &["solve/closed_form/compile.rs", "solve/closed_form/line.rs"]),
+    (Kind::Rack, &["solve/closed_form/compile.rs", "solve/closed_form/wheel.rs"]),
     // Points that are sums of others have a closed form.
     (Kind::Coincidence, &["solve/closed_form/sum.rs"]),
     (Kind::Equivalence, &["solve/closed_form/sum.rs"]),
@@ -80,7 +83,12 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     // What a constraint measures is said by a function that measures the same.
     (
         Kind::Distance,
-        &["lang/lower/errors/mistake.rs", "session/commands/slips.rs", "world/member.rs"],
+        &[
+            "lang/lower/errors/mistake.rs",
+            "session/commands/slips.rs",
+            "solve/closed_form/compile.rs",
+            "world/member.rs",
+        ],
     ),
     // Bars are found by the meeting of two circles, and swept in shares.
     (

@@ -76,6 +76,15 @@ pub fn value_of<T: Real>(function: Function, a: &[T]) -> Option<T> {
     })
 }
 
+/// Which of the sine and the cosine of an angle a function is, if one.
+pub const fn of_unit_circle(function: Function) -> Option<usize> {
+    match function {
+        Function::Sin => Some(0),
+        Function::Cos => Some(1),
+        _ => None,
+    }
+}
+
 /// The argument that says whether a function has a value.
 pub const fn limited_argument(function: Function) -> usize {
     match function {

@@ -4,7 +4,7 @@
 //! worked out once. A value that does not exist, as the root of a negative number, is not a number.
 
 use super::content::add_all;
-use super::function::{length, power, value_of};
+use super::function::{length, of_unit_circle, power, value_of};
 use super::sines::sines_and_cosines;
 use crate::constraint::{Jet, Real, Vec2, Vector};
 use crate::interrupt::tick;
@@ -113,13 +113,16 @@ impl Program {
                 Operation::Constant(value) => [value; N],
                 Operation::Input(k) => input(k as usize),
                 Operation::X(_) | Operation::Y(_) => [f64::NAN; N],
-                Operation::Of(function @ (Function::Sin | Function::Cos), a) => {
-                    let known = turned.filter(|(angle, _)| *angle == a);
-                    let (_, both) = known.unwrap_or_else(|| (a, sines_and_cosines(&at(a))));
-                    turned = Some((a, both));
-                    both[usize::from(function == Function::Cos)]
-                }
-                Operation::Negate(a) | Operation::Of(_, a) => operation.apply_each(at(a), at(a)),
+                Operation::Of(function, a) => match of_unit_circle(function) {
+                    Some(which) => {
+                        let known = turned.filter(|(angle, _)| *angle == a);
+                        let (_, both) = known.unwrap_or_else(|| (a, sines_and_cosines(&at(a))));
+                        turned = Some((a, both));
+                        both[which]
+                    }
+                    None => operation.apply_each(at(a), at(a)),
+                },
+                Operation::Negate(a) => operation.apply_each(at(a), at(a)),
                 Operation::Binary(_, a, b)
                 | Operation::Norm(a, b)
                 | Operation::OfTwo(_, a, b)

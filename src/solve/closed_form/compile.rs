@@ -2,7 +2,7 @@
 
 use super::abreast::Abreast;
 use super::length::{Length, bar};
-use super::nearest::gather;
+use super::nearest::FEW;
 use super::{
     Bar, CircleLine, Circles, ClosedForm, Compiled, Crank, Crossing, Direction, Line, Nearest,
     Radius, Ray, Step, Sum, Wheel,
@@ -231,6 +231,18 @@ impl<'a> Compiler<'a> {
             _ => None,
         }
     }
+}
+
+/// Puts all points on circles that nothing else holds behind the other steps, a few together: nothing follows
+/// from where they are.
+fn gather(steps: Vec<Step>) -> Vec<Step> {
+    let (last, mut steps): (Vec<_>, Vec<_>) =
+        steps.into_iter().partition(|step| matches!(step, Step::Nearest(_)));
+    let mut points = last.into_iter().flat_map(Step::into_nearest).peekable();
+    while points.peek().is_some() {
+        steps.push(Step::Nearest(points.by_ref().take(FEW).collect()));
+    }
+    steps
 }
 
 /// Whether a step may keep what a constraint keeps from frame to frame.

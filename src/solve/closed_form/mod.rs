@@ -53,7 +53,7 @@ pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
 use line::{CircleLine, Crossing, Line};
-use nearest::Nearest;
+use nearest::{Nearest, Radius};
 use ray::Ray;
 use schedule::Schedule;
 use sum::Sum;
@@ -162,20 +162,4 @@ struct Crank {
     motor: u32,
     /// Where it pointed at the beginning of the frame.
     before: Heading,
-}
-
-/// The radius of a circle.
-#[derive(Clone, Copy)]
-enum Radius {
-    /// A length.
-    Fixed(Length),
-    /// So many times the distance between two points, and so much more.
-    Measured {
-        /// The points.
-        between: [PointIdx; 2],
-        /// How many times.
-        factor: f64,
-        /// How much more.
-        offset: f64,
-    },
 }

@@ -2,7 +2,6 @@
 
 use super::abreast::{Abreast, Places, Poses, put_each};
 use super::length::{Length, Timed};
-use super::{Radius, Step};
 use crate::constraint::{Point, PointIdx};
 
 /// A point on a circle, where it is nearest to.
@@ -15,9 +14,25 @@ pub(super) struct Nearest {
     pub radius: Radius,
 }
 
+/// The radius of a circle.
+#[derive(Clone, Copy)]
+pub(super) enum Radius {
+    /// A length.
+    Fixed(Length),
+    /// So many times the distance between two points, and so much more.
+    Measured {
+        /// The points.
+        between: [PointIdx; 2],
+        /// How many times.
+        factor: f64,
+        /// How much more.
+        offset: f64,
+    },
+}
+
 /// Each goes on from where it was in the frame before, so that frames side by side wait for each other: a
 /// few points are found at a time.
-const FEW: usize = 4;
+pub(super) const FEW: usize = 4;
 
 impl Nearest {
     /// Its radius, if that is a length.
@@ -27,17 +42,6 @@ impl Nearest {
             Radius::Measured { .. } => None,
         }
     }
-}
-
-/// Puts all such points of a list behind the others, a few together: nothing follows from where they are.
-pub(super) fn gather(steps: Vec<Step>) -> Vec<Step> {
-    let (last, mut steps): (Vec<_>, Vec<_>) =
-        steps.into_iter().partition(|step| matches!(step, Step::Nearest(_)));
-    let mut points = last.into_iter().flat_map(Step::into_nearest).peekable();
-    while points.peek().is_some() {
-        steps.push(Step::Nearest(points.by_ref().take(FEW).collect()));
-    }
-    steps
 }
 
 /// Puts a few points on circles.

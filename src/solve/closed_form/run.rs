@@ -2,13 +2,13 @@
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
 use super::found::Found;
-use super::length::{Length, Values};
+use super::length::{Length, Values, bar};
 use super::nearest::{self, Nearest};
+use super::schedule::{Driven, place};
 use super::{ClosedForm, Crank, Schedule, Step};
 use crate::constraint::{
     Constraint, ConstraintKind as _, Field, Heading, Motor, Point, Stateful as _, Vector,
 };
-use crate::solve::island::Island;
 use crate::solve::island::history::History;
 use crate::solve::island::inputs::Inputs;
 use crate::world::{ConstraintId, ParameterId, World};
@@ -157,18 +157,45 @@ impl ClosedForm {
     /// besides; gives how many constraints follow time, none if some of their values are not asked for by a step.
     pub fn follow_time(
         &mut self,
-        island: &Island,
+        constraints: &[Constraint],
+        ids: &[ConstraintId],
         world: &World,
         also: &[ParameterId],
         is_turned: bool,
     ) -> Option<usize> {
-        let schedule = Schedule::new(self, island, world, also, is_turned)?;
+        let driven = self.driven(constraints);
+        let schedule = Schedule::new(driven, constraints, ids, world, also, is_turned)?;
         let n = schedule.n_constraints();
         if !schedule.lengths().is_empty() {
             self.lengths_mut(|length| length.set_timed(schedule.lengths()));
         }
         self.schedule = (!schedule.is_empty()).then(|| Box::new(schedule));
         Some(n)
+    }
+
+    /// What each constraint of an island says to a step by itself.
+    fn driven(&self, constraints: &[Constraint]) -> Vec<Option<Driven>> {
+        let is_followed = |(c, constraint)| bar(constraint).is_some() && self.takes(c);
+        let length = |is_followed: bool| is_followed.then_some(Driven::Length { k: 0 });
+        let mut all: Vec<_> = (0..).zip(constraints).map(is_followed).map(length).collect();
+        for step in &self.steps {
+            match step {
+                Step::Place { to, constraint, drive } => {
+                    all[*constraint as usize] = Some(Driven::Place { to: *to, drive: *drive });
+                }
+                Step::Direction(link) => {
+                    let ([length, sense], drive) = (link.factors(), link.drive);
+                    let angle = Driven::Angle { link: length, sense, drive };
+                    all[link.constraint as usize] = Some(angle);
+                    // Where the end of a link is that changes follows from two values.
+                    if let Some(bar) = link.bar() {
+                        all[bar as usize] = None;
+                    }
+                }
+                _ => {}
+            }
+        }
+        all
     }
 
     /// What follows time does no more.
@@ -366,14 +393,6 @@ impl Crank {
 /// Whether a bar is among what drives a frame.
 fn changes_lengths(inputs: &Inputs) -> bool {
     inputs.constraints().iter().any(|(_, before)| matches!(before, Constraint::Length(_)))
-}
-
-/// Where a constraint says that its point is.
-pub(super) fn place(constraint: &Constraint) -> Point {
-    match constraint {
-        Constraint::Coordinate(coordinate) => coordinate.target,
-        _ => Point::new(f64::NAN, f64::NAN),
-    }
 }
 
 /// How far the end of a motor goes around its centre from some values to others, at most.

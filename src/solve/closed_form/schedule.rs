@@ -3,12 +3,9 @@
 use super::abreast::{Abreast, WIDE};
 use super::direction::angle;
 use super::length::bar;
-use super::run::place;
-use super::{ClosedForm, Step};
 use crate::constraint::{
     Constraint, ConstraintKind as _, Field, LARGEST, Point, PointIdx, Register, sines_and_cosines,
 };
-use crate::solve::island::Island;
 use crate::world::{Clock, ConstraintId, ParameterId, Timetable, World};
 
 /// The values that drive an island, and the frames for which they are known.
@@ -33,83 +30,58 @@ struct Scheduled {
     now: Constraint,
     /// Its values, and where they are in the table.
     values: Vec<(Field, Register)>,
-    /// Which of the numbers that drive frames are its own, or which of the lengths that follow time it is.
-    drive: usize,
     step: Driven,
 }
 
 /// What a constraint says to its step.
-enum Driven {
-    /// Where this point is.
-    Place(PointIdx),
+pub(super) enum Driven {
+    /// Where a point is, as numbers that drive the frame.
+    Place { to: PointIdx, drive: u32 },
     /// At which angle a link is, how long it is, less than nothing where it is named from its end, and
     /// in which sense the angle turns it.
-    Angle { link: f64, sense: f64 },
-    /// How long a bar is.
-    Length,
+    Angle { link: f64, sense: f64, drive: u32 },
+    /// How long a bar is, of the lengths that follow time the one of this number.
+    Length { k: usize },
 }
 
-/// What the constraints of an island say to steps by themselves, each with which of the numbers that drive
-/// frames these are.
-fn driven(form: &ClosedForm, constraints: &[Constraint]) -> Vec<Option<(usize, Driven)>> {
-    let mut all: Vec<Option<(usize, Driven)>> = Vec::new();
-    all.resize_with(constraints.len(), || None);
-    for (c, constraint) in constraints.iter().enumerate() {
-        let is_followed = bar(constraint).is_some() && form.takes(c as u32);
-        all[c] = is_followed.then_some((0, Driven::Length));
+/// Where a constraint says that its point is.
+pub(super) fn place(constraint: &Constraint) -> Point {
+    match constraint {
+        Constraint::Coordinate(coordinate) => coordinate.target,
+        _ => Point::new(f64::NAN, f64::NAN),
     }
-    for step in &form.steps {
-        match step {
-            Step::Place { to, constraint, drive } => {
-                all[*constraint as usize] = Some((*drive as usize, Driven::Place(*to)));
-            }
-            Step::Direction(link) => {
-                let [length, sense] = link.factors();
-                let angle = Driven::Angle { link: length, sense };
-                all[link.constraint as usize] = Some((link.drive as usize, angle));
-                // Where the end of a link is that changes follows from two values.
-                if let Some(bar) = link.bar() {
-                    all[bar as usize] = None;
-                }
-            }
-            _ => {}
-        }
-    }
-    all
 }
 
 impl Schedule {
-    /// The schedule of an island in a world that is known ahead, which looks at some parameters besides; none if
-    /// some value that follows time is not asked for by a step.
+    /// The schedule of an island in a world that is known ahead, which looks at some parameters besides. `driven` is
+    /// what each of its constraints says by itself; none if one that follows time says nothing so.
     pub fn new(
-        form: &ClosedForm,
-        island: &Island,
+        mut driven: Vec<Option<Driven>>,
+        constraints: &[Constraint],
+        ids: &[ConstraintId],
         world: &World,
         also: &[ParameterId],
         is_turned: bool,
     ) -> Option<Self> {
-        let ids = &island.ids;
         let live = world.driven();
         let numbers = (0..ids.len()).filter(|&c| live.binary_search(&ids[c]).is_ok());
         let numbers: Vec<usize> = numbers.collect();
         let table = world.timetable(numbers.iter().map(|&c| ids[c]), also.iter().copied());
-        let mut driven = driven(form, &island.constraints);
         let mut lengths = Vec::new();
-        let mut constraints = Vec::with_capacity(numbers.len());
+        let mut scheduled = Vec::with_capacity(numbers.len());
         let own = table.values().chunk_by(|a, b| a.constraint == b.constraint);
         for (c, own) in numbers.into_iter().zip(own) {
-            let (mut drive, step) = driven[c].take()?;
-            if matches!(step, Driven::Length) {
-                drive = lengths.len();
+            let mut step = driven[c].take()?;
+            if let Driven::Length { k } = &mut step {
+                *k = lengths.len();
                 lengths.push(c as u32);
             }
             let values = own.iter().map(|value| (value.field, value.register)).collect();
-            let now = island.constraints[c].clone();
-            constraints.push(Scheduled { c, now, values, drive, step });
+            scheduled.push(Scheduled { c, now: constraints[c].clone(), values, step });
         }
         let clock = *world.clock();
         let start = (clock, Vec::new());
-        Some(Self { table, clock, constraints, lengths, is_turned, start })
+        Some(Self { table, clock, constraints: scheduled, lengths, is_turned, start })
     }
 
     /// The numbers in the island of the lengths among them, ascending.
@@ -122,7 +94,7 @@ impl Schedule {
         if self.lengths.is_empty() {
             return 0.0;
         }
-        let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length));
+        let lengths = self.constraints.iter().filter(|it| matches!(it.step, Driven::Length { .. }));
         let values = lengths.flat_map(|it| &it.values).map(|(_, at)| self.table.get(*at)[l]);
         values.fold(0.0, f64::max)
     }
@@ -235,8 +207,8 @@ impl Scheduled {
             has_changed
         };
         match self.step {
-            Driven::Place(to) => {
-                let turned = &mut abreast.turned[self.drive];
+            Driven::Place { to, drive } => {
+                let turned = &mut abreast.turned[drive as usize];
                 let mut before = at(to);
                 for l in 0..WIDE {
                     let is_moved = go_to(l, &mut self.now);
@@ -246,8 +218,8 @@ impl Scheduled {
                     before = place;
                 }
             }
-            Driven::Angle { link, sense } => {
-                let turned = &mut abreast.turned[self.drive];
+            Driven::Angle { link, sense, drive } => {
+                let turned = &mut abreast.turned[drive as usize];
                 let mut angles = [0.0; WIDE];
                 let mut before = angle(&self.now);
                 for l in 0..WIDE {
@@ -260,9 +232,9 @@ impl Scheduled {
                 let [sines, cosines] = sines_and_cosines(&angles);
                 [turned.x, turned.y] = [cosines, sines].map(|parts| parts.map(|part| link * part));
             }
-            Driven::Length => {
+            Driven::Length { k } => {
                 let length = |now: &Constraint| bar(now).map_or(f64::NAN, |(_, length)| length);
-                let timed = &mut abreast.lengths[self.drive];
+                let timed = &mut abreast.lengths[k];
                 let mut before = length(&self.now);
                 for l in 0..WIDE {
                     go_to(l, &mut self.now);

@@ -88,7 +88,7 @@ impl Rider {
             if world.driven().is_empty() && also.is_empty() {
                 return Some(0);
             }
-            form.follow_time(&island, world, also, n > 0)
+            form.follow_time(&island.constraints, &island.ids, world, also, n > 0)
         });
         match n_turning.zip(n_followed) {
             Some((n_turning, n_followed)) if n_turning + n_followed > 0 => {
