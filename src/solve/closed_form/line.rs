@@ -275,8 +275,12 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    /// A point on two lines; none where these are parallel whatever the pose.
-    pub fn new(to: PointIdx, lines: [Line; 2]) -> Option<Self> {
+    /// A point on two lines; none where these are parallel whatever the pose. It is on the first to the bit if that
+    /// is parallel to an axis: of two lines one that is comes first.
+    pub fn new(to: PointIdx, mut lines: [Line; 2]) -> Option<Self> {
+        if lines[1].is_parallel_to_axis() {
+            lines.swap(0, 1);
+        }
         let [one, other] = lines;
         let are_parallel = if one.is_parallel_to_axis() && other.is_parallel_to_axis() {
             one.axis == other.axis
