@@ -39,8 +39,11 @@ pub fn follow(plan: &[Step], x: &mut [Place]) {
     }
 }
 
+/// Two places no farther apart than this part of how far they are from the origin, or from a unit there, are one.
+const ONE_PLACE: f64 = 1e-9;
+
 /// Whether a point is on the wrong one of the two places its links allow: nearer to the mirror
-/// image of where it belongs than to where it belongs.
+/// image of where it belongs than to where it belongs, if these are two places.
 pub fn is_wrong(plan: &[Step], truth: &[Place], x: &[Place]) -> bool {
     plan.iter().any(|step| {
         let (p, other) = match *step {
@@ -52,7 +55,8 @@ pub fn is_wrong(plan: &[Step], truth: &[Place], x: &[Place]) -> bool {
             }
             Step::Copy { .. } => return false,
         };
-        norm(minus(x[p], other)) < norm(minus(x[p], truth[p]))
+        let are_two = norm(minus(other, truth[p])) > ONE_PLACE * (1.0 + norm(truth[p]));
+        are_two && norm(minus(x[p], other)) < norm(minus(x[p], truth[p]))
     })
 }
 
