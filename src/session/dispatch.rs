@@ -42,8 +42,13 @@ impl Execution<'_> {
             }
         })?;
         self.begin_counts();
-        self.hold_quotas(statement.span)?;
-        if flow == Flow::On && self.is_to_stop() {
+        if self.input.walk.is_none() {
+            // What a walk through the history brought back was allowed before; nothing takes that back.
+            self.hold_quotas(statement.span)?;
+        }
+        // What was recorded is yet to be written, and that may be stopped by itself.
+        let is_written_next = matches!(statement.command, Command::Drawing(Drawing::RecordStop));
+        if flow == Flow::On && !is_written_next && self.is_to_stop() {
             self.note_stop("stopped");
             return Ok(Flow::Stopped);
         }

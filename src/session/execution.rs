@@ -121,7 +121,7 @@ impl<'a> Execution<'a> {
             return Ok(Flow::Stopped);
         };
         let result = result.and_then(|flow| {
-            let written = self.flush_outbox();
+            let written = self.flush_outbox(flow == Flow::Stopped);
             written.map_err(|problem| self.hold_time(statement.span).err().unwrap_or(problem))?;
             Ok(flow)
         });
@@ -157,7 +157,7 @@ impl<'a> Execution<'a> {
     /// Ends recordings that still run and writes them.
     pub fn finish(mut self) -> Result<(), Diagnostic> {
         self.stop_recording();
-        self.flush_outbox()?;
+        self.flush_outbox(self.is_asked_to_stop())?;
         self.history.commit(self.state, "", &self.input.quotas);
         Ok(())
     }

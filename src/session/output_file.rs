@@ -13,6 +13,7 @@ use super::quotas::Quota;
 use super::undo::recorder::{Format, Recorder};
 use crate::diag::{Diagnostic, Kind, Span};
 use crate::errors;
+use crate::interrupt::{Stopped, listening};
 use crate::lang::ast::Text;
 use crate::render::{Options, svg_with_view};
 
@@ -98,11 +99,9 @@ impl Execution<'_> {
     }
 
     /// Writes the files of a command that succeeded. One that cannot be written keeps no
-    /// other back.
-    pub fn flush_outbox(&mut self) -> Result<(), Diagnostic> {
+    /// other back. Who stopped a run still wants what it recorded: it is written whatever is asked.
+    pub fn flush_outbox(&mut self, was_stopped: bool) -> Result<(), Diagnostic> {
         let parcels = std::mem::take(&mut self.outbox);
-        // Who stopped a run still wants what it recorded.
-        let was_stopped = self.is_asked_to_stop();
         let write = |parcel: &Parcel| {
             let Parcel { file, content, span, kind } = parcel;
             match content {
@@ -188,18 +187,19 @@ impl Execution<'_> {
                 .at(span, "this one")
                 .help("`undo` takes back a run that was too long, and what was recorded of it")
         };
+        let wish = if was_stopped { None } else { self.deadline.wish(self.host) };
+        let is_stopped = || wish.as_ref().is_some_and(|wish| wish());
         match format {
             Format::Table => {
-                let wish = self.deadline.wish(self.host);
-                let is_stopped = || !was_stopped && wish.as_ref().is_some_and(|wish| wish());
                 let table = &mut |out: &mut dyn Write| recorder.write_table(out, is_stopped);
                 self.write_in_pieces(path, kind, span, table)
                     .map_err(|problem| if is_stopped() { stopped() } else { problem })
             }
             Format::Frames => {
-                let view = recorder.view(options.width).map_err(failed)?;
+                let view = listening(wish.clone(), || recorder.view(options.width));
+                let view = view.map_err(|Stopped| stopped())?.map_err(failed)?;
                 for frame in 0..recorder.n_frames() {
-                    if self.is_asked_to_stop() && !was_stopped {
+                    if is_stopped() {
                         return Err(stopped());
                     }
                     let scene = recorder.scene(frame).map_err(failed)?;
@@ -210,18 +210,18 @@ impl Execution<'_> {
                 Ok(())
             }
             Format::Gif => {
-                let is_stopped = || self.is_asked_to_stop() && !was_stopped;
                 // Drawn before it is written: the file needs the host, and so does the question.
                 let mut bytes = Vec::new();
-                if !recorder.write_gif(&mut bytes, options, is_stopped).map_err(failed)? {
+                let draw = || recorder.write_gif(&mut bytes, options, is_stopped);
+                let drawn = listening(wish.clone(), draw).map_err(|Stopped| stopped())?;
+                if !drawn.map_err(failed)? {
                     return Err(stopped());
                 }
                 self.write_file(path, kind, span, &bytes)
             }
             Format::Movie => {
-                let is_stopped = || self.is_asked_to_stop() && !was_stopped;
-                let movie = recorder.movie(options, is_stopped).map_err(failed)?;
-                let movie = movie.ok_or_else(stopped)?;
+                let movie = listening(wish.clone(), || recorder.movie(options));
+                let movie = movie.map_err(|Stopped| stopped())?.map_err(failed)?;
                 self.write_file(path, kind, span, movie.as_bytes())
             }
         }

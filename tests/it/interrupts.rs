@@ -465,18 +465,39 @@ fn what_is_solved_after_each_edit_is_kept_so() {
 }
 
 #[test]
-fn a_table_that_is_stopped_is_still_to_be_written() {
-    let mut talking = Talking::after(
-        "point A = (0, 0) frozen, B = (1, 0); motor A B speed 1rev; record \"t.csv\"; step 5000",
-    );
-    talking.talk.n_polls.set(0);
-    // It is asked before the first rows are written, and then now and then.
-    talking.talk.most_polls = Some(4);
-    let problem = talking.execute("record stop").expect_err("it was stopped");
-    assert_eq!(&*problem.message, "stopped before the recording was written");
-    assert!(talking.talk.files.is_empty());
-    talking.talk.most_polls = None;
-    talking.run("record stop");
-    let table = talking.talk.files.values().next().expect("it is written");
-    assert_eq!(table.lines().count(), 5001);
+fn a_recording_that_is_stopped_is_still_to_be_written() {
+    let crank = "point A = (0, 0) frozen, B = (1, 0); motor A B speed 1rev";
+    for (file, n_frames, has_what) in [
+        ("t.csv", 5000, "a line a frame"),
+        ("t.svg", 5000, "a picture that moves"),
+        ("t/", 4, "a picture a frame"),
+    ] {
+        // It is asked while it is made ready, before the first rows are written, and then now and then.
+        for most_polls in 0..=3 {
+            let mut talking =
+                Talking::after(&format!("{crank}; record \"{file}\"; step {n_frames}"));
+            let before = talking.script();
+            talking.talk.n_polls.set(0);
+            talking.talk.most_polls = Some(most_polls);
+            match talking.execute("record stop") {
+                Ok(flow) => assert_eq!(flow, Flow::Stopped, "{file}, {most_polls}"),
+                Err(problem) => {
+                    let told = "stopped before the recording was written";
+                    assert_eq!(&*problem.message, told, "{file}");
+                }
+            }
+            let n_written = talking.talk.files.len();
+            assert!(n_written == 0 || file == "t/" && n_written < n_frames, "{file}");
+            check_same(&talking.script(), &before, file);
+            talking.talk.most_polls = None;
+            talking.run("record stop");
+            let written: Vec<&String> = talking.talk.files.values().collect();
+            let is_whole = match has_what {
+                "a line a frame" => written[0].lines().count() == n_frames + 1,
+                "a picture a frame" => written.len() == n_frames,
+                _ => written[0].ends_with("</svg>\n"),
+            };
+            assert!(is_whole, "{file} is {has_what}");
+        }
+    }
 }

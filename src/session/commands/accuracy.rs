@@ -59,7 +59,7 @@ impl Execution<'_> {
     ) -> Result<Flow, Diagnostic> {
         let study = self.study(n_frames, NOWHERE)?;
         self.tell_study(&study, telling, NOWHERE);
-        self.flush_outbox()?;
+        self.flush_outbox(study.is_stopped)?;
         Ok(if study.is_stopped { Flow::Stopped } else { Flow::On })
     }
 

@@ -14,9 +14,6 @@ use crate::solve::{Budget, Settings, Solver};
 const TIMED_FRAMES: u64 = 240;
 const TIMED_SECONDS: f64 = 0.3;
 
-/// What a frame takes, in ticks: after so many it is asked whether the user wants to stop.
-const FRAME: usize = 100_000;
-
 impl State {
     /// What the scene has switched on, timed by letting a copy of it run on for as long as its
     /// live expressions have values.
@@ -68,7 +65,7 @@ impl State {
             if let Work::Solving(again) = effect.work {
                 let begun = now();
                 for _ in 0..effects.n_frames {
-                    tick(FRAME);
+                    tick(usize::MAX);
                     std::hint::black_box(again(&copy.solver));
                 }
                 in_solving[k] = (now() - begun).max(0.0);
@@ -135,8 +132,8 @@ impl Rehearsal {
     /// Lets one frame pass with the effects that are on; gives how many islands were visited, none
     /// where something has no value then.
     fn frame(&mut self, settings: &Settings, are_on: &[bool], laps: &mut Laps) -> Option<usize> {
-        // Each may be long in a large scene.
-        tick(FRAME);
+        // Each may be long in a large scene: it is asked before each whether the user wants to stop.
+        tick(usize::MAX);
         let Self { world, solver, .. } = &mut *self;
         solver.sync(world, settings);
         world.advance().ok()?;

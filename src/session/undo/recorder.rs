@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use crate::constraint::Point;
 use crate::diag::{Span, format_number};
+use crate::interrupt::tick;
 use crate::render::raster::{Motion, SHORTEST_FRAME};
 use crate::render::{Animation, Options, Scene, View, is_shown, shown_for, svg_with_view};
 use crate::session::csv;
@@ -31,7 +32,8 @@ pub struct Recorder {
     /// How its pictures look.
     pub look: Options,
     tape: Tape,
-    shots: Vec<Shot>,
+    /// Shared with what is written of it.
+    shots: Arc<Vec<Shot>>,
     /// The points of a table with their names, in the order in which they came.
     names: Vec<(PointId, Box<str>)>,
     /// What a table has columns of, if not the traced points.
@@ -104,6 +106,9 @@ impl Reel {
     }
 }
 
+/// What a look at a shot takes, in ticks.
+const SHOT: usize = 20;
+
 /// Rows of a table between two looks at whether it is still wanted.
 const ROWS_AT_ONCE: usize = 1024;
 
@@ -125,7 +130,7 @@ impl Recorder {
             format,
             look,
             tape,
-            shots: Vec::new(),
+            shots: Arc::default(),
             names: Vec::new(),
             columns,
         }
@@ -145,15 +150,16 @@ impl Recorder {
     }
 
     /// Whether this is its reel as it is.
-    pub const fn is_at(&self, reel: &Reel) -> bool {
+    pub fn is_at(&self, reel: &Reel) -> bool {
         reel.keep == self.shots.len() && reel.then.is_empty()
     }
 
     /// Winds to the end that `reel` describes; gives the end it had.
     pub fn wind(&mut self, reel: Reel) -> Reel {
         let keep = reel.keep.min(self.shots.len());
-        let then = self.shots.split_off(keep);
-        self.shots.extend(reel.then);
+        let shots = Arc::make_mut(&mut self.shots);
+        let then = shots.split_off(keep);
+        shots.extend(reel.then);
         Reel { keep, then, n_taped: reel.n_taped }
     }
 
@@ -173,7 +179,12 @@ impl Recorder {
     /// Where the tape takes no more.
     pub fn take_row(&mut self, time: f64, row: &[f64]) -> io::Result<()> {
         let at = self.tape.put(row)?;
-        self.shots.push(Shot { time, at, n_points: row.len() as u32, scene: None });
+        Arc::make_mut(&mut self.shots).push(Shot {
+            time,
+            at,
+            n_points: row.len() as u32,
+            scene: None,
+        });
         Ok(())
     }
 
@@ -208,7 +219,12 @@ impl Recorder {
             }
         };
         let at = self.tape.put(&numbers)?;
-        self.shots.push(Shot { time: clock.time(), at, n_points: n_points as u32, scene });
+        Arc::make_mut(&mut self.shots).push(Shot {
+            time: clock.time(),
+            at,
+            n_points: n_points as u32,
+            scene,
+        });
         Ok(())
     }
 
@@ -246,7 +262,7 @@ impl Recorder {
     }
 
     /// How many frames it has taken.
-    pub const fn n_frames(&self) -> usize {
+    pub fn n_frames(&self) -> usize {
         self.shots.len()
     }
 
@@ -256,7 +272,7 @@ impl Recorder {
     }
 
     /// Roughly how many bytes its frames take in memory.
-    pub const fn n_bytes(&self) -> usize {
+    pub fn n_bytes(&self) -> usize {
         self.shots.len() * SHOT_BYTES
     }
 
@@ -280,27 +296,21 @@ impl Recorder {
         View::through(self.shots.len(), width, |frame| self.scene(frame))
     }
 
-    /// All of its scenes as one picture that moves; none if `is_stopped` says so on the way.
+    /// All of its scenes as one picture that moves.
     ///
     /// # Errors
     /// Where the tape cannot be read.
-    pub fn movie(
-        &self,
-        options: &Options,
-        is_stopped: impl Fn() -> bool,
-    ) -> io::Result<Option<String>> {
+    pub fn movie(&self, options: &Options) -> io::Result<String> {
         let scenes = self.shots.iter().filter_map(|shot| shot.scene.as_ref());
         let n_symbols = scenes.map(|scene| scene.n_symbols()).max().unwrap_or(0);
         let mut movie = Animation::new(self.view(options.width)?, options);
         for (frame, shot) in self.shots.iter().enumerate() {
-            if is_stopped() {
-                return Ok(None);
-            }
+            tick(SHOT);
             if is_shown(frame, self.shots.len(), n_symbols) {
                 movie.push(&self.scene(frame)?, shot.time);
             }
         }
-        Ok(Some(movie.finish()))
+        Ok(movie.finish())
     }
 
     /// Writes all of its scenes as a GIF; gives whether it came to its end, which it does not where

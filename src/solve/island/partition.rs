@@ -16,7 +16,7 @@ pub(super) const NONE: u32 = u32::MAX;
 /// All points are frozen: in no island, but to be checked.
 const CHECKED: u32 = u32::MAX - 1;
 
-/// What finding the island of a constraint takes, in ticks.
+/// What finding the island of a constraint takes, and then putting it in, in ticks.
 const CONSTRAINT: usize = 500;
 
 /// Where a constraint is looked after.
@@ -326,6 +326,7 @@ impl Partition {
         members.sort_unstable();
         let mut made = Vec::new();
         for group in members.chunk_by(|a, b| a.0 == b.0) {
+            tick(CONSTRAINT * group.len());
             let mut group: Vec<Member> = group
                 .iter()
                 .map(|&(_, id)| {

@@ -2,6 +2,7 @@
 
 use super::Solver;
 use crate::constraint::Point;
+use crate::interrupt::tick;
 use crate::solve::dispatch::{Alone, Cause, check};
 use crate::solve::island::Island;
 use crate::solve::island::memory;
@@ -11,6 +12,9 @@ use crate::solve::parallel::Effort;
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
 use crate::world::{ConstraintId, PointId, Touched, World};
+
+/// What looking whether a constraint holds takes, in ticks.
+const CONSTRAINT: usize = 100;
 
 impl Solver {
     /// Brings the islands up to date with what changed in the world; gives the new ones.
@@ -182,6 +186,7 @@ impl Solver {
     fn rest(&mut self, k: u32, work: &mut Counters) -> bool {
         let Some(island) = self.partition.get_mut(k) else { return false };
         work.evaluations += island.constraints.len() as u64;
+        tick(CONSTRAINT * island.constraints.len());
         let holds = island.holds();
         if holds {
             island.rest();
