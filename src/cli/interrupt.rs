@@ -38,7 +38,11 @@ impl Wait {
     }
 
     fn during<T>(self, wait: impl FnOnce() -> T) -> T {
-        WAIT.store(self as u8, Ordering::Relaxed);
+        WAIT.store(self as u8, Ordering::SeqCst);
+        if IS_PATIENT.load(Ordering::Relaxed) {
+            // What came after the last input was done was no wish to stop the next.
+            forget();
+        }
         let result = wait();
         WAIT.store(0, Ordering::Relaxed);
         result
@@ -56,19 +60,21 @@ pub fn listen() {
             // It only woke who waited.
             return;
         }
-        let is_waiting = WAIT.load(Ordering::Relaxed) != 0;
+        // In this order, and in the other where it is waited: what comes as a wait begins is seen by one.
+        let was_asked = IS_ASKED.swap(true, Ordering::SeqCst);
+        let is_waiting = WAIT.load(Ordering::SeqCst) != 0;
         if is_waiting && IS_PATIENT.load(Ordering::Relaxed) {
+            IS_ASKED.store(false, Ordering::SeqCst);
             return;
         }
-        let was_asked = IS_ASKED.swap(true, Ordering::Relaxed);
         if was_asked || is_waiting {
             std::process::exit(STATUS.into());
         }
     }));
 }
 
-/// From here on Ctrl-C ends nothing where input is waited for: it was meant for the program that gives
-/// the input, and goes to both.
+/// From here on Ctrl-C ends nothing where input is waited for, nor stops what is read next: it was meant for
+/// the program that gives the input, and goes to both.
 pub fn be_patient() {
     IS_PATIENT.store(true, Ordering::Relaxed);
 }
@@ -90,7 +96,7 @@ pub fn ending() -> Option<u8> {
 
 /// Forgets that Ctrl-C was pressed.
 pub fn forget() {
-    IS_ASKED.store(false, Ordering::Relaxed);
+    IS_ASKED.store(false, Ordering::SeqCst);
 }
 
 /// Waits for what nothing can wake, before there is anything to lose: who stops it ends the process.
