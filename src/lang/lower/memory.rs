@@ -1,0 +1,101 @@
+//! Statements that differ in their digits alone, of which pest has to read the first.
+//!
+//! The grammar asks of a digit no more than whether it is one, and takes all that stand in a row. So
+//! `point p[9] = (0.5, 12)` has the same parts as `point p[10] = (0.25, 3)`, each where its digits have
+//! moved it. What the parts are worth is seen in each statement anew.
+
+use std::ops::Range;
+
+use super::parsed::Thing;
+use crate::lang::grammar::Rule;
+
+/// As many shapes of statements are kept; a further one takes the place of the oldest.
+const MOST_SHAPES: usize = 64;
+
+/// Statements of a longer shape are all read by pest.
+const LONGEST_SHAPE: usize = 160;
+
+/// What was read of a statement, and what its text is apart from its digits.
+#[derive(Debug, Clone)]
+struct Shape {
+    /// The text with a single `0` for all digits that stand in a row.
+    text: Box<[u8]>,
+    /// The places of the things are those in that text.
+    row: Box<[Thing]>,
+    n_prefix: usize,
+    rule: Rule,
+}
+
+/// The statements of a text that were read last, by their shapes, and where the parts of one are.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Memory {
+    shapes: Vec<Shape>,
+    /// Which shape is the oldest, once there are as many as there may be.
+    oldest: usize,
+    /// The text of the present statement with a single `0` for digits in a row; empty if it is too long.
+    text: Vec<u8>,
+    /// Where in the whole text each byte of that text stands, and its end.
+    places: Vec<u32>,
+    /// What was read of the present statement: its prefix, then all from its verb on.
+    pub row: Vec<Thing>,
+    /// How many things of the row are those of the prefix.
+    pub n_prefix: usize,
+}
+
+impl Memory {
+    /// The rule of the statement at `head`, if one of its shape was read before; its parts are then in
+    /// the row. The row is empty otherwise.
+    pub fn recall(&mut self, text: &str, head: &Range<usize>) -> Option<Rule> {
+        self.row.clear();
+        self.n_prefix = 0;
+        self.look_at(text, head);
+        let shape = self.shapes.iter().find(|shape| *shape.text == *self.text)?;
+        let place = |at: u32| self.places[at as usize];
+        let moved = |it: &Thing| Thing { start: place(it.start), end: place(it.end), ..*it };
+        self.row.extend(shape.row.iter().map(moved));
+        self.n_prefix = shape.n_prefix;
+        Some(shape.rule)
+    }
+
+    /// Keeps what is in the row: that of the statement that was last looked for, which `rule` has read.
+    pub fn keep(&mut self, rule: Rule) {
+        // Whether values stand alone is found by what their first word resembles, its digits too.
+        if self.text.is_empty() || rule == Rule::bare {
+            return;
+        }
+        let place = |at: u32| self.places.partition_point(|place| *place < at) as u32;
+        let moved = |it: &Thing| Thing { start: place(it.start), end: place(it.end), ..*it };
+        let row = self.row.iter().map(moved).collect();
+        let shape = Shape { text: (*self.text).into(), row, n_prefix: self.n_prefix, rule };
+        if self.shapes.len() < MOST_SHAPES {
+            self.shapes.push(shape);
+        } else {
+            self.shapes[self.oldest] = shape;
+            self.oldest = (self.oldest + 1) % MOST_SHAPES;
+        }
+    }
+
+    /// Takes the text of a statement down to its shape.
+    fn look_at(&mut self, text: &str, head: &Range<usize>) {
+        self.text.clear();
+        self.places.clear();
+        let n_most = head.len().min(LONGEST_SHAPE);
+        self.text.reserve(n_most);
+        self.places.reserve(n_most + 1);
+        let mut was_digit = false;
+        for (at, &byte) in text.as_bytes()[head.clone()].iter().enumerate() {
+            let is_digit = byte.is_ascii_digit();
+            if is_digit && was_digit {
+                continue;
+            }
+            was_digit = is_digit;
+            if self.text.len() == LONGEST_SHAPE {
+                self.text.clear();
+                return;
+            }
+            self.text.push(if is_digit { b'0' } else { byte });
+            self.places.push((head.start + at) as u32);
+        }
+        self.places.push(head.end as u32);
+    }
+}
