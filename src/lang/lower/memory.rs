@@ -1,4 +1,4 @@
-//! Statements that differ in their digits alone, of which pest has to read the first.
+//! Statements that differ in their digits alone, of which pest has to read the first two.
 //!
 //! The grammar asks of a digit no more than whether it is one, and takes all that stand in a row. So
 //! `point p[9] = (0.5, 12)` has the same parts as `point p[10] = (0.25, 3)`, each where its digits have
@@ -12,12 +12,19 @@ use crate::lang::grammar::Rule;
 /// As many shapes of statements are kept; a further one takes the place of the oldest.
 const MOST_SHAPES: usize = 64;
 
+/// As many shapes that were read once are known, of which the next one is kept.
+const MOST_READ_ONCE: usize = 32;
+
 /// Statements of a longer shape are all read by pest.
 const LONGEST_SHAPE: usize = 160;
+
+/// That of the hash FNV-1a.
+const FACTOR: u64 = 0x0100_0000_01b3;
 
 /// What was read of a statement, and what its text is apart from its digits.
 #[derive(Debug, Clone)]
 struct Shape {
+    hash: u64,
     /// The text with a single `0` for all digits that stand in a row.
     text: Box<[u8]>,
     /// The places of the things are those in that text.
@@ -30,10 +37,16 @@ struct Shape {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Memory {
     shapes: Vec<Shape>,
-    /// Which shape is the oldest, once there are as many as there may be.
-    oldest: usize,
+    /// How many were kept.
+    n_kept: usize,
+    /// The hashes of those that were read once: a text may have no two of a shape.
+    read_once: Vec<u64>,
+    /// How many were read.
+    n_read: usize,
     /// The text of the present statement with a single `0` for digits in a row; empty if it is too long.
     text: Vec<u8>,
+    /// Of that text.
+    hash: u64,
     /// Where in the whole text each byte of that text stands, and its end.
     places: Vec<u32>,
     /// What was read of the present statement: its prefix, then all from its verb on.
@@ -49,7 +62,8 @@ impl Memory {
         self.row.clear();
         self.n_prefix = 0;
         self.look_at(text, head);
-        let shape = self.shapes.iter().find(|shape| *shape.text == *self.text)?;
+        let is_it = |shape: &&Shape| shape.hash == self.hash && *shape.text == *self.text;
+        let shape = self.shapes.iter().find(is_it)?;
         let place = |at: u32| self.places[at as usize];
         let moved = |it: &Thing| Thing { start: place(it.start), end: place(it.end), ..*it };
         self.row.extend(shape.row.iter().map(moved));
@@ -57,28 +71,30 @@ impl Memory {
         Some(shape.rule)
     }
 
-    /// Keeps what is in the row: that of the statement that was last looked for, which `rule` has read.
+    /// Keeps what is in the row, that of the statement that was last looked for, which `rule` has read;
+    /// if it is the second of its shape.
     pub fn keep(&mut self, rule: Rule) {
         // Whether values stand alone is found by what their first word resembles, its digits too.
         if self.text.is_empty() || rule == Rule::bare {
             return;
         }
+        if !self.read_once.contains(&self.hash) {
+            put(&mut self.read_once, MOST_READ_ONCE, &mut self.n_read, self.hash);
+            return;
+        }
         let place = |at: u32| self.places.partition_point(|place| *place < at) as u32;
         let moved = |it: &Thing| Thing { start: place(it.start), end: place(it.end), ..*it };
         let row = self.row.iter().map(moved).collect();
-        let shape = Shape { text: (*self.text).into(), row, n_prefix: self.n_prefix, rule };
-        if self.shapes.len() < MOST_SHAPES {
-            self.shapes.push(shape);
-        } else {
-            self.shapes[self.oldest] = shape;
-            self.oldest = (self.oldest + 1) % MOST_SHAPES;
-        }
+        let (text, n_prefix) = ((*self.text).into(), self.n_prefix);
+        let shape = Shape { hash: self.hash, text, row, n_prefix, rule };
+        put(&mut self.shapes, MOST_SHAPES, &mut self.n_kept, shape);
     }
 
     /// Takes the text of a statement down to its shape.
     fn look_at(&mut self, text: &str, head: &Range<usize>) {
         self.text.clear();
         self.places.clear();
+        self.hash = 0;
         let n_most = head.len().min(LONGEST_SHAPE);
         self.text.reserve(n_most);
         self.places.reserve(n_most + 1);
@@ -93,9 +109,21 @@ impl Memory {
                 self.text.clear();
                 return;
             }
-            self.text.push(if is_digit { b'0' } else { byte });
+            let byte = if is_digit { b'0' } else { byte };
+            self.hash = (self.hash ^ u64::from(byte)).wrapping_mul(FACTOR);
+            self.text.push(byte);
             self.places.push((head.start + at) as u32);
         }
         self.places.push(head.end as u32);
     }
+}
+
+/// Puts a thing behind others, or in the place of the oldest where there are as many as there may be.
+fn put<T>(things: &mut Vec<T>, most: usize, n_put: &mut usize, thing: T) {
+    if things.len() < most {
+        things.push(thing);
+    } else {
+        things[*n_put % most] = thing;
+    }
+    *n_put += 1;
 }
