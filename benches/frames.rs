@@ -201,11 +201,30 @@ fn statement(c: &mut Criterion) {
             });
         });
     }
-    group.throughput(Throughput::Elements(n));
-    let lines = (0..n).map(|i| format!("point q[{i}] = ({i}, 0)\n")).collect::<Vec<_>>().concat();
-    group.bench_function("point on a line of its own", |b| {
-        b.iter_custom(|times| (0..times).map(|_| timed(&mut Session::new(), &lines)).sum());
-    });
+    let points = (1..=n).map(|i| format!("point q[{i}] = ({i}, 0)\n"));
+    let bars = (1..=n).map(|i| format!("length q[{}] q[{i}] = 1\n", i - 1));
+    let both: String = points.clone().zip(bars).flat_map(|(point, bar)| [point, bar]).collect();
+    // Names that have no digits, so that hardly any statement is like one before.
+    let letter = |digit: u64| char::from(b'a' + digit as u8);
+    let named = |i: u64| [1000, 100, 10, 1].map(|unit| letter(i / unit % 10));
+    let words = (1..=n).map(|i| format!("point {} = ({i}, 0)\n", String::from_iter(named(i))));
+    for (name, text, n_each) in [
+        ("point on a line of its own", points.collect(), 1),
+        ("point and length on lines of their own", both, 2),
+        ("point of another word on a line of its own", words.collect::<String>(), 1),
+    ] {
+        group.throughput(Throughput::Elements(n * n_each));
+        group.bench_function(name, |b| {
+            b.iter_custom(|times| {
+                let run = |_| {
+                    let mut session = Session::new();
+                    execute(&mut session, "point q[0] = (0, 0)");
+                    timed(&mut session, &text)
+                };
+                (0..times).map(run).sum()
+            });
+        });
+    }
     group.finish();
 }
 

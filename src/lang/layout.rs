@@ -177,7 +177,7 @@ impl<'a> Layout<'a> {
                         block_is_closed = true;
                     }
                 }
-                _ => {}
+                _ => self.at += plain(&bytes[self.at..]),
             }
             self.expects_more = false;
             significant_end = self.at;
@@ -202,6 +202,12 @@ pub(super) fn closing(opening: u8) -> u8 {
 
 fn line_end(bytes: &[u8], from: usize) -> usize {
     bytes[from..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |at| from + at)
+}
+
+/// How many bytes there are of those that names and numbers mostly consist of.
+fn plain(bytes: &[u8]) -> usize {
+    let is_plain = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'.';
+    bytes.iter().take_while(is_plain).count()
 }
 
 /// Where the text goes on, if the `\` at `at` is the last of its line.

@@ -85,6 +85,9 @@ pub struct Override {
     pub is_used: bool,
 }
 
+/// As many letters of a statement are told where it was undone.
+const LONGEST_LABEL: usize = 60;
+
 impl Input {
     /// Keeps a piece of a text, which begins at line `first_line` of it.
     pub fn add_piece(
@@ -163,7 +166,10 @@ impl Input {
     pub fn label(&self, span: Span) -> String {
         let text = self.sources.slice(span);
         let line = text.lines().next().unwrap_or_default();
-        match line.char_indices().nth(60) {
+        // One that has no more bytes has no more letters either.
+        let cut =
+            if line.len() > LONGEST_LABEL { line.char_indices().nth(LONGEST_LABEL) } else { None };
+        match cut {
             Some((end, _)) => format!("{}...", &line[..end]),
             None => line.to_owned(),
         }

@@ -1,8 +1,6 @@
-//! Walks over pest's pairs: each call takes the next thing of a sort and gives its tree.
+//! Walks over what pest has read: each call takes the next thing of a sort and gives its tree.
 
 use std::sync::Arc;
-
-use pest::iterators::{Pair as Parsed, Pairs};
 
 use crate::diag::{Diagnostic, Span};
 use crate::lang::ast::{
@@ -12,15 +10,14 @@ use crate::lang::ast::{
 use super::Reader;
 use super::errors::refusal;
 use super::expr::{MAX_DEPTH, Tree, lower_expr};
+use super::parsed::{Parsed, Things};
 use crate::lang::grammar::Rule;
 
 /// A position in the parts of a statement.
 pub(in crate::lang) struct Cursor<'a> {
     pub reader: Reader<'a>,
-    /// Where in the text the part begins that pest has read.
-    base: usize,
     end: usize,
-    pairs: Pairs<'a, Rule>,
+    pairs: Things<'a>,
 }
 
 /// Where a part of a statement stands.
@@ -35,18 +32,17 @@ pub(in crate::lang) struct Spot<'a> {
 type Result<T> = std::result::Result<T, Diagnostic>;
 
 impl<'a> Cursor<'a> {
-    pub fn new(reader: Reader<'a>, base: usize, pairs: Pairs<'a, Rule>) -> Self {
-        Self { reader, base, end: base, pairs }
+    pub(super) fn new(reader: Reader<'a>, pairs: Things<'a>) -> Self {
+        Self { reader, end: 0, pairs }
     }
 
     /// Over the parts of `pair`.
-    pub fn within(&self, pair: Parsed<'a, Rule>) -> Self {
-        Self::new(self.reader, self.base, pair.into_inner())
+    pub fn within(&self, pair: Parsed<'a>) -> Self {
+        Self::new(self.reader, pair.inner())
     }
 
-    pub fn span(&self, pair: &Parsed<'_, Rule>) -> Span {
-        let span = pair.as_span();
-        self.reader.span(self.base + span.start()..self.base + span.end())
+    pub fn span(&self, pair: Parsed<'_>) -> Span {
+        self.reader.span(pair.start()..pair.end())
     }
 
     /// Where in the text the last thing taken ended.
@@ -58,11 +54,11 @@ impl<'a> Cursor<'a> {
     pub fn peek(&mut self) -> Option<Rule> {
         loop {
             let pair = self.pairs.peek()?;
-            let rule = pair.as_rule();
+            let rule = pair.rule();
             if !only_separates(rule) {
                 return Some(rule);
             }
-            self.end = self.base + pair.as_span().end();
+            self.end = pair.end();
             self.pairs.next();
         }
     }
@@ -70,14 +66,14 @@ impl<'a> Cursor<'a> {
     /// The sort and place of the next thing.
     pub fn peek_span(&mut self) -> Option<(Rule, Span)> {
         let rule = self.peek()?;
-        self.pairs.peek().map(|pair| (rule, self.span(&pair)))
+        self.pairs.peek().map(|pair| (rule, self.span(pair)))
     }
 
     /// Where the next thing is, which `rule` has read.
     pub fn spot(&mut self, rule: Rule) -> Spot<'a> {
         let part = self.pairs.peek().expect("there is a next thing");
-        let word = part.clone().into_inner().next().unwrap_or_else(|| part.clone());
-        let (span, word_span) = (self.span(&part), self.span(&word));
+        let word = part.inner().next().unwrap_or(part);
+        let (span, word_span) = (self.span(part), self.span(word));
         Spot { rule, word: word.as_str(), word_span, span }
     }
 
@@ -92,17 +88,17 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next thing, if it is a `rule`.
-    pub fn take(&mut self, rule: Rule) -> Option<Parsed<'a, Rule>> {
+    pub fn take(&mut self, rule: Rule) -> Option<Parsed<'a>> {
         if self.peek() != Some(rule) {
             return None;
         }
         let pair = self.pairs.next()?;
-        self.end = self.base + pair.as_span().end();
+        self.end = pair.end();
         Some(pair)
     }
 
     /// The next thing, whatever it is.
-    pub fn next(&mut self) -> Option<Parsed<'a, Rule>> {
+    pub fn next(&mut self) -> Option<Parsed<'a>> {
         let rule = self.peek()?;
         self.take(rule)
     }
@@ -112,13 +108,13 @@ impl<'a> Cursor<'a> {
         self.take(word).is_some()
     }
 
-    fn must(&mut self, rule: Rule) -> Parsed<'a, Rule> {
+    fn must(&mut self, rule: Rule) -> Parsed<'a> {
         self.take(rule).unwrap_or_else(|| panic!("the grammar has a {rule:?} here"))
     }
 
     pub fn ident(&mut self) -> Ident {
         let pair = self.must(Rule::ident);
-        self.ident_of(&pair)
+        self.ident_of(pair)
     }
 
     /// The unit that a value is counted in, if a clause with one is what follows.
@@ -137,27 +133,27 @@ impl<'a> Cursor<'a> {
     /// The word of a unit.
     pub fn unit_word(&mut self) -> Ident {
         let pair = self.must(Rule::unit);
-        self.ident_of(&pair)
+        self.ident_of(pair)
     }
 
     pub fn ident_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::ident)?;
-        Some(self.ident_of(&pair))
+        Some(self.ident_of(pair))
     }
 
     /// The name of an example: words and numbers joined by hyphens.
     pub fn example_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::example)?;
-        Some(self.ident_of(&pair))
+        Some(self.ident_of(pair))
     }
 
     /// The name of a setting: words joined by hyphens.
     pub fn setting_if_any(&mut self) -> Option<Ident> {
         let pair = self.take(Rule::setting)?;
-        Some(self.ident_of(&pair))
+        Some(self.ident_of(pair))
     }
 
-    fn ident_of(&self, pair: &Parsed<'_, Rule>) -> Ident {
+    fn ident_of(&self, pair: Parsed<'_>) -> Ident {
         Ident { text: Arc::from(pair.as_str()), span: self.span(pair) }
     }
 
@@ -180,15 +176,15 @@ impl<'a> Cursor<'a> {
     }
 
     /// The name in `pair` and how deep the deepest expression in its brackets is.
-    pub fn name_of(&self, pair: Parsed<'a, Rule>) -> Result<(Name, usize)> {
-        let span = self.span(&pair);
+    pub fn name_of(&self, pair: Parsed<'a>) -> Result<(Name, usize)> {
+        let span = self.span(pair);
         let mut inner = self.within(pair);
         let head = inner.ident();
-        let mut parts = Vec::new();
+        let mut parts = Vec::with_capacity(inner.pairs.clone().count());
         let mut depth = 0;
         while let Some(part) = inner.next() {
-            let span = self.span(&part);
-            let kind = if part.as_rule() == Rule::member {
+            let span = self.span(part);
+            let kind = if part.rule() == Rule::member {
                 PartKind::Member(inner.within(part).ident().text)
             } else {
                 let index = inner.within(part).tree()?;
@@ -270,7 +266,7 @@ impl<'a> Cursor<'a> {
             let clause = self.must(rules[slot]);
             let mut inner = self.within(clause);
             let word = inner.pairs.peek().expect("a clause begins with its word");
-            let span = self.span(&word);
+            let span = self.span(word);
             if let Some((_, first)) = &found[slot] {
                 return Err(refusal::twice(word.as_str(), *first, span));
             }
@@ -293,7 +289,7 @@ impl<'a> Cursor<'a> {
     pub fn relation_if_any(&mut self) -> Result<Option<Relation>> {
         let Some(relation) = self.take(Rule::relation) else { return Ok(None) };
         let mut inner = self.within(relation);
-        let sign = inner.pairs.peek().map(|sign| sign.as_rule());
+        let sign = inner.pairs.peek().map(|sign| sign.rule());
         if sign == Some(Rule::kw_in) {
             return inner.range().map(|range| Some(Relation::In(range)));
         }
@@ -314,7 +310,7 @@ impl<'a> Cursor<'a> {
 
     pub fn text(&mut self) -> Result<Text> {
         let pair = self.must(Rule::string);
-        let span = self.span(&pair);
+        let span = self.span(pair);
         let quoted = pair.as_str();
         let inside = &quoted[1..quoted.len() - 1];
         if !inside.contains('\\') {

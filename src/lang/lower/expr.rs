@@ -1,7 +1,5 @@
 //! Expressions: from operands and operators in a row to a tree by precedence.
 
-use pest::iterators::Pair as Parsed;
-
 use crate::diag::{Diagnostic, Span, nearest};
 use crate::errors;
 use crate::lang::ast::{Axis, Expr, Function, Node, Number, Operator, Unit};
@@ -9,6 +7,7 @@ use crate::lang::ast::{Axis, Expr, Function, Node, Number, Operator, Unit};
 use super::cursor::Cursor;
 use super::errors::mistake::brief;
 use super::errors::refusal;
+use super::parsed::Parsed;
 use crate::lang::grammar::Rule;
 
 /// The deepest tree: whatever walks over one calls itself this often at most, and a chain
@@ -44,13 +43,17 @@ impl Waiting {
 
 /// Builds the tree of an `expr` with two stacks (Dijkstra's shunting yard): a chain of any
 /// length takes no stack of ours.
-pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
-    let whole = cursor.span(&pair);
+pub(super) fn lower_expr<'a>(cursor: &Cursor<'a>, pair: Parsed<'a>) -> Result<Tree> {
+    let mut parts = pair.inner();
+    if let (Some(only), None) = (parts.next(), parts.next()) {
+        return operand(cursor, only);
+    }
+    let whole = cursor.span(pair);
     let mut operands = Vec::with_capacity(2);
     let mut waiting: Vec<Waiting> = Vec::new();
-    for part in pair.into_inner() {
-        match part.as_rule() {
-            Rule::minus => waiting.push(Waiting::Minus(cursor.span(&part))),
+    for part in pair.inner() {
+        match part.rule() {
+            Rule::minus => waiting.push(Waiting::Minus(cursor.span(part))),
             Rule::operator => {
                 let op = binary_op(part.as_str());
                 let new = Waiting::Binary(op);
@@ -106,9 +109,9 @@ fn deeper(depth: usize, node: Node, span: Span) -> Tree {
     Tree { expr: Expr { node, span }, depth: depth + 1 }
 }
 
-fn operand<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
-    let span = cursor.span(&pair);
-    let tree = match pair.as_rule() {
+fn operand<'a>(cursor: &Cursor<'a>, pair: Parsed<'a>) -> Result<Tree> {
+    let span = cursor.span(pair);
+    let tree = match pair.rule() {
         Rule::number => deeper(0, Node::Number(number(pair.as_str(), span)?), span),
         Rule::reference => reference(cursor, pair)?,
         _ => parens(cursor, pair)?,
@@ -184,8 +187,8 @@ fn unknown_suffix(digits: &str, suffix: &str, span: Span) -> Diagnostic {
 }
 
 /// A name, or the call of a function and components of what it gives.
-fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
-    let whole = cursor.span(&pair);
+fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a>) -> Result<Tree> {
+    let whole = cursor.span(pair);
     let mut inner = cursor.within(pair);
     let name_pair = inner.take(Rule::name).expect("the grammar has a name here");
     let (name, depth) = cursor.name_of(name_pair)?;
@@ -207,7 +210,7 @@ fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
     if Function::named(&word.text).next().is_none() {
         return Err(refusal::unknown_function(word));
     }
-    let call_span = word.span.to(cursor.span(&arguments));
+    let call_span = word.span.to(cursor.span(arguments));
     let (arguments, depth) = trees(cursor, arguments)?;
     let mut functions = Function::named(&word.text);
     let Some(function) = functions.find(|function| function.takes(arguments.len())) else {
@@ -218,7 +221,7 @@ fn reference<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
 }
 
 /// The expressions in `pair` and the depth of the deepest.
-fn trees<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<(Vec<Expr>, usize)> {
+fn trees<'a>(cursor: &Cursor<'a>, pair: Parsed<'a>) -> Result<(Vec<Expr>, usize)> {
     let mut inner = cursor.within(pair);
     let mut exprs = Vec::new();
     let mut depth = 0;
@@ -230,8 +233,8 @@ fn trees<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<(Vec<Expr>, 
     Ok((exprs, depth))
 }
 
-fn parens<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
-    let opening = cursor.span(&pair);
+fn parens<'a>(cursor: &Cursor<'a>, pair: Parsed<'a>) -> Result<Tree> {
+    let opening = cursor.span(pair);
     let mut inner = cursor.within(pair);
     let x = inner.tree()?;
     let y = if inner.peek() == Some(Rule::expr) { Some(inner.tree()?) } else { None };
@@ -249,7 +252,7 @@ fn parens<'a>(cursor: &Cursor<'a>, pair: Parsed<'a, Rule>) -> Result<Tree> {
 fn components<'a>(cursor: &Cursor<'a>, tree: Tree, mut rest: Cursor<'a>) -> Result<Tree> {
     let mut tree = tree;
     while let Some(member) = rest.take(Rule::member) {
-        let at = cursor.span(&member);
+        let at = cursor.span(member);
         let axis = match member.as_str() {
             ".x" => Axis::X,
             ".y" => Axis::Y,

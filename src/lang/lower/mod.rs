@@ -1,15 +1,18 @@
 //! Text to trees: the only folder that names what pest has read.
 //!
 //! [`parse`] cuts the text into statements (see `layout`), looks at the first word of each,
-//! lets pest read it with the rule of that verb, and turns pest's pairs into the tree. Each
-//! statement is read when it is asked for, so those before a mistake can run first.
+//! lets pest read it with the rule of that verb (see `memory` for when it need not), and turns what
+//! pest has read into the tree. Each statement is read when it is asked for, so those before a mistake
+//! can run first.
 
 mod constraint;
 mod cursor;
 mod errors;
 mod expr;
 mod highlight;
+mod memory;
 mod next;
+mod parsed;
 mod prefix;
 mod signs;
 
@@ -30,8 +33,11 @@ pub(super) use constraint::{lower as constraint, parts};
 pub(super) use cursor::Cursor;
 pub(super) use errors::refusal;
 pub use highlight::{Class, Token, Tokens, tokens};
+use memory::Memory;
 pub(super) use next::split_prefix;
 pub use next::{NameOf, Next, next};
+use parsed::{Parsed, Thing, lay_out};
+use prefix::Prefix;
 pub use prefix::nearest_command;
 pub(super) use prefix::{is_bare, is_word_char};
 pub(super) use signs::Signs;
@@ -62,6 +68,7 @@ pub fn parse(source: SourceId, text: &str) -> Statements<'_> {
     Statements {
         reader: Reader { source, text },
         layout: Layout::new(text, start..text.len()),
+        memory: Memory::default(),
         n_broken: 0,
     }
 }
@@ -71,6 +78,7 @@ pub fn parse(source: SourceId, text: &str) -> Statements<'_> {
 pub struct Statements<'a> {
     reader: Reader<'a>,
     layout: Layout<'a>,
+    memory: Memory,
     /// How many statements were broken off.
     n_broken: usize,
 }
@@ -84,7 +92,7 @@ impl Iterator for Statements<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         Some(match self.layout.next_piece()? {
-            Ok(piece) => self.reader.statement(&piece),
+            Ok(piece) => self.reader.statement(&piece, &mut self.memory),
             Err(flaw) => {
                 self.n_broken += 1;
                 if let Some(broken) = self.layout.broken_off(flaw)
@@ -112,8 +120,8 @@ impl Iterator for Statements<'_> {
 /// assert!(!is_incomplete("print )("));
 /// ```
 pub fn is_incomplete(text: &str) -> bool {
-    let Statements { reader, layout, .. } = parse(SourceId(0), text);
-    matches!(reader.state(layout), State::Open)
+    let Statements { reader, layout, memory, .. } = parse(SourceId(0), text);
+    matches!(reader.state(layout, memory), State::Open)
 }
 
 /// Does a block in braces belong to the statement?
@@ -145,23 +153,41 @@ impl<'a> Reader<'a> {
         Span::new(self.source, range)
     }
 
-    fn statement(&self, piece: &Piece) -> Result<Statement, Diagnostic> {
+    fn statement(&self, piece: &Piece, memory: &mut Memory) -> Result<Statement, Diagnostic> {
         tick(LETTER * piece.head.len());
-        let (prefix, at) = self.prefix(&piece.head)?;
-        let range = at..piece.head.end;
-        let (word, rule) = self.verb(&prefix, &range)?;
-        let mut cursor = self.read(rule, range)?;
+        let (prefix, rule) = match memory.recall(self.text, &piece.head) {
+            Some(rule) if memory.n_prefix == 0 => (Prefix::default(), rule),
+            Some(rule) => (self.prefix_in(&memory.row)?.0, rule),
+            None => self.read_anew(&piece.head, memory)?,
+        };
+        let whole = Parsed::new(self.text, &memory.row, memory.n_prefix);
+        let word = || prefix::first_word(whole.as_str());
         let block = match (&piece.block, has_block(rule)) {
             (Some(block), true) => self.block(block)?,
             (None, false) => Body::default(),
-            (Some(block), false) => return Err(self.needless_block(word, block.start - 1)),
-            (None, true) => return Err(self.missing_block(word, piece.head.end)),
+            (Some(block), false) => return Err(self.needless_block(word(), block.start - 1)),
+            (None, true) => return Err(self.missing_block(word(), piece.head.end)),
         };
+        let mut cursor = Cursor::new(*self, whole.inner());
         if rule != Rule::bare {
             cursor.pass_verb();
         }
         let command = Command::read(rule, &mut cursor, prefix.label, block)?;
         Ok(Statement { command, span: self.span(piece.whole.clone()) })
+    }
+
+    /// Has pest read the statement at `head`; what it has read is in the row then, and kept.
+    fn read_anew(
+        &self,
+        head: &Range<usize>,
+        memory: &mut Memory,
+    ) -> Result<(Prefix, Rule), Diagnostic> {
+        let (prefix, at) = self.prefix_into(head, &mut memory.row)?;
+        memory.n_prefix = memory.row.len();
+        let (_, rule) = self.verb(&prefix, &(at..head.end))?;
+        self.read(rule, at..head.end, &mut memory.row)?;
+        memory.keep(rule);
+        Ok((prefix, rule))
     }
 
     /// Where the first line behind a place begins that begins with a command; the end, if none does.
@@ -183,27 +209,31 @@ impl<'a> Reader<'a> {
     fn block(&self, inside: &Range<usize>) -> Result<Body, Diagnostic> {
         let layout = Layout::new(self.text, inside.clone());
         let statements: Result<Vec<_>, _> =
-            Statements { reader: *self, layout, n_broken: 0 }.collect();
+            Statements { reader: *self, layout, memory: Memory::default(), n_broken: 0 }.collect();
         statements.map(Body::from)
     }
 
-    /// Has pest read the bytes `range` of the text as a `rule`.
-    fn read(&self, rule: Rule, range: Range<usize>) -> Result<Cursor<'a>, Diagnostic> {
-        let input = &self.text[range.clone()];
-        match LinkworkParser::parse(rule, input) {
-            Ok(mut pairs) => {
-                let whole = pairs.next().expect("a rule that fits gives a pair");
-                Ok(Cursor::new(*self, range.start, whole.into_inner()))
+    /// Has pest read the bytes `range` of the text as a `rule`, and lays out what it has read.
+    fn read(
+        &self,
+        rule: Rule,
+        range: Range<usize>,
+        row: &mut Vec<Thing>,
+    ) -> Result<(), Diagnostic> {
+        match LinkworkParser::parse(rule, &self.text[range.clone()]) {
+            Ok(pairs) => {
+                lay_out(pairs, range.start, row);
+                Ok(())
             }
             Err(error) => Err(self.syntax_error(&error, rule, &range)),
         }
     }
 
     /// What is in `layout` so far, seen by who may add to it.
-    fn state(&self, mut layout: Layout) -> State {
+    fn state(&self, mut layout: Layout, mut memory: Memory) -> State {
         while let Some(piece) = layout.next_piece() {
             match piece {
-                Ok(piece) => match self.statement(&piece) {
+                Ok(piece) => match self.statement(&piece, &mut memory) {
                     Ok(_) if layout.expects_more() => return State::Open,
                     Ok(_) => {}
                     Err(problem) if layout.expects_more() => {
@@ -234,10 +264,11 @@ impl<'a> Reader<'a> {
             let piece = Piece { head, block: Some(end..end), whole: start..end };
             // A mistake within the block is told when it is closed: told at once, the rest of the
             // block would be taken for statements of their own.
-            return if self.statement(&piece).is_ok() { State::Open } else { State::Broken };
+            let read = self.statement(&piece, &mut Memory::default());
+            return if read.is_ok() { State::Open } else { State::Broken };
         }
         let piece = Piece { head: start..end, block: None, whole: start..end };
-        match self.statement(&piece) {
+        match self.statement(&piece, &mut Memory::default()) {
             // What seems whole is not: a bracket hides in a comment.
             Ok(_) => State::Open,
             Err(problem) => self.state_of(&problem, end),

@@ -8,7 +8,8 @@ use crate::lang::ast::{Function, Name};
 use crate::lang::catalogue::{self, Trade};
 
 use super::errors::mistake::brief;
-use super::{Reader, constraint};
+use super::parsed::{Parsed, Thing};
+use super::{Cursor, Reader, constraint};
 use crate::lang::grammar::Rule;
 
 /// What stands in front of a verb.
@@ -21,6 +22,15 @@ pub(super) struct Prefix {
 impl<'a> Reader<'a> {
     /// Reads `label:` and `add`, in either order; gives what it found and where the verb begins.
     pub(super) fn prefix(&self, head: &Range<usize>) -> Result<(Prefix, usize), Diagnostic> {
+        self.prefix_into(head, &mut Vec::new())
+    }
+
+    /// As [`Reader::prefix`]; what pest has read of it is laid out in a row.
+    pub(super) fn prefix_into(
+        &self,
+        head: &Range<usize>,
+        row: &mut Vec<Thing>,
+    ) -> Result<(Prefix, usize), Diagnostic> {
         let text = &self.text[head.clone()];
         let Some(kind) = prefix_of(text) else {
             return Ok((Prefix::default(), head.start));
@@ -28,17 +38,23 @@ impl<'a> Reader<'a> {
         if let Some(problem) = self.misused_colon(text, kind, head.start) {
             return Err(problem);
         }
+        self.read(Rule::prefix, head.clone(), row)?;
+        self.prefix_in(row)
+    }
+
+    /// The prefix that a row begins with, and where the verb begins.
+    pub(super) fn prefix_in(&self, row: &[Thing]) -> Result<(Prefix, usize), Diagnostic> {
         let mut prefix = Prefix::default();
-        let mut cursor = self.read(Rule::prefix, head.clone())?;
+        let mut cursor = Cursor::new(*self, Parsed::new(self.text, row, 0).inner());
         if cursor.peek() == Some(Rule::name) {
             prefix.label = Some(cursor.name()?);
         }
-        prefix.add = cursor.take(Rule::kw_add).map(|pair| cursor.span(&pair));
+        prefix.add = cursor.take(Rule::kw_add).map(|pair| cursor.span(pair));
         if cursor.peek() == Some(Rule::name) {
             prefix.label = Some(cursor.name()?);
         }
         let verb = cursor.take(Rule::verb).expect("the grammar has a verb behind a prefix");
-        Ok((prefix, cursor.span(&verb).start as usize))
+        Ok((prefix, verb.start()))
     }
 
     /// The first word and the rule to read its statement with.

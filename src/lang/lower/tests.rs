@@ -156,6 +156,45 @@ fn a_statement_is_read_when_it_is_asked_for() {
 }
 
 #[test]
+fn many_shapes_are_told_apart() {
+    let word = |i: usize| "ab".repeat(i);
+    // Each three times, then all of them again.
+    let shapes = (0..2).flat_map(|_| 1..200).flat_map(|i| [(i, 3), (i, 40), (i, 500)]);
+    let texts: Vec<String> = shapes
+        .map(|(i, n)| format!("{}{n}: length {} p[{n}] = {i}.5", word(i % 90 + 1), word(i)))
+        .collect();
+    assert_eq!(canonical(&texts.join("\n")), texts);
+}
+
+#[test]
+fn the_grammar_takes_digits_as_they_come() {
+    let grammar = include_str!("../../../grammar/linkwork.pest");
+    for line in grammar.lines().filter(|line| !line.starts_with("//")) {
+        assert!(!line.contains(|c: char| c.is_ascii_digit()), "{line}");
+        let looks_at_one = |rule: &str| {
+            let mut uses = line.match_indices(rule);
+            uses.any(|(at, _)| {
+                let (before, behind) = (&line[..at], &line[at + rule.len()..]);
+                !before.ends_with('!') && !behind.starts_with(['*', '+'])
+            })
+        };
+        assert!(!looks_at_one("ASCII_DIGIT"), "{line}");
+        let defines = line.starts_with("word_char =");
+        assert!(defines || !looks_at_one("word_char"), "{line}");
+        assert!(defines || !line.contains("ASCII_ALPHANUMERIC"), "{line}");
+    }
+}
+
+#[test]
+fn a_function_is_told_by_its_digits() {
+    let atan = |n| format!("let a{n} = atan{n}(1, {n})");
+    let read = canonical(&[atan(2), atan(2), atan(2), atan(31), atan(2)].join("\n"));
+    let refused = canonical(&atan(31)).concat();
+    assert!(refused.starts_with("error: "), "{refused}");
+    assert_eq!(read, [atan(2), atan(2), atan(2), refused, atan(2)]);
+}
+
+#[test]
 fn a_session_knows_when_to_ask_for_more() {
     let check = |text: &str, wanted| assert_eq!(is_incomplete(text), wanted, "of {text:?}");
     for open in [

@@ -72,6 +72,66 @@ proptest! {
         text.splice(at..end, put.chars());
         survives(&text.iter().collect::<String>())?;
     }
+
+    #[test]
+    fn what_was_read_before_is_not_seen(
+        statement in statement(),
+        cut in any::<prop::sample::Index>(),
+        put in prop::sample::select(words()),
+        first in 0_usize..3,
+    ) {
+        let text = statement.to_string();
+        stands_alone(&text, first)?;
+        let mut damaged: Vec<char> = text.chars().collect();
+        let at = cut.index(damaged.len());
+        damaged.splice(at..at, put.chars());
+        stands_alone(&damaged.iter().collect::<String>(), first)?;
+    }
+
+    #[test]
+    fn words_of_the_language_are_read_alike_behind_others(
+        words in prop::collection::vec(prop::sample::select(words()), 0..8),
+        first in 0_usize..3,
+    ) {
+        stands_alone(&words.join(" "), first)?;
+        stands_alone(&words.concat(), first)?;
+    }
+}
+
+/// Checks that `text` is read behind one that differs from it in its digits as it is behind a comment.
+fn stands_alone(text: &str, first: usize) -> Result<(), TestCaseError> {
+    // A byte order mark is none behind others.
+    let text = text.trim_start_matches('\u{feff}');
+    let other = with_other_digits(text, first);
+    let (Ok(before), false) = (read(&other), is_incomplete(&other)) else { return Ok(()) };
+    // What two have in common is kept.
+    let behind_other = format!("{other};\n{other};\n{text}");
+    let n_before = behind_other.len() - text.len();
+    let behind_comment = format!("#{}\n{text}", "-".repeat(n_before - 2));
+    let told = |text: &str, n_before: usize| {
+        // All of the trees, with the places that comparing them leaves out.
+        parse(SourceId(0), text).skip(n_before).map(|it| format!("{it:?}")).collect::<Vec<_>>()
+    };
+    let (alone, behind) = (told(&behind_comment, 0), told(&behind_other, 2 * before.len()));
+    prop_assert_eq!(alone, behind, "{:?} behind {:?}", text, other);
+    Ok(())
+}
+
+/// `text` with other digits, more or fewer, wherever some stand.
+fn with_other_digits(text: &str, first: usize) -> String {
+    let mut others = ["4", "31", "205"].into_iter().cycle().skip(first);
+    let mut changed = String::new();
+    let mut was_digit = false;
+    for char in text.chars() {
+        let is_digit = char.is_ascii_digit();
+        if !is_digit {
+            changed.push(char);
+        } else if !was_digit {
+            changed.extend(others.next());
+        }
+        was_digit = is_digit;
+    }
+    changed
 }
 
 fn read(text: &str) -> Result<Vec<Statement>, Diagnostic> {
