@@ -37,6 +37,24 @@ impl Projector {
         Self::new(island.points.len(), island.rows.clone())
     }
 
+    /// The same for other rows. Where these stand between the same points, what is kept is who has to do
+    /// with whom, most of the work of a projector of a few points.
+    #[must_use]
+    pub fn anew(mut self, island: &UnitRows) -> Self {
+        let is_alike = self.normal.n_unknowns() == island.n_unknowns()
+            && self.rows.iter().map(UnitRow::points).eq(island.rows.iter().map(UnitRow::points));
+        if !is_alike {
+            return Self::of(island);
+        }
+        self.rows.clone_from(&island.rows);
+        self.normal.clear();
+        for (row_idx, row) in self.rows.iter().enumerate() {
+            self.normal.add_row(row_idx, row.values());
+        }
+        self.mu = f64::NAN;
+        self
+    }
+
     fn factor(&mut self, mu: f64) {
         if self.mu != mu {
             self.normal.factor(mu);
@@ -123,5 +141,57 @@ impl Projector {
             if enough(self.count_below(middle)) { high = middle } else { low = middle }
         }
         high
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::{Bounds, Constraint, Length, Point};
+    use crate::mobility::ConstraintSystem;
+    use crate::mobility::motions::Random;
+
+    /// The rows of some bars between points that lie anywhere.
+    fn rows(bars: &[[u32; 2]], random: &mut Random) -> UnitRows {
+        let bounds = Bounds::exactly(1.0);
+        let of = |&points: &[u32; 2]| Constraint::from(Length { points, bounds });
+        let bars: Vec<Constraint> = bars.iter().map(of).collect();
+        let x: Vec<Point> = (0..5).map(|_| Point::new(random.next(), random.next())).collect();
+        let constraints: Vec<&Constraint> = bars.iter().collect();
+        let all: Vec<usize> = (0..bars.len()).collect();
+        let scene = ConstraintSystem { constraints: &constraints, x: &x, w: &[1.0; 5] };
+        scene.rows_over((0..5).collect(), &all)
+    }
+
+    #[test]
+    fn a_projector_that_was_for_other_rows_gives_the_same_bits() {
+        let nets: [&[[u32; 2]]; 4] = [
+            &[[0, 1], [1, 2], [2, 3], [3, 4]],
+            &[[0, 1], [1, 2], [2, 3], [3, 4], [0, 4]],
+            &[[0, 1], [2, 1], [2, 3], [3, 4]],
+            &[[3, 4], [1, 3]],
+        ];
+        let mut random = Random::new();
+        let mut last = Projector::of(&rows(nets[0], &mut random));
+        for k in 0..200 {
+            let rows = rows(nets[k / 3 * 7 % 4], &mut random);
+            let mut fresh = Projector::of(&rows);
+            last = last.anew(&rows);
+            let y: Vec<f64> = (0..10).map(|_| random.next()).collect();
+            let bits = |projector: &mut Projector| {
+                let mut all = vec![projector.nullity() as u64];
+                for of in [Projector::onto_motions, |it: &mut Projector, y: &mut [f64]| {
+                    it.solve_damped(1e-12, y);
+                }] {
+                    let mut y = y.clone();
+                    of(projector, &mut y);
+                    all.extend(y.into_iter().map(f64::to_bits));
+                }
+                let (multipliers, left) = projector.multipliers(&y);
+                all.extend(multipliers.into_iter().chain([left]).map(f64::to_bits));
+                all
+            };
+            assert_eq!(bits(&mut last), bits(&mut fresh), "{k}");
+        }
     }
 }

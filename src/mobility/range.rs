@@ -130,8 +130,8 @@ pub fn range(scene: &ConstraintSystem, driver: &Driver, tolerance: f64) -> Drive
         range.reach = Reach::Nonholonomic;
         return range;
     }
-    let Some(first) = mechanism.begin(scene.x) else {
-        let is_solved = mechanism.holds(scene.x, 10.0 * tolerance);
+    let Some(first) = mechanism.begin() else {
+        let is_solved = mechanism.holds(10.0 * tolerance);
         range.reach = if is_solved { Reach::Rigid } else { Reach::Unsatisfied };
         return range;
     };
@@ -180,7 +180,7 @@ pub fn dead_end(scene: &ConstraintSystem, motor: usize, way: f64) -> Option<Rang
     if !mechanism.can_move() || mechanism.has_velocities() {
         return None;
     }
-    let first = mechanism.begin(scene.x)?;
+    let first = mechanism.begin()?;
     let mut tour = Tour::new(mechanism, first, way.signum());
     match tour.go(way.abs()) {
         Arrival::End(end @ (RangeEnd::DeadPoint(turn) | RangeEnd::Stop(turn, _))) => {

@@ -21,13 +21,16 @@ const NOTHING: f64 = 1e-13;
 /// Newton steps that leave less than this part of the size are enough.
 const EXACT: f64 = 1e-14;
 
-/// A mechanism with a driver that is free.
+/// A mechanism with a driver that is free. It has points of its own, so that a large scene around it costs
+/// nothing.
 pub struct Mechanism<'a> {
     /// The constraints, those that carry something on as of the last pose that counted.
     constraints: Vec<Constraint>,
     /// Their places in the scene.
-    pub sources: Vec<usize>,
-    w: &'a [f64],
+    sources: Vec<usize>,
+    /// The pose of the scene, and the inverse masses.
+    x: Vec<Point>,
+    w: Vec<f64>,
     driver: &'a Driver<'a>,
     /// The places of the constraints that are driven among those here.
     driven: Vec<usize>,
@@ -39,12 +42,16 @@ pub struct Mechanism<'a> {
     /// angles.
     pub unit: f64,
     tolerance: f64,
+    /// The last projector: mostly the next rows stand between the same points.
+    projector: Option<Projector>,
+    /// What is probed with how regular a pose is.
+    probe: Vec<f64>,
 }
 
 /// Where the points are, and how far the driver has gone from where it was.
 #[derive(Debug, Clone)]
 pub struct Stand {
-    /// The positions of all points of the scene.
+    /// The positions of the points of the mechanism.
     pub x: Vec<Point>,
     /// How far it has gone, in its units: the turn, radians, of an angle.
     pub turn: f64,
@@ -82,10 +89,10 @@ impl Waypoint {
 
 impl<'a> Mechanism<'a> {
     /// What hangs together with the constraints that are driven, but for points that only follow.
-    pub fn new(scene: &ConstraintSystem<'a>, driver: &'a Driver<'a>) -> Self {
+    pub fn new(scene: &ConstraintSystem, driver: &'a Driver<'a>) -> Self {
         let moves = |p: &&PointIdx| scene.w[**p as usize] > 0.0;
         let sources = without_tracers(scene, &driver.constraints);
-        let constraints: Vec<_> =
+        let mut constraints: Vec<_> =
             sources.iter().map(|&k| Constraint::clone(scene.constraints[k])).collect();
         let mut held: Vec<_> =
             constraints.iter().flat_map(ConstraintKind::points).copied().collect();
@@ -107,29 +114,42 @@ impl<'a> Mechanism<'a> {
         let size = if size > 0.0 { size } else { 1.0 };
         let farthest = held.iter().map(|&p| scene.x[p as usize].to_vector().norm());
         let rounding = 8.0 * f64::EPSILON * farthest.fold(0.0, f64::max);
-        let points = held.iter().filter(moves).copied().collect();
+        let place = |p: PointIdx| held.partition_point(|&q| q < p) as PointIdx;
+        constraints.iter_mut().for_each(|constraint| constraint.map_points(place));
+        let w: Vec<f64> = held.iter().map(|&p| scene.w[p as usize]).collect();
+        let points: Vec<_> = (0..held.len() as PointIdx).filter(|&p| w[p as usize] > 0.0).collect();
         let places = driver.constraints.iter();
         let mut mechanism = Self {
             driven: places.filter_map(|k| sources.binary_search(k).ok()).collect(),
             constraints,
             sources,
-            w: scene.w,
+            x: held.iter().map(|&p| scene.x[p as usize]).collect(),
+            w,
             driver,
+            // All places differ, so that no symmetry of a mechanism hides a motion from it.
+            probe: (0..2 * points.len() + 2).map(|k| libm::sin(1.0 + 0.7 * k as f64)).collect(),
             points,
             size,
             unit: 1.0,
             tolerance: rounding.max(NOTHING * size),
+            projector: None,
         };
         if !driver.is_angle {
-            mechanism.unit = mechanism.natural_unit(scene.x);
+            mechanism.unit = mechanism.natural_unit();
         }
         mechanism
     }
 
+    /// Where it is in the scene.
+    fn start(&self) -> Stand {
+        Stand { x: self.x.clone(), turn: 0.0 }
+    }
+
     /// How much of the driver changes the distances that are asked for by the size.
-    fn natural_unit(&mut self, x: &[Point]) -> f64 {
+    fn natural_unit(&mut self) -> f64 {
         let n = 2 * self.points.len();
-        let rows = self.rows(&Stand { x: x.to_vec(), turn: 0.0 });
+        let start = self.start();
+        let rows = self.rows(&start);
         let mut turning = vec![0.0; n + 2];
         turning[n] = 1.0;
         let along = rows.iter().flat_map(|rows| &rows.rows).map(|row| row.dot(&turning));
@@ -143,9 +163,10 @@ impl<'a> Mechanism<'a> {
         10.0 * self.tolerance
     }
 
-    /// Whether everything holds at this pose, up to a part of the size.
-    pub fn holds(&mut self, x: &[Point], tolerance: f64) -> bool {
-        let rows = self.rows(&Stand { x: x.to_vec(), turn: 0.0 });
+    /// Whether everything holds where it is, up to a part of the size.
+    pub fn holds(&mut self, tolerance: f64) -> bool {
+        let start = self.start();
+        let rows = self.rows(&start);
         rows.is_ok_and(|rows| rows.worst() <= tolerance * self.size)
     }
 
@@ -194,7 +215,7 @@ impl<'a> Mechanism<'a> {
     fn rows(&mut self, stand: &Stand) -> Result<UnitRows, NoValue> {
         let driven = self.drive(stand)?;
         let constraints: Vec<&Constraint> = self.constraints.iter().collect();
-        let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: self.w };
+        let scene = ConstraintSystem { constraints: &constraints, x: &stand.x, w: &self.w };
         let all: Vec<usize> = (0..constraints.len()).collect();
         let mut rows = scene.rows_over(self.points.clone(), &all);
         // An inequality that is met exactly stops nothing that leads away from it. Of what stays
@@ -219,6 +240,15 @@ impl<'a> Mechanism<'a> {
         Ok(rows)
     }
 
+    /// A projector for these rows.
+    fn project(&mut self, rows: &UnitRows) -> &mut Projector {
+        let projector = match self.projector.take() {
+            Some(last) => last.anew(rows),
+            None => Projector::of(rows),
+        };
+        self.projector.insert(projector)
+    }
+
     fn displace(&self, stand: &mut Stand, t: f64, y: &[f64]) {
         for (&p, y) in self.points.iter().zip(y.as_chunks::<2>().0) {
             let root_w = self.w[p as usize].sqrt();
@@ -241,7 +271,7 @@ impl<'a> Mechanism<'a> {
             }
             let mut y = vec![0.0; rows.n_unknowns()];
             rows.rows.iter().for_each(|row| row.add_to(-row.f, &mut y));
-            Projector::of(&rows).solve_damped(DAMPING, &mut y);
+            self.project(&rows).solve_damped(DAMPING, &mut y);
             way += norm(&y);
             if way.is_nan() || way > reach {
                 return None;
@@ -263,30 +293,35 @@ impl<'a> Mechanism<'a> {
     ) -> Option<(Waypoint, f64)> {
         let (rows, way) = self.correct(&mut stand, reach)?;
         let n = rows.n_unknowns();
-        let mut projector = Projector::of(&rows);
+        let projector = self.project(&rows);
         // The idle place is free too.
         let n_freedoms = projector.nullity() - 1;
-        let mut turning = vec![0.0; n];
-        turning[n - 2] = 1.0;
-        projector.onto_motions(&mut turning);
-        let is_free = n_freedoms > 1;
-        let mut tangent = match direction {
-            // Freedoms besides the driver's are left alone as far as they can be.
-            Some(direction) if is_free && norm(&turning) > 1e-6 => {
+        // Freedoms besides the driver's are left alone as far as they can be.
+        let turned = if direction.is_none() || n_freedoms > 1 {
+            let mut turning = vec![0.0; n];
+            turning[n - 2] = 1.0;
+            projector.onto_motions(&mut turning);
+            (norm(&turning) > 1e-6).then_some(turning)
+        } else {
+            None
+        };
+        let mut tangent = match (turned, direction) {
+            (Some(mut turning), Some(direction)) => {
                 let k = direction[n - 2].signum();
                 turning.iter_mut().for_each(|t| *t *= k);
                 turning
             }
-            Some(direction) => {
-                let mut tangent = direction.to_vec();
-                projector.onto_motions(&mut tangent);
-                tangent
-            }
-            None if norm(&turning) > 1e-6 => turning,
-            None => {
-                // The driver stands at an end already: any motion there is.
-                let mut tangent: Vec<f64> = (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect();
-                tangent[n - 1] = 0.0;
+            (Some(turning), None) => turning,
+            (None, direction) => {
+                let mut tangent = match direction {
+                    Some(direction) => direction.to_vec(),
+                    // The driver stands at an end already: any motion there is.
+                    None => {
+                        let mut any: Vec<f64> = (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect();
+                        any[n - 1] = 0.0;
+                        any
+                    }
+                };
                 projector.onto_motions(&mut tangent);
                 tangent
             }
@@ -297,17 +332,17 @@ impl<'a> Mechanism<'a> {
             return None;
         }
         tangent.iter_mut().for_each(|t| *t /= length);
-        let regularity = regularity(&mut projector, &tangent);
+        let projector = self.projector.as_mut().expect("it was made for these rows");
+        let regularity = regularity(projector, &self.probe, &tangent);
         let source = |&(c, part): &(usize, usize)| (self.sources[c], part);
         let active = rows.rows.iter().map(|row| source(&row.source)).collect();
         Some((Waypoint { stand, tangent, n_freedoms, regularity, active }, way))
     }
 
     /// The waypoint at which following begins.
-    pub fn begin(&mut self, x: &[Point]) -> Option<Waypoint> {
-        let stand = Stand { x: x.to_vec(), turn: 0.0 };
+    pub fn begin(&mut self) -> Option<Waypoint> {
         let reach = 1e-3 * self.size;
-        self.waypoint(stand, None, reach).map(|(waypoint, _)| waypoint)
+        self.waypoint(self.start(), None, reach).map(|(waypoint, _)| waypoint)
     }
 
     /// The waypoint a way `h` on from a waypoint, with the length of the correction it took.
@@ -360,15 +395,14 @@ pub fn norm(y: &[f64]) -> f64 {
 
 /// About the smallest singular value that belongs to no motion: for a fixed probe c across the
 /// motion, the root of `|c|^2 / c^T (J^T J)^+ c`.
-fn regularity(projector: &mut Projector, tangent: &[f64]) -> f64 {
+fn regularity(projector: &mut Projector, probe: &[f64], tangent: &[f64]) -> f64 {
     let n = tangent.len();
     let across = |y: &mut [f64]| {
         let along: f64 = y.iter().zip(tangent).map(|(a, b)| a * b).sum();
         y.iter_mut().zip(tangent).for_each(|(a, b)| *a -= along * b);
         y[n - 1] = 0.0;
     };
-    // All places differ, so that no symmetry of a mechanism hides a motion from it.
-    let mut probe: Vec<f64> = (0..n).map(|k| libm::sin(1.0 + 0.7 * k as f64)).collect();
+    let mut probe = probe.to_vec();
     across(&mut probe);
     let mut y = probe.clone();
     projector.solve_damped(1e-2 * DAMPING, &mut y);

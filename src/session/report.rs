@@ -25,8 +25,14 @@ impl Execution<'_> {
         self.tell_chosen(&summary);
         self.tell_turned_over(&summary);
         let time = self.state.world.clock().time();
-        let line = summary.line(self.state.preferences.receipt, time);
         let is_taken = self.host.takes_findings();
+        // Of variants and trials nobody reads it.
+        let is_read = self.host.is_listening() || !is_taken;
+        let line = if is_read {
+            summary.line(self.state.preferences.receipt, time)
+        } else {
+            String::new()
+        };
         if is_taken && summary.n_frames > 0 {
             self.host.find_out(&Finding::Ran(&summary, time, &line));
         }

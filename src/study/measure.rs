@@ -5,7 +5,7 @@ use super::reference::Reference;
 use super::reference_run::{self, FoundReference};
 use super::repeatable_motion::RepeatableMotion;
 use super::report::{Cut, ErrorMeasure, RungResult, Study, Why};
-use super::sample::Subject;
+use super::sample::{Subject, Track};
 use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
 
@@ -61,8 +61,8 @@ pub fn study(
         floor: reference.as_ref().map_or(f64::EPSILON, |reference| reference.error),
     };
     if subject.n_frames > 0 {
-        look(&subject, ladder, reference.as_ref(), host, &mut study);
-        time(&subject, host, begun, &mut study)?;
+        let tracks = look(&subject, ladder, reference.as_ref(), host, &mut study);
+        time(&subject, host, begun, &tracks, &mut study)?;
     }
     if study.rows.iter().all(|row| row.residual == 0.0) && study.is_still {
         study
@@ -76,14 +76,15 @@ pub fn study(
     Ok(study)
 }
 
-/// Runs every rung once and looks at every frame.
+/// Runs every rung once and looks at every frame; gives what each row of the study did.
 fn look(
     subject: &Subject,
     ladder: &[Rung],
     reference: Option<&Reference>,
     host: &StudyHost,
     study: &mut Study,
-) {
+) -> Vec<Track> {
+    let mut tracks = Vec::new();
     for (k, &rung) in ladder.iter().enumerate() {
         (host.progress)(LOOKED * k as f64 / ladder.len() as f64);
         let is_after = |cut: &Cut| {
@@ -99,35 +100,52 @@ fn look(
             subject.look(rung, reference, host, RUNG_SHARE * host.seconds)
         };
         match outcome {
-            Ok(outcome) => study.rows.push(RungResult {
-                rung,
-                settings: rung.settings(&subject.motion.settings),
-                seconds_per_frame: outcome.seconds,
-                spread: 0.0,
-                n_rounds: 1,
-                residual: outcome.residual,
-                position_error: outcome.position_error,
-                n_failed: outcome.n_failed,
-                is_efficient: false,
-            }),
+            Ok(outcome) => {
+                tracks.push(outcome.track);
+                study.rows.push(RungResult {
+                    rung,
+                    settings: rung.settings(&subject.motion.settings),
+                    seconds_per_frame: outcome.seconds,
+                    spread: 0.0,
+                    n_rounds: 1,
+                    residual: outcome.residual,
+                    position_error: outcome.position_error,
+                    n_failed: outcome.n_failed,
+                    is_efficient: false,
+                });
+            }
             Err(why) => study.cuts.push(Cut { rung, why }),
         }
     }
+    tracks
+}
+
+/// For each row the first of those of its method that did the same.
+fn first_alike(rows: &[RungResult], tracks: &[Track]) -> Vec<usize> {
+    let is_alike =
+        |j: usize, k: usize| rows[j].rung.method == rows[k].rung.method && tracks[j] == tracks[k];
+    (0..rows.len()).map(|k| (0..k).find(|&j| is_alike(j, k)).unwrap_or(k)).collect()
 }
 
 /// Times every rung, one after the other and round after round, so that what else the machine
-/// does falls on all of them; a rung whose median is stable rests.
+/// does falls on all of them; a rung whose median is stable rests. Settings that lead a method the same way, as
+/// tolerances do that one more step meets by far, are timed once for all of them.
 fn time(
     subject: &Subject,
     host: &StudyHost,
     begun: f64,
+    tracks: &[Track],
     study: &mut Study,
 ) -> Result<(), Diagnostic> {
     let mut samples: Vec<Vec<f64>> = vec![Vec::new(); study.rows.len()];
+    let first = first_alike(&study.rows, tracks);
     let is_over = || (host.stop)() || (host.now)() - begun > host.seconds;
     'rounds: for _ in 0..MOST_ROUNDS {
         let mut is_stable = true;
-        for (row, samples) in study.rows.iter().zip(&mut samples) {
+        for (k, (row, samples)) in study.rows.iter().zip(&mut samples).enumerate() {
+            if first[k] != k {
+                continue;
+            }
             if samples.len() >= LEAST_ROUNDS && median_and_spread(samples).1 <= STABLE {
                 continue;
             }
@@ -148,6 +166,11 @@ fn time(
             row.n_rounds = samples.len();
             (row.seconds_per_frame, row.spread) = median_and_spread(&mut samples);
         }
+    }
+    for (k, j) in first.into_iter().enumerate() {
+        let RungResult { n_rounds, seconds_per_frame, spread, .. } = study.rows[j];
+        let row = &mut study.rows[k];
+        (row.n_rounds, row.seconds_per_frame, row.spread) = (n_rounds, seconds_per_frame, spread);
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use super::repeatable_motion::{RepeatableMotion, Replay};
 use super::report::Why;
 use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
-use crate::solve::{Budget, Report, Settings, Solver, Status};
+use crate::solve::{Budget, Counters, Report, Settings, Solver, Status};
 use crate::world::World;
 
 /// A pose this many sizes away from the reference has left the scene.
@@ -35,6 +35,49 @@ pub(super) struct RunOutcome {
     pub position_error: Option<f64>,
     /// Frames that missed the tolerance.
     pub n_failed: u64,
+    /// What it did, frame by frame.
+    pub track: Track,
+}
+
+/// A digest of where a run led and of the work that it took, frame by frame: runs of one method with the same
+/// one did the same operations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Track(u64);
+
+impl Track {
+    /// Of no frame yet.
+    const START: Self = Self(0xcbf2_9ce4_8422_2325);
+
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 ^= self.0 >> 29;
+    }
+
+    /// Takes in a frame.
+    fn take(&mut self, world: &World, report: &Report) {
+        let Counters {
+            islands_visited,
+            islands_rebuilt,
+            evaluations,
+            wheel_evaluations,
+            factorisations,
+            substeps,
+        } = report.counters;
+        let work = [
+            report.iterations,
+            islands_visited,
+            islands_rebuilt,
+            evaluations,
+            wheel_evaluations,
+            factorisations,
+            substeps,
+        ];
+        work.into_iter().for_each(|count| self.add(count));
+        for at in world.points().column() {
+            self.add(at.x.to_bits());
+            self.add(at.y.to_bits());
+        }
+    }
 }
 
 impl Subject<'_> {
@@ -55,10 +98,12 @@ impl Subject<'_> {
             residual: 0.0,
             position_error: reference.map(|_| 0.0),
             n_failed: 0,
+            track: Track::START,
         };
         let take = |outcome: &mut RunOutcome, world: &World, report: &Report, k: usize| {
             outcome.residual = outcome.residual.max(report.residual);
             outcome.n_failed += u64::from(report.status != Status::Converged);
+            outcome.track.take(world, report);
             let error = reference.map(|reference| reference.error_of(world, k));
             if let (Some(worst), Some(error)) = (&mut outcome.position_error, error) {
                 *worst = worst.max(error);

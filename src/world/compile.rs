@@ -11,7 +11,6 @@ use super::{
 use crate::constraint::{
     Constraint, ConstraintKind as _, Curve, Field, Measured, Operation, PointIdx, Program, Register,
 };
-use crate::diag::Diagnostic;
 use crate::terms::{Function, Member, Operator, Shape};
 
 /// Where the result of a formula is.
@@ -139,23 +138,28 @@ impl World {
         (compiler.program, compiler.inputs, values)
     }
 
-    /// Why a value that is measured on the pose has none there; none where all have one.
-    pub fn failed_measure(&mut self) -> Option<Diagnostic> {
-        self.refresh_parameters();
-        let here = Here::new(self, None);
-        let measured = self.constraints().filter(|(_, record)| {
-            record.is_on && matches!(record.constraint, Constraint::Measured(_))
+    /// Some values as functions of points in frames: the program, its points and inputs, where the values are.
+    pub(super) fn compile_in_frames<'a>(
+        &self,
+        formulas: impl Iterator<Item = &'a Formula>,
+    ) -> (Program, Vec<PointIdx>, Vec<Formula>, Vec<Register>) {
+        let mut compiler = Compiler::new(self, Following::Frames, &[]);
+        let values = formulas.map(|formula| {
+            compiler.compile_parameters(formula);
+            compiler.compile(formula).number()
         });
-        let mut formulas = measured.flat_map(|(_, record)| record.drivers());
-        formulas.find_map(|(_, formula)| formula.evaluate(&here).err())
+        let values = values.collect();
+        (compiler.program, compiler.points, compiler.inputs, values)
     }
 }
 
 /// What the values of a program follow.
 #[derive(Clone, Copy, PartialEq)]
 enum Following {
-    /// Where points are.
+    /// Where points are at poses that are tried.
     Pose,
+    /// Where points are in frames.
+    Frames,
     /// The time.
     Time,
 }
@@ -164,7 +168,7 @@ impl Following {
     /// Whether what depends on this follows it.
     const fn is_meant(self, depends: Depends) -> bool {
         match self {
-            Self::Pose => depends.on_points,
+            Self::Pose | Self::Frames => depends.on_points,
             Self::Time => depends.on_time,
         }
     }
@@ -405,11 +409,16 @@ impl<'a> Compiler<'a> {
         Place::Number(self.push(Operation::Norm(x, y)))
     }
 
-    /// The angle of a vector. That of nothing is none where it follows time; at a pose that is tried it is 0.
+    /// The angle of a vector. That of nothing is none, but at a pose that is tried it is 0.
     fn angle(&mut self, x: Register, y: Register) -> Register {
-        if self.following == Following::Time {
-            let length = self.push(Operation::Norm(x, y));
-            self.binary(Operator::Divide, length, length);
+        let size = match self.following {
+            Following::Pose => None,
+            Following::Time => Some(self.push(Operation::Norm(x, y))),
+            // One that is out of all numbers is looked at frame by frame.
+            Following::Frames => Some(self.dot((x, y), (x, y))),
+        };
+        if let Some(size) = size {
+            self.binary(Operator::Divide, size, size);
         }
         self.push(Operation::OfTwo(Function::Atan2, y, x))
     }

@@ -8,7 +8,7 @@ use super::{
     ConstraintId, Depends, Edit, Formula, NameText, Parameter, ParameterId, Rates, Record, User,
     Value, World,
 };
-use crate::constraint::{ConstraintKind as _, Field, Jet, Real};
+use crate::constraint::{Constraint, ConstraintKind as _, Field, Jet, Real};
 use crate::diag::Diagnostic;
 use crate::errors;
 
@@ -26,6 +26,17 @@ impl World {
             self.refresh_parameters();
         }
         formula.evaluate(&Here::new(self, rates))
+    }
+
+    /// Why a value that is measured on the pose has none there; none where all have one.
+    pub fn failed_measure(&mut self) -> Option<Diagnostic> {
+        self.refresh_parameters();
+        let here = Here::new(self, None);
+        let measured = self.constraints().filter(|(_, record)| {
+            record.is_on && matches!(record.constraint, Constraint::Measured(_))
+        });
+        let mut formulas = measured.flat_map(|(_, record)| record.drivers());
+        formulas.find_map(|(_, formula)| formula.evaluate(&here).err())
     }
 
     /// Changes a parameter and everything that depends on it; what takes it back is added to

@@ -137,7 +137,8 @@ impl<const N: usize> Timetable<N> {
             Input::Time => times,
             Input::Number(value) => [value; N],
         };
-        self.program.evaluate_each(input, &mut self.results);
+        // No point is looked at.
+        self.program.evaluate_each(|_| [[f64::NAN; N]; 2], input, &mut self.results);
     }
 
     /// A value in each of these frames; not a number where it has none.

@@ -42,6 +42,7 @@ mod value;
 mod apply;
 mod batch;
 mod edit;
+mod gauges;
 mod known_ahead;
 mod log;
 pub(crate) mod marks;
@@ -64,6 +65,7 @@ pub use edit::{Edit, Refreeze};
 #[doc(hidden)]
 pub use environments::Rates;
 pub use formula::{Depends, Environment, Extent, Formula, Mention, Node};
+pub(crate) use gauges::Gauges;
 pub use handles::Handles;
 pub use id::{ConstraintId, Entity, MeasureId, ParameterId, PointId};
 pub(crate) use known_ahead::Timetable;

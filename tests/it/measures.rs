@@ -207,6 +207,92 @@ fn in_one_loop_and_frame_by_frame_the_same_is_measured() {
     }
 }
 
+/// What follows the places of points alone, by every function of them.
+const OF_PLACES: [&str; 24] = [
+    "E.x",
+    "-E.y / 3",
+    "E.x ^ 2 + far * E.y",
+    "norm(C - E)",
+    "dot(C - B, E - B)",
+    "cross(C - B, E - B)",
+    "rotate(E - A, 0.3).x + rotate(E - A, E.x).y",
+    "polar(E.x, E.y).x",
+    "midpoint(C, E).y * midpoint(A, E).x",
+    "distance(A, E)",
+    "distance(E, A, C)",
+    "angle(B, C)",
+    "angle(B, C, D, C)",
+    "clamp(E.x, 1.2, 1.8) + clamp(E.y, C.y / 2, far)",
+    "sin(E.x) + cos(E.x) * tan(C.y)",
+    "asin(E.x / 9) + acos(C.x / 9) + atan(E.y)",
+    "atan2(E.y, C.x) + hypot(E.x, C.x)",
+    "sqrt(abs(E.x - 1.5)) + sign(E.x - 1.5)",
+    "min(E.x, C.x, B.y, far) + max(E.y, C.y, B.x, A.x, D.y)",
+    "floor(3 * E.x) + ceil(2 * C.y) + round(E.y)",
+    "exp(E.x) - ln(C.x)",
+    "triangle(E.x) + mod(E.y, 0.7)",
+    "distance(P, E) / distance(A, D)",
+    "E.x - mid.y",
+];
+
+#[test]
+fn what_follows_places_is_the_same_in_one_loop_and_frame_by_frame() {
+    let beside = "let far = 2.7; let mid = midpoint(A, D)
+        point O = (9, 0) frozen, P = (10, 0), Q = (12, 3), R = (13, 0) frozen
+        motor O P speed 0.7rev; length P Q = 3.5; length Q R = 3";
+    for extremes in ["refined", "sampled"] {
+        let mut all: Vec<Talking> = (0..2).map(|_| Talking::after(FOUR_BAR)).collect();
+        // Ghosts are kept frame by frame.
+        all[1].run("expose every 1000000");
+        for talking in &mut all {
+            talking.run(beside);
+            talking.run(&format!("set measures {extremes}"));
+            for (k, of_places) in OF_PLACES.iter().enumerate() {
+                talking.run(&format!("measure m{k} = {of_places}"));
+            }
+            talking.run("measure turned = angle(B, C, D, C) in deg");
+            for motion in ["step 5", "step 700", "set dt 1/90; step 19; set dt 1/360; step 100"] {
+                talking.run(motion);
+            }
+        }
+        let [at_once, one_by_one] = &all[..] else { unreachable!() };
+        for k in 0..OF_PLACES.len() {
+            let name = format!("m{k}");
+            assert_eq!(kept(at_once, &name), kept(one_by_one, &name), "{}", OF_PLACES[k]);
+        }
+        assert_eq!(kept(at_once, "turned"), kept(one_by_one, "turned"));
+        let [counts, others] = [at_once, one_by_one].map(|it| it.session.frame_counts().abreast);
+        assert!(counts > 1400 && others == 0, "{counts} {others}");
+        let [script, other] = [at_once, one_by_one].map(Talking::script);
+        let kept = |it: &str| !it.starts_with("expose") && !it.contains("ghost");
+        let lines =
+            |it: &str| it.lines().filter(|it| kept(it)).collect::<Vec<_>>().join("\n") + "\n";
+        check_same(&lines(&script), &lines(&other), extremes);
+    }
+}
+
+#[test]
+fn a_value_that_ends_ends_the_frames_where_it_does_frame_by_frame() {
+    for fails in ["sqrt(E.x - 1.1)", "1 / max(0, E.x - 1.1)", "angle(B, B) + E.x", "ln(C.y - 2.7)"]
+    {
+        let mut told = Vec::new();
+        for keeping in ["", "expose every 1000000"] {
+            let mut talking = Talking::after(FOUR_BAR);
+            talking.run(&format!("{keeping}\nmeasure x = E.x\nmeasure y = E.y"));
+            // One that is kept before the one that fails.
+            let begun = talking.execute(&format!("measure it = {fails}"));
+            let run = talking.execute("step 720");
+            let problem = begun.and(run).expect_err(fails);
+            told.push((
+                talking.drawn(&problem),
+                kept(&talking, "x"),
+                talking.world().clock().frame,
+            ));
+        }
+        assert_eq!(told[0], told[1], "{fails}");
+    }
+}
+
 #[test]
 fn what_is_measured_moves_as_what_is_not() {
     let mut plain = Talking::after(FOUR_BAR);

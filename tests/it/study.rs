@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use linkwork::diag::{Diagnostic, Kind};
-use linkwork::session::{Flow, Session, Telling};
+use linkwork::diag::{Diagnostic, Kind, Sources};
+use linkwork::session::{Flow, Host, Session, Telling};
 use serde_json::Value;
 
 use crate::support::notebook::Notebook;
@@ -66,6 +66,54 @@ fn the_table_has_every_setting_and_marks_the_efficient() {
     for word in ["relaxation", "nesterov", "efficient", "position error", "</svg>"] {
         assert!(written[1].contains(word), "`{word}` is in the picture");
     }
+}
+
+/// A host whose clock hurries more and more: no two settings take as long.
+struct Hurrying(Notebook);
+
+impl Host for Hurrying {
+    fn behind(&self) -> Option<&dyn Host> {
+        Some(&self.0)
+    }
+
+    fn behind_mut(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut self.0)
+    }
+
+    fn print(&mut self, line: &str) {
+        self.0.print(line);
+    }
+
+    fn tell(&mut self, what: &Diagnostic, sources: &Sources) {
+        self.0.tell(what, sources);
+    }
+
+    fn seconds(&self) -> Option<f64> {
+        self.0.seconds().map(|looks| 1e4 * looks.powi(3))
+    }
+}
+
+#[test]
+fn settings_that_lead_the_same_way_are_timed_as_one() {
+    let mut host = Hurrying(notebook());
+    let mut session = Session::new();
+    let text = format!("{FOUR_BAR} step 36; accuracy");
+    let source = session.add_source("test.link", &text, None);
+    session.execute_all(source, &mut host).expect("it is studied");
+    let csv = host.0.files.get(Path::new("accuracy.csv")).expect("it was written");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let times = |method: &str, is_meant: fn(&str) -> bool| {
+        let rows = rows.iter().filter(|row| row[0] == method && is_meant(row[1]));
+        rows.map(|row| row[3..6].to_vec()).collect::<Vec<_>>()
+    };
+    // Its closed steps keep no tolerance: they are exact.
+    let auto = times("auto", |_| true);
+    assert!(auto.len() == 11 && auto.iter().all(|row| *row == auto[0]), "{auto:?}");
+    // More iterations than it takes make no difference, fewer do.
+    let many = times("conjugate", |n| ["300", "1000"].contains(&n));
+    assert!(many.len() == 2 && many[0] == many[1], "{many:?}");
+    let few = times("relaxation", |n| ["1", "30"].contains(&n));
+    assert!(few.len() == 2 && few[0][0] != few[1][0], "{few:?}");
 }
 
 #[test]

@@ -84,6 +84,33 @@ fn each_row_is_what_a_run_with_its_values_says() {
 }
 
 #[test]
+fn rows_are_those_of_frames_one_by_one() {
+    let four_bar = "let a = 1, b = 3.5, c = 3
+point A = (0, 0) frozen, D = (4, 0) frozen, B = (a, 0.1), C = (3, 3), E = (1, 2)
+crank: motor A B radius a speed 1rev
+length B C = b; length C D = c; length B E = 1.5; length C E = 2.5
+solve
+set dt 1/90
+measure mu = angle(B, C, D, C) in deg
+measure far = distance(A, E) + sqrt(C.x - 1.2)
+step 270
+result least = mu.min, greatest = mu.max, at = mu.at_max, mean = far.mean, span = far.span
+";
+    // Ghosts are kept frame by frame.
+    let one_by_one = four_bar.replace("set dt", "expose every 1000000; set dt");
+    let folder = folder(&[("slider.link", four_bar), ("one.link", &one_by_one)]);
+    let grid = ["--set", "a=0.6..1.6:0.11", "--set", "b=2.9..4.1:0.17", "--set", "c=2.8,3.3"];
+    fine(&sweep(folder.path(), &[&grid[..], &["--to", "at-once.csv"]].concat()));
+    let args = [&["sweep", "one.link"], &grid[..], &["--to", "one-by-one.csv"]].concat();
+    fine(&run(folder.path(), &args, ""));
+    let [at_once, one_by_one] =
+        ["at-once", "one-by-one"].map(|name| table(folder.path(), &format!("{name}.csv")));
+    assert_eq!(at_once, one_by_one);
+    let n = |status: &str| rows(&at_once).iter().filter(|row| row[9] == status).count();
+    assert!(n("converged") > 40 && n("error") > 10, "{at_once}");
+}
+
+#[test]
 fn what_goes_wrong_is_in_its_row() {
     let script = SLIDER.replace("step 36", "step 36; assert l > 1.5");
     let folder = folder(&[("slider.link", &script)]);

@@ -66,6 +66,28 @@ impl Program {
         self.operations.is_empty()
     }
 
+    /// The results that no operation works on. What is not a number makes all that follows from it none.
+    pub fn ends(&self) -> Vec<Register> {
+        let mut is_end = vec![true; self.operations.len()];
+        for operation in &self.operations {
+            match *operation {
+                Operation::Constant(_)
+                | Operation::Input(_)
+                | Operation::X(_)
+                | Operation::Y(_) => {}
+                Operation::Negate(a) | Operation::Of(_, a) => is_end[a as usize] = false,
+                Operation::Binary(_, a, b)
+                | Operation::Norm(a, b)
+                | Operation::OfTwo(_, a, b)
+                | Operation::NearestTurn(a, b)
+                | Operation::LowerEnd(a, b) => {
+                    (is_end[a as usize], is_end[b as usize]) = (false, false);
+                }
+            }
+        }
+        (0..).zip(is_end).filter(|(_, is_end)| *is_end).map(|(register, _)| register).collect()
+    }
+
     /// Evaluates it; `point` and `input` are by their places. `look` gets all results.
     pub fn evaluate<T: Real, R>(
         &self,
@@ -94,12 +116,13 @@ impl Program {
         })
     }
 
-    /// Evaluates what looks at no point, for several inputs side by side; `results` are those of all
-    /// operations. Each has the bits that it has by itself.
+    /// Evaluates it for several poses and inputs side by side; `point` and `input` are by their places, and
+    /// `results` are those of all operations. Each has the bits that it has by itself.
     #[allow(clippy::inline_always, reason = "it becomes part of who calls it, with its vectors")]
     #[inline(always)]
     pub(crate) fn evaluate_each<const N: usize>(
         &self,
+        point: impl Fn(usize) -> [[f64; N]; 2],
         input: impl Fn(usize) -> [f64; N],
         results: &mut Vec<[f64; N]>,
     ) {
@@ -112,7 +135,8 @@ impl Program {
             let found = match *operation {
                 Operation::Constant(value) => [value; N],
                 Operation::Input(k) => input(k as usize),
-                Operation::X(_) | Operation::Y(_) => [f64::NAN; N],
+                Operation::X(p) => point(p as usize)[0],
+                Operation::Y(p) => point(p as usize)[1],
                 Operation::Of(function, a) => match of_unit_circle(function) {
                     Some(which) => {
                         let known = turned.filter(|(angle, _)| *angle == a);
@@ -249,6 +273,7 @@ impl Operation {
             Self::Binary(Operator::Subtract, ..) => array::from_fn(|l| finite(a[l] - b[l])),
             Self::Binary(Operator::Multiply, ..) => array::from_fn(|l| finite(a[l] * b[l])),
             Self::Binary(Operator::Divide, ..) => array::from_fn(|l| finite(a[l] / b[l])),
+            Self::Norm(..) => array::from_fn(|l| finite(length(Vec2 { x: a[l], y: b[l] }))),
             _ => array::from_fn(|l| self.apply(a[l], b[l])),
         }
     }

@@ -167,6 +167,12 @@ impl Lanes {
         self.abreast.found(l)
     }
 
+    /// Where a point is in all frames.
+    pub fn places(&self, p: usize) -> [[f64; WIDE]; 2] {
+        let Places { x, y } = self.places[p];
+        [x, y]
+    }
+
     /// Where a point is in a frame.
     pub fn at(&self, p: usize, l: usize) -> Point {
         self.places[p].at(l)

@@ -63,10 +63,13 @@ fn block_by_block(
     let mut rows = Vec::new();
     for block in &island.plan.blocks {
         let which = &island.plan.constraints[block.first as usize..block.end as usize];
+        rows.clear();
         for order in 0..2 {
-            rows.clear();
-            let points = [block.point];
-            gather(island, which, &points, drive, motion, order, &mut rows);
+            if order == 0 {
+                gather(island, which, &[block.point], drive, motion, order, &mut rows);
+            } else {
+                ask_again(island, which, drive, motion, order, &mut rows);
+            }
             let own: SmallVec<[_; 4]> =
                 rows.iter().map(|row| (row.gradient[0].1, row.rhs)).collect();
             motion[block.point as usize][order] = solve(&own, block.is_determined)?;
@@ -86,6 +89,10 @@ type Gradient = SmallVec<[(usize, Vector); 4]>;
 struct Row {
     gradient: Gradient,
     rhs: f64,
+    /// The reciprocal of the length that the gradient had.
+    scale: f64,
+    /// Which of the rows of all its constraints it is.
+    place: usize,
 }
 
 /// The rows of constraints, divided by the length of their gradients, for the rates of an order.
@@ -98,22 +105,13 @@ fn gather(
     order: usize,
     rows: &mut Vec<Row>,
 ) {
-    let place = |p: PointIdx| {
-        let (x, [v, a]) = (island.x[p as usize], motion[p as usize]);
-        Vec2 { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
-    };
-    let mut rhs: SmallVec<[f64; 4]> = SmallVec::new();
+    let rhs = right_sides(island, which, drive, motion, order);
+    let mut next = 0;
     for &c in which {
         let constraint: &Constraint = &island.constraints[c as usize];
-        let field = |field: Field, value: f64| drive(c as usize, field, value);
-        rhs.clear();
-        constraint.equations(&place, &field, &mut |f: Jet| {
-            rhs.push(-if order == 0 { f.d } else { f.dd });
-        });
-        let mut r = 0;
         constraint.jacobian(&island.x, &mut |row| {
-            let value = rhs[r];
-            r += 1;
+            let place = next;
+            next += 1;
             if !row.is_active {
                 return;
             }
@@ -123,10 +121,45 @@ fn gather(
             if squared > 0.0 {
                 let scale = 1.0 / squared.sqrt();
                 gradient.iter_mut().for_each(|(_, g)| *g *= scale);
-                rows.push(Row { gradient, rhs: value * scale });
+                rows.push(Row { gradient, rhs: rhs[place] * scale, scale, place });
             }
         });
     }
+}
+
+/// Gives rows of these constraints what they have to be for the rates of another order.
+fn ask_again(
+    island: &Island,
+    which: &[u32],
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    motion: &[Rates],
+    order: usize,
+    rows: &mut [Row],
+) {
+    let rhs = right_sides(island, which, drive, motion, order);
+    rows.iter_mut().for_each(|row| row.rhs = rhs[row.place] * row.scale);
+}
+
+/// What the gradient of each row of constraints times the unknown rates has to be.
+fn right_sides(
+    island: &Island,
+    which: &[u32],
+    drive: &impl Fn(usize, Field, f64) -> Jet,
+    motion: &[Rates],
+    order: usize,
+) -> SmallVec<[f64; 8]> {
+    let place = |p: PointIdx| {
+        let (x, [v, a]) = (island.x[p as usize], motion[p as usize]);
+        Vec2 { x: Jet::new(x.x, v.x, a.x), y: Jet::new(x.y, v.y, a.y) }
+    };
+    let mut rhs = SmallVec::new();
+    for &c in which {
+        let field = |field: Field, value: f64| drive(c as usize, field, value);
+        island.constraints[c as usize].equations(&place, &field, &mut |f: Jet| {
+            rhs.push(-if order == 0 { f.d } else { f.dd });
+        });
+    }
+    rhs
 }
 
 /// The rate of a single point: the shortest that comes nearest to what its rows ask for.

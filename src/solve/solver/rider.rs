@@ -319,6 +319,11 @@ impl Rider {
         }
     }
 
+    /// Where one of its points is in all frames that were found side by side.
+    pub fn places(&self, p: usize) -> [[f64; WIDE]; 2] {
+        self.lanes.as_deref().map_or([[f64::NAN; WIDE]; 2], |lanes| lanes.places(p))
+    }
+
     /// The first `n` frames that were found side by side count, and no other.
     pub fn end_side_by_side(&mut self, n: usize) {
         let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };

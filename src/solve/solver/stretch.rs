@@ -6,14 +6,14 @@
 
 use super::Solver;
 use super::rider::{Course, Kept, Rider, Stretch};
-use crate::constraint::Vector;
+use crate::constraint::{Point, Vector};
 use crate::diag::Diagnostic;
 use crate::solve::closed_form::WIDE;
 use crate::solve::parallel::{ISLANDS, map_reduce, n_cores};
 use crate::solve::report::Budget;
 use crate::solve::settings::{Method, Settings};
 use crate::solve::velocity;
-use crate::world::{Extremes, Measuring, ParameterId, Rates, World};
+use crate::world::{Extremes, Gauges, Measuring, ParameterId, Rates, World};
 
 /// How far a stretch goes, and what is kept on the way.
 pub struct Along<'a> {
@@ -120,6 +120,7 @@ impl Solver {
         let mut failure = None;
         let tolerance = budget.tolerance_of(settings);
         let course = Course { dt, tolerance, promised: budget.tolerance };
+        let mut dials = Dials::new(&riders, world, kept, on.n);
         let follows_time = world.has_timetable();
         let are_for_lanes = |riders: &[Rider]| riders.iter().all(|it| it.form.is_for_lanes());
         let mut is_side_by_side = follows_time && are_for_lanes(&riders);
@@ -134,7 +135,9 @@ impl Solver {
                 n_abreast += n;
             } else if is_side_by_side && n_blocks > 0 {
                 let n = course.find_side_by_side(&mut riders);
-                failure = course.accept(n, &mut riders, &mut stretch, world, kept, on).err();
+                failure = course
+                    .accept(n, &mut riders, &mut stretch, world, kept, dials.as_mut(), on)
+                    .err();
                 n_abreast += stretch.n_frames - before;
                 is_side_by_side = n == WIDE;
             } else if !follows_time && course.frame(&mut riders, &mut stretch) {
@@ -239,6 +242,44 @@ fn measure(
     world.take_readings(false, &mut Measuring { extremes, is_met: true, rates: &mut rates })
 }
 
+/// What is measured of frames that are found side by side, where that is all that is kept of them.
+struct Dials {
+    gauges: Gauges<WIDE>,
+    /// Which rider has each of the points that are measured, and as which of its own; where those are that none
+    /// moves.
+    points: Vec<Result<(usize, usize), Point>>,
+}
+
+impl Dials {
+    /// Those of all islands that are awake.
+    fn new(riders: &[Rider], world: &World, kept: Kept, n_frames: u64) -> Option<Self> {
+        let is_all = kept.is_measured && world.traces().is_empty();
+        if !is_all || n_frames < WIDE as u64 {
+            return None;
+        }
+        let gauges = world.gauges::<WIDE>()?;
+        let local = |(k, rider): (usize, &Rider), id| {
+            let p = rider.island.local_point(id).filter(|&p| p < rider.island.n_free)?;
+            Some((k, p))
+        };
+        let of = |id| {
+            let mut found = riders.iter().enumerate().filter_map(|rider| local(rider, id));
+            found.next().ok_or_else(|| world.points().at(id))
+        };
+        let points = gauges.points().map(of).collect();
+        Some(Self { gauges, points })
+    }
+
+    /// Looks at the frames that were found.
+    fn read(&mut self, riders: &[Rider]) {
+        let points = &self.points;
+        self.gauges.evaluate(|k| match points[k] {
+            Ok((rider, p)) => riders[rider].places(p),
+            Err(at) => [[at.x; WIDE], [at.y; WIDE]],
+        });
+    }
+}
+
 impl Course {
     /// Lets a frame pass; false if it does not, and everything is as before.
     #[inline]
@@ -272,15 +313,24 @@ impl Course {
         stretch: &mut Stretch,
         world: &mut World,
         kept: Kept,
+        mut dials: Option<&mut Dials>,
         on: &Along,
     ) -> Result<(), Diagnostic> {
         let mut result = Ok(());
         let is_looked_at = riders.iter().any(|rider| rider.is_looked_at(n, stretch));
         let mut n_done = n;
+        if let Some(dials) = dials.as_deref_mut() {
+            dials.read(riders);
+        }
         if is_looked_at || kept.is_traced {
             for l in 0..n {
-                riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, self, stretch));
-                if kept.is_traced {
+                if is_looked_at {
+                    riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, self, stretch));
+                }
+                let is_kept = dials
+                    .as_deref()
+                    .is_some_and(|dials| world.pass_gauged(&dials.gauges, l, on.extremes));
+                if kept.is_traced && !is_kept {
                     riders.iter().for_each(|rider| rider.tell(l, world, kept));
                     result = keep(riders, Some(l), world, kept, on);
                 }

@@ -459,3 +459,36 @@ fn what_constrains_nothing_changes_no_limit() {
         check_ends(&swinging, -upper, upper);
     }
 }
+
+#[test]
+fn what_stands_around_a_mechanism_changes_no_bit_of_a_limit() {
+    let around = "for i in 1..40 {
+        point P[i] = (5 * i, 9) frozen, Q[i] = (5 * i + 1, 9), R[i] = (5 * i + 2, 12)
+        length P[i] Q[i] = 1; length Q[i] R[i] = 3.2; motor P[i] Q[i] speed 0
+    }";
+    let mechanisms = [
+        "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3)
+         crank: motor A B radius 1 speed 1rev; length B C = 3.5; length C D = 3; solve",
+        "point A = (0, 0) frozen, D = (4, 0) frozen, B = (1.5, 1), C = (3, 2)
+         crank: motor A B radius 1.8 speed 1rev; length B C = 2.2; length C D = 1.6; solve",
+        "point A = (0, 0) frozen, B = (0, 1), S = (3, 0.4), E = (20, 0.4) frozen, F = (-9, 0.4) frozen
+         crank: motor A B radius 1 speed 1rev; length B S = 2.5; glider S on F E unbounded; solve",
+        "let l = 3.5; point A = (0, 0) frozen, D = (4, 0) frozen, B = (1, 0), C = (3, 3), E = (6, 3)
+         point G = (8, 0) frozen, H = (7, 3)
+         crank: motor A B radius 1 speed 1rev; length B C = l; length C D = 3; length C E = 3
+         length D E = 3.6; length E H = 2; length H G = 3; solve",
+    ];
+    for mechanism in mechanisms {
+        let alone = Talking::after(mechanism);
+        let first = Talking::after(&format!("{mechanism}; {around}"));
+        let last = Talking::after(&format!("{around}; {mechanism}"));
+        let names: &[&str] = if mechanism.contains("let l") { &["crank", "l"] } else { &["crank"] };
+        for name in names {
+            let wanted = format!("{:?}", range(&alone.session, name));
+            for crowd in [&first, &last] {
+                // Places in the scene are told of nothing here: no stop ends a way.
+                assert_eq!(format!("{:?}", range(&crowd.session, name)), wanted, "{mechanism}");
+            }
+        }
+    }
+}
