@@ -313,15 +313,14 @@ impl<'a> Mechanism<'a> {
             }
             (Some(turning), None) => turning,
             (None, direction) => {
-                let mut tangent = match direction {
-                    Some(direction) => direction.to_vec(),
-                    // The driver stands at an end already: any motion there is.
-                    None => {
-                        let mut any: Vec<f64> = (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect();
-                        any[n - 1] = 0.0;
-                        any
-                    }
-                };
+                // Where there is no direction the driver stands at an end already: any motion there is.
+                let mut tangent = direction.map_or_else(
+                    || (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect(),
+                    <[f64]>::to_vec,
+                );
+                if direction.is_none() {
+                    tangent[n - 1] = 0.0;
+                }
                 projector.onto_motions(&mut tangent);
                 tangent
             }

@@ -12,7 +12,7 @@ pub struct Gauges<const N: usize> {
     program: Program,
     points: Vec<PointIdx>,
     inputs: Vec<f64>,
-    gauges: Vec<Gauge>,
+    all: Vec<Gauge>,
     /// What each operation of the program came to in each frame.
     results: Vec<[f64; N]>,
     /// The results that no other follows from: where these have values, all have.
@@ -45,7 +45,7 @@ impl World {
         let here = Here::new(self, None);
         let number = |value: Value| value.number();
         let inputs = inputs.iter().map(|formula| formula.evaluate(&here).map_or(f64::NAN, number));
-        let gauges = self.measures().zip(registers).map(|((id, measure), register)| Gauge {
+        let all = self.measures().zip(registers).map(|((id, measure), register)| Gauge {
             id,
             register,
             scale: measure.unit.scale(),
@@ -54,7 +54,7 @@ impl World {
             program,
             points,
             inputs: inputs.collect(),
-            gauges: gauges.collect(),
+            all: all.collect(),
             results: Vec::new(),
             ends,
             n_known: 0,
@@ -74,14 +74,13 @@ impl World {
         if l >= gauges.n_known {
             return false;
         }
-        let mut all = gauges.gauges.iter();
-        let is_plain = all.all(|gauge| {
+        let is_plain = gauges.all.iter().all(|gauge| {
             let tally = &self.measure(gauge.id).expect("a listed measure lives").tally;
             let is_later = tally.readings().last().is_some_and(|last| last.time < time);
             is_later && !(is_refined && tally.may_turn(gauges.value(gauge, l)))
         });
         if is_plain {
-            for gauge in &gauges.gauges {
+            for gauge in &gauges.all {
                 let measure = self.measures.get_mut(gauge.id.idx()).expect("it lives");
                 measure.tally.add(time, gauges.value(gauge, l), None);
             }

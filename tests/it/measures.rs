@@ -256,9 +256,9 @@ fn what_follows_places_is_the_same_in_one_loop_and_frame_by_frame() {
             }
         }
         let [at_once, one_by_one] = &all[..] else { unreachable!() };
-        for k in 0..OF_PLACES.len() {
+        for (k, of_places) in OF_PLACES.iter().enumerate() {
             let name = format!("m{k}");
-            assert_eq!(kept(at_once, &name), kept(one_by_one, &name), "{}", OF_PLACES[k]);
+            assert_eq!(kept(at_once, &name), kept(one_by_one, &name), "{of_places}");
         }
         assert_eq!(kept(at_once, "turned"), kept(one_by_one, "turned"));
         let [counts, others] = [at_once, one_by_one].map(|it| it.session.frame_counts().abreast);

@@ -289,7 +289,7 @@ impl<'a> Cursor<'a> {
     pub fn relation_if_any(&mut self) -> Result<Option<Relation>> {
         let Some(relation) = self.take(Rule::relation) else { return Ok(None) };
         let mut inner = self.within(relation);
-        let sign = inner.pairs.peek().map(|sign| sign.rule());
+        let sign = inner.pairs.peek().map(Parsed::rule);
         if sign == Some(Rule::kw_in) {
             return inner.range().map(|range| Some(Relation::In(range)));
         }

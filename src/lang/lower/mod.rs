@@ -148,7 +148,7 @@ pub(super) struct Reader<'a> {
     pub text: &'a str,
 }
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     fn span(&self, range: Range<usize>) -> Span {
         Span::new(self.source, range)
     }

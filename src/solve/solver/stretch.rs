@@ -120,7 +120,7 @@ impl Solver {
         let mut failure = None;
         let tolerance = budget.tolerance_of(settings);
         let course = Course { dt, tolerance, promised: budget.tolerance };
-        let mut dials = Dials::new(&riders, world, kept, on.n);
+        let mut watch = Watch { kept, dials: Dials::new(&riders, world, kept, on.n) };
         let follows_time = world.has_timetable();
         let are_for_lanes = |riders: &[Rider]| riders.iter().all(|it| it.form.is_for_lanes());
         let mut is_side_by_side = follows_time && are_for_lanes(&riders);
@@ -135,9 +135,7 @@ impl Solver {
                 n_abreast += n;
             } else if is_side_by_side && n_blocks > 0 {
                 let n = course.find_side_by_side(&mut riders);
-                failure = course
-                    .accept(n, &mut riders, &mut stretch, world, kept, dials.as_mut(), on)
-                    .err();
+                failure = course.accept(n, &mut riders, &mut stretch, world, &mut watch, on).err();
                 n_abreast += stretch.n_frames - before;
                 is_side_by_side = n == WIDE;
             } else if !follows_time && course.frame(&mut riders, &mut stretch) {
@@ -242,6 +240,13 @@ fn measure(
     world.take_readings(false, &mut Measuring { extremes, is_met: true, rates: &mut rates })
 }
 
+/// What is kept of frames that are found side by side, and how.
+struct Watch {
+    kept: Kept,
+    /// None where more than values is kept.
+    dials: Option<Dials>,
+}
+
 /// What is measured of frames that are found side by side, where that is all that is kept of them.
 struct Dials {
     gauges: Gauges<WIDE>,
@@ -312,14 +317,14 @@ impl Course {
         riders: &mut [Rider],
         stretch: &mut Stretch,
         world: &mut World,
-        kept: Kept,
-        mut dials: Option<&mut Dials>,
+        watch: &mut Watch,
         on: &Along,
     ) -> Result<(), Diagnostic> {
+        let Watch { kept, dials } = watch;
         let mut result = Ok(());
         let is_looked_at = riders.iter().any(|rider| rider.is_looked_at(n, stretch));
         let mut n_done = n;
-        if let Some(dials) = dials.as_deref_mut() {
+        if let Some(dials) = dials {
             dials.read(riders);
         }
         if is_looked_at || kept.is_traced {
@@ -328,11 +333,11 @@ impl Course {
                     riders.iter_mut().for_each(|rider| rider.accept_side_by_side(l, self, stretch));
                 }
                 let is_kept = dials
-                    .as_deref()
+                    .as_ref()
                     .is_some_and(|dials| world.pass_gauged(&dials.gauges, l, on.extremes));
                 if kept.is_traced && !is_kept {
-                    riders.iter().for_each(|rider| rider.tell(l, world, kept));
-                    result = keep(riders, Some(l), world, kept, on);
+                    riders.iter().for_each(|rider| rider.tell(l, world, *kept));
+                    result = keep(riders, Some(l), world, *kept, on);
                 }
                 if result.is_err() {
                     n_done = l + 1;
