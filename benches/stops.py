@@ -18,7 +18,7 @@ import tempfile
 import time
 
 # When it is stopped, seconds after it was typed.
-MOMENTS = (0.05, 0.2, 0.6)
+MOMENTS = (0.02, 0.05, 0.15, 0.6)
 # How long anything may take, seconds on the wall.
 PATIENCE = 40
 

@@ -8,6 +8,9 @@ use crate::interrupt::tick;
 /// So many products of blocks are worth a tick.
 const MANY: usize = 1 << 14;
 
+/// What the elimination of a point takes beside its products, in ticks.
+const POINT: usize = 20;
+
 /// A factor by columns of blocks, with room for its fill; nothing is allocated per factor.
 pub struct Sparse {
     /// The columns of each row of L, ascending.
@@ -94,6 +97,7 @@ impl Sparse {
             let r1 = pivots.note(d11 + mu - l * d10);
             self.diagonal[k] = Diagonal { l, reciprocals: [r0, r1] };
         }
+        tick(n_products + POINT * self.diagonal.len());
         pivots
     }
 

@@ -257,7 +257,7 @@ fn what_is_twice_as_large_takes_twice_as_long() {
     };
     for scene in [&chain as &dyn Fn(u32) -> String, &star] {
         for export in ["export \"p.dxf\" scale 9 width 2 hole 1", "export \"p.svg\""] {
-            let [once, twice] = [2000, 4000].map(|n| work(&scene(n), export));
+            let [once, twice] = [4000, 8000].map(|n| work(&scene(n), export));
             assert!(once >= 3 && twice <= 3 * once, "{export}: {once}, {twice} of twice the size");
         }
     }
