@@ -300,7 +300,7 @@ impl World {
             let value = formula.evaluate(&Here::new(self, None))?;
             let constraint = self.constraint_state_mut(id);
             let value = given(field, value);
-            is_changed |= constraint.get(field).is_some_and(|old| value != old);
+            is_changed |= constraint.get(field).is_some_and(|old| value.to_bits() != old.to_bits());
             constraint.set(field, value);
         }
         if is_changed {

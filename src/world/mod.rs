@@ -79,6 +79,7 @@ pub use name::NameText;
 pub use names::Namespace;
 pub use points::{PointRecord, Points};
 pub use records::{Drivers, Measure, Parameter, Record};
+pub(crate) use same::same_place;
 pub use samples::{Sample, SampleList};
 pub use smooth::Reading;
 pub use state::World;

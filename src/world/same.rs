@@ -14,7 +14,7 @@ pub(super) fn bits(numbers: &[f64]) -> Vec<u64> {
 }
 
 /// Whether two points are in the same place.
-pub(super) fn same_place(a: &Point, b: &Point) -> bool {
+pub(crate) fn same_place(a: &Point, b: &Point) -> bool {
     [a.x.to_bits(), a.y.to_bits()] == [b.x.to_bits(), b.y.to_bits()]
 }
 

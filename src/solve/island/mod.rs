@@ -256,12 +256,9 @@ impl Island {
         }
         let mut new = constraint.clone();
         new.set_points(self.constraints[c].points());
-        if new == self.constraints[c] {
-            // Deleted and brought back, or set to what it was.
-            return false;
-        }
         if fingerprint::of_content(&new) == fingerprint::of_content(&self.constraints[c]) {
-            // It is said in another way, a ratio by teeth, and asks for the same.
+            // Deleted and brought back, set to what it was, or said in another way, a ratio by teeth: it
+            // asks for the same to the bit, the sign of a zero included.
             self.constraints[c] = new;
             return false;
         }

@@ -11,7 +11,7 @@ use crate::solve::island::recall::Kept;
 use crate::solve::parallel::Effort;
 use crate::solve::report::{Counters, Status};
 use crate::solve::settings::Settings;
-use crate::world::{ConstraintId, PointId, Touched, World};
+use crate::world::{ConstraintId, PointId, Touched, World, same_place};
 
 /// What looking whether a constraint holds takes, in ticks.
 const CONSTRAINT: usize = 100;
@@ -270,7 +270,7 @@ impl Solver {
     fn put_point(&mut self, k: u32, p: PointId, at: Point) {
         if let Some(island) = self.partition.get_mut(k)
             && let Some(p) = island.local_point(p)
-            && island.x[p] != at
+            && !same_place(&island.x[p], &at)
         {
             self.notes.note(island);
             island.set_point(p, at);

@@ -122,6 +122,45 @@ fn the_sign_of_zero_is_not_left_out() {
 }
 
 #[test]
+fn a_zero_that_changes_its_sign_is_a_change() {
+    let points =
+        "point p0 = (0, 0), p1 = (4, 1), p2 = (5, 3), p3 = (1, 6), q = (0, 0) frozen; let a = 0";
+    let turned = |to: &str| to.replace('0', "-0");
+    for (statement, change) in [
+        ("it: length p0 p1 = 0", "= 0"),
+        ("it: length p0 p1 <= 0", "<= 0"),
+        ("it: equal p0 p1, p2 p3 = 0", "= 0"),
+        ("it: distance p0 to p1 p2 = 0", "= 0"),
+        ("it: orientation p0 p1, p2 p3 = 0", "= 0"),
+        ("it: hinge p0 on p1 p2 at 0", "at 0"),
+        ("it: motor p0 p1 speed 0 phase 0", "speed 0 phase 0"),
+        ("it: coordinate p0 at (0, 1)", "at (0, 1)"),
+        ("it: hold p0.x = 0", "= 0"),
+    ] {
+        for before in ["", "step 2; ", "off it; step; "] {
+            let mut talking = Talking::after(points);
+            talking.run(statement);
+            // A pose may be met or not.
+            drop(talking.execute(&format!("{before}change it {}", turned(change))));
+            talking.assert_goes_on_from_its_file("step 2");
+        }
+    }
+    for (statement, change) in [
+        ("it: length p0 p1 = a", "let a = -0"),
+        ("it: hold p0.x = a + a", "let a = -0"),
+        ("it: length q p1 = 2", "move q to (-0, 0)"),
+        ("it: length q p1 = 2", "move q to (0, -0)"),
+        ("it: motor p0 p1 speed a", "let a = -0"),
+    ] {
+        for before in ["", "step 2; "] {
+            let mut talking = Talking::after(points);
+            talking.run(&format!("{statement}; {before}{change}"));
+            talking.assert_goes_on_from_its_file("step 2");
+        }
+    }
+}
+
+#[test]
 fn an_expression_that_has_no_value_in_the_pose_of_now_is_loaded_again() {
     for live in [
         "it: length p0 p1 = 8 / p0.x",
