@@ -20,6 +20,9 @@ use crate::lang::ast::Statement;
 use crate::solve::Memory;
 use crate::world::Edit;
 
+/// What an edit of the world takes, in ticks.
+const EDIT: usize = 100;
+
 /// How a statement ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
@@ -174,6 +177,7 @@ impl<'a> Execution<'a> {
 
     /// Makes an edit of the world that belongs to the command.
     pub fn edit(&mut self, edit: Edit) {
+        interrupt::tick(EDIT);
         self.history.edit(self.state, edit);
     }
 

@@ -45,7 +45,7 @@ fn net(n: usize) -> String {
     )
 }
 
-const CASES: [Case; 15] = [
+const CASES: [Case; 16] = [
     Case {
         what: "a loop without statements",
         size: 1000,
@@ -115,6 +115,12 @@ const CASES: [Case; 15] = [
             format!("{}; freeze all; for i in 1..{n} {{ move p[i] to (2 * i, 0) }}", rods(n))
         },
         statement: |_| "svg \"a.svg\"".to_owned(),
+    },
+    Case {
+        what: "freezing all",
+        size: 30_000,
+        before: |n| format!("for i in 1..{n} {{ point p[i] = (i, 0) }}"),
+        statement: |_| "freeze all".to_owned(),
     },
     Case { what: "a list", size: 2000, before: rods, statement: |_| "list".to_owned() },
 ];
