@@ -305,6 +305,7 @@ impl<'a> Mechanism<'a> {
         } else {
             None
         };
+        let is_turned = turned.is_some();
         let mut tangent = match (turned, direction) {
             (Some(mut turning), Some(direction)) => {
                 let k = direction[n - 2].signum();
@@ -312,19 +313,17 @@ impl<'a> Mechanism<'a> {
                 turning
             }
             (Some(turning), None) => turning,
-            (None, direction) => {
-                // Where there is no direction the driver stands at an end already: any motion there is.
-                let mut tangent = direction.map_or_else(
-                    || (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect(),
-                    <[f64]>::to_vec,
-                );
-                if direction.is_none() {
-                    tangent[n - 1] = 0.0;
-                }
-                projector.onto_motions(&mut tangent);
-                tangent
+            (None, Some(direction)) => direction.to_vec(),
+            (None, None) => {
+                // The driver stands at an end already: any motion there is.
+                let mut any: Vec<f64> = (0..n).map(|k| 1.0 / (1.5 + k as f64)).collect();
+                any[n - 1] = 0.0;
+                any
             }
         };
+        if !is_turned {
+            projector.onto_motions(&mut tangent);
+        }
         let length = norm(&tangent);
         let is_short = length.is_nan() || length <= 1e-3;
         if is_short && direction.is_some() || length == 0.0 || n_freedoms == 0 {

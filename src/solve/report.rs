@@ -84,7 +84,7 @@ impl Report {
 }
 
 /// The work of one call, in units that do not depend on the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Counters {
     /// Islands looked at.
     pub islands_visited: u64,

@@ -1,12 +1,14 @@
 //! One run of one rung: what it comes to, and how long it takes.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use super::host::StudyHost;
 use super::reference::Reference;
 use super::repeatable_motion::{RepeatableMotion, Replay};
 use super::report::Why;
 use super::setting_ladder::{Rung, Step};
 use crate::diag::Diagnostic;
-use crate::solve::{Budget, Counters, Report, Settings, Solver, Status};
+use crate::solve::{Budget, Report, Settings, Solver, Status};
 use crate::world::World;
 
 /// A pose this many sizes away from the reference has left the scene.
@@ -41,42 +43,18 @@ pub(super) struct RunOutcome {
 
 /// A digest of where a run led and of the work that it took, frame by frame: runs of one method with the same
 /// one did the same operations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Track(u64);
 
 impl Track {
-    /// Of no frame yet.
-    const START: Self = Self(0xcbf2_9ce4_8422_2325);
-
-    fn add(&mut self, word: u64) {
-        self.0 = (self.0 ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 ^= self.0 >> 29;
-    }
-
     /// Takes in a frame.
     fn take(&mut self, world: &World, report: &Report) {
-        let Counters {
-            islands_visited,
-            islands_rebuilt,
-            evaluations,
-            wheel_evaluations,
-            factorisations,
-            substeps,
-        } = report.counters;
-        let work = [
-            report.iterations,
-            islands_visited,
-            islands_rebuilt,
-            evaluations,
-            wheel_evaluations,
-            factorisations,
-            substeps,
-        ];
-        work.into_iter().for_each(|count| self.add(count));
+        let mut hasher = DefaultHasher::new();
+        (self.0, report.iterations, report.counters).hash(&mut hasher);
         for at in world.points().column() {
-            self.add(at.x.to_bits());
-            self.add(at.y.to_bits());
+            (at.x.to_bits(), at.y.to_bits()).hash(&mut hasher);
         }
+        self.0 = hasher.finish();
     }
 }
 
@@ -98,7 +76,7 @@ impl Subject<'_> {
             residual: 0.0,
             position_error: reference.map(|_| 0.0),
             n_failed: 0,
-            track: Track::START,
+            track: Track::default(),
         };
         let take = |outcome: &mut RunOutcome, world: &World, report: &Report, k: usize| {
             outcome.residual = outcome.residual.max(report.residual);

@@ -4,6 +4,7 @@
 //! `point p[9] = (0.5, 12)` has the same parts as `point p[10] = (0.25, 3)`, each where its digits have
 //! moved it. What the parts are worth is seen in each statement anew.
 
+use std::hash::{DefaultHasher, Hasher};
 use std::ops::Range;
 
 use super::parsed::Thing;
@@ -17,9 +18,6 @@ const MOST_READ_ONCE: usize = 32;
 
 /// Statements of a longer shape are all read by pest.
 const LONGEST_SHAPE: usize = 160;
-
-/// That of the hash FNV-1a.
-const FACTOR: u64 = 0x0100_0000_01b3;
 
 /// What was read of a statement, and what its text is apart from its digits.
 #[derive(Debug, Clone)]
@@ -94,7 +92,6 @@ impl Memory {
     fn look_at(&mut self, text: &str, head: &Range<usize>) {
         self.text.clear();
         self.places.clear();
-        self.hash = 0;
         let n_most = head.len().min(LONGEST_SHAPE);
         self.text.reserve(n_most);
         self.places.reserve(n_most + 1);
@@ -109,12 +106,13 @@ impl Memory {
                 self.text.clear();
                 return;
             }
-            let byte = if is_digit { b'0' } else { byte };
-            self.hash = (self.hash ^ u64::from(byte)).wrapping_mul(FACTOR);
-            self.text.push(byte);
+            self.text.push(if is_digit { b'0' } else { byte });
             self.places.push((head.start + at) as u32);
         }
         self.places.push(head.end as u32);
+        let mut hasher = DefaultHasher::new();
+        hasher.write(&self.text);
+        self.hash = hasher.finish();
     }
 }
 
