@@ -92,9 +92,9 @@ impl Journal {
 
     /// Begins an empty file.
     fn begin_with(&mut self, script: &str) -> io::Result<()> {
-        let text = format!("{FIRST_LINE}{script}{MARK}");
-        self.ends = vec![text.len() as u64];
-        self.file.write_all(text.as_bytes())
+        let parts = [FIRST_LINE, script, MARK];
+        self.ends = vec![parts.iter().map(|part| part.len() as u64).sum()];
+        parts.iter().try_for_each(|part| self.file.write_all(part.as_bytes()))
     }
 
     fn append(&mut self, text: &str) -> io::Result<()> {

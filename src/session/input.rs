@@ -1,6 +1,7 @@
 //! What comes from outside: texts, where they lie, and values that win over theirs.
 
 use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -29,8 +30,8 @@ pub struct Input {
     pub n_bytes_read: u64,
     /// What is to be read next in place of files: what was read when it was carried out first.
     pub next_files: VecDeque<FileRead>,
-    /// Whether the statement under way has put what a file makes in the place of all there was.
-    pub has_loaded: bool,
+    /// How far the statement under way came in putting what a file makes in the place of all there was.
+    pub loaded: Option<Loaded>,
     /// How the last statement went through what was done, if it did.
     pub walk: Option<Walk>,
     /// How far the last command came, where the user stopped it and what it did stays.
@@ -62,7 +63,7 @@ impl Default for Input {
             files_read: Vec::new(),
             n_bytes_read: 0,
             next_files: VecDeque::new(),
-            has_loaded: false,
+            loaded: None,
             walk: None,
             stopped_after: None,
             next_stop: None,
@@ -74,6 +75,15 @@ impl Default for Input {
             n_file_bytes: 0,
         }
     }
+}
+
+/// How far a `load` came.
+#[derive(Debug, Clone, Default)]
+pub struct Loaded {
+    /// Where the statement lies that it came to, in bytes of the text; empty before the first.
+    pub reached: Range<usize>,
+    /// How much the command had done before that.
+    pub n_done_before: u64,
 }
 
 /// A value from outside and whether some `let` took it.
@@ -132,7 +142,7 @@ impl Input {
         self.stopped_after = None;
         self.files_read.clear();
         self.n_bytes_read = 0;
-        self.has_loaded = false;
+        self.loaded = None;
         self.walk = None;
     }
 

@@ -1,10 +1,12 @@
 //! What a session tells its host's journal: each statement as it is carried out, and how far `undo` went
 //! back, so that what it writes is as much as what a command changed.
 
+use std::ops::Range;
+
 use super::execution::Flow;
 use super::host::{Host, Kept};
 use super::quotas::Quota;
-use super::undo::told::{Deed, FileRead, Place, Told, Walk};
+use super::undo::told::{Deed, FileRead, Place, Told, Walk, restored_stop};
 use super::{Session, transcript};
 use crate::lang::ast::Statement;
 
@@ -54,15 +56,18 @@ impl Session {
             host.forget_stop();
             return self.keep_whole(host);
         }
-        if self.input.has_loaded {
+        let stopped_after = self.input.stopped_after.filter(|_| flow == Flow::Stopped);
+        if let Some(way) = self.input.loaded.take() {
             host.forget_stop();
-            return match (flow, &*files) {
+            let n_done = stopped_after.map(|n_done| n_done.saturating_sub(way.n_done_before));
+            return match &*files {
                 // What it made is all there is.
-                (Flow::On, [file, others @ ..]) => self.begin_journal(&loaded(file, others), host),
-                _ => self.keep_whole(host),
+                [file, others @ ..] => {
+                    self.begin_journal(&loaded(file, others, way.reached, n_done), host);
+                }
+                [] => self.keep_whole(host),
             };
         }
-        let stopped_after = self.input.stopped_after.filter(|_| flow == Flow::Stopped);
         let deed = Deed { statement: statement.span, stopped_after, files: files.into() };
         let text = deed.text(&self.input.sources);
         let at = self.history.told;
@@ -115,11 +120,25 @@ impl Session {
     }
 }
 
-/// The text that makes what was loaded from a file: that of the file, behind those that it reads itself.
-fn loaded(file: &FileRead, others: &[FileRead]) -> String {
+/// The text that makes what was loaded from a file: that of the file, behind those that it reads itself; up to
+/// where `reached` ends where the user stopped it, the statement there when it had done so much.
+fn loaded(
+    file: &FileRead,
+    others: &[FileRead],
+    reached: Range<usize>,
+    stopped_after: Option<u64>,
+) -> String {
     let mut script = String::new();
     others.iter().for_each(|file| script.extend([&*file.restored(), "\n"]));
-    script.push_str(&file.text);
+    match stopped_after {
+        None => script.push_str(&file.text),
+        // A stop that no statement follows would be taken for one of what is typed next.
+        Some(_) if reached.is_empty() => {}
+        Some(n_done) => {
+            let stop = restored_stop(n_done);
+            script.extend([&file.text[..reached.start], &*stop, &file.text[reached]]);
+        }
+    }
     if !script.ends_with('\n') {
         script.push('\n');
     }

@@ -346,6 +346,14 @@ fn who_stops_a_run_and_presses_again_loses_nothing_of_it() {
     }
 }
 
+/// A scene that runs while it is loaded.
+const LOADED: &str = "point A = (0, 0) frozen, D = (4, 0) frozen; point B = (1, 0)
+    # A remark.
+    point C = (3, 3); motor A B speed 1rev; length B C = 3.5; step 4; length C D = 3; relax 20
+    for i in 1..20 { step 3; include \"part.link\" }
+    set live on; point E = (5, 5); length D E = 2; let q = 1; length C E = 4; set live off
+    step 40; let late = 1";
+
 /// Types statements, each stopped after so many looks at whether it is to; what the journal brings back
 /// is the session as it is.
 fn assert_kept(statements: &[(&str, u64)]) {
@@ -353,6 +361,8 @@ fn assert_kept(statements: &[(&str, u64)]) {
     talking.talk.journal = Some(vec![String::new()]);
     let part = "for i in 1..100 { step 3 }\nlet q = 1\nrelax 300\nstep 500\n";
     talking.talk.files.insert("part.link".into(), part.to_owned());
+    talking.talk.files.insert("scene.link".into(), LOADED.to_owned());
+    talking.talk.files.insert("nothing.link".into(), "# nothing\n".to_owned());
     let mut typed = Transcript::new("typed");
     for (statement, most) in statements {
         talking.talk.n_polls.set(0);
@@ -387,9 +397,12 @@ fn a_stop_is_repeated_where_it_was() {
         "off length1; freeze C; drag C through (3, 2), (3, 4), (2, 2), (1, 1) over 0",
         "set dead-points reverse; step 3000",
         "solve",
+        "load \"scene.link\"",
+        "load \"part.link\"",
+        "load \"nothing.link\"",
         "let late = 1",
     ] {
-        for most in [0, 1, 2, 3, 5, 8, 13, 40, 150, 1000] {
+        for most in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 17, 23, 40, 150, 400, 1000] {
             assert_kept(&[(SCENE, u64::MAX), (stopped, most), ("step 3; let after = 2", u64::MAX)]);
         }
     }

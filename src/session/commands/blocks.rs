@@ -10,6 +10,7 @@ use crate::errors;
 use crate::lang::ast::{Definition, Expr, Ident, Name, Range, Statement, Text};
 use crate::session::execution::{Execution, Flow};
 use crate::session::host::reason;
+use crate::session::input::Loaded;
 use crate::session::quotas::{LONGEST_ARGUMENT, Quota};
 use crate::session::resolve::bind::Term;
 use crate::session::resolve::scope::Meaning;
@@ -327,6 +328,10 @@ impl Execution<'_> {
             for statement in crate::lang::parse(source, text) {
                 let advised = |problem| execution.state.advise(problem, &execution.input.sources);
                 let statement = statement.map_err(advised)?;
+                if how == As::Typed {
+                    let (reached, n_done_before) = (statement.span.range(), execution.n_done);
+                    execution.input.loaded = Some(Loaded { reached, n_done_before });
+                }
                 let flow = execution.dispatch(&statement)?;
                 if how == As::Typed {
                     execution.solve_where_live(&statement)?;
@@ -352,7 +357,7 @@ impl Execution<'_> {
         self.must_stand_alone("load", span)?;
         let file = self.read_back(path)?;
         self.clear();
-        self.input.has_loaded = true;
+        self.input.loaded = Some(Loaded::default());
         let result = self.perform_text(&file, span, As::Typed);
         // A journal may end between what stands before a statement and the statement.
         self.input.next_files.clear();

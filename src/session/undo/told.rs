@@ -1,7 +1,6 @@
 //! What the host's journal was told of each command, so that it goes with `undo` and `redo` by as much as
 //! these change.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -44,12 +43,16 @@ impl Deed {
         let mut text = String::new();
         self.files.iter().for_each(|file| text.extend([&*file.restored(), "\n"]));
         if let Some(n_done) = self.stopped_after {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "restore stop = {n_done}");
+            text.push_str(&restored_stop(n_done));
         }
         text.push_str(sources.slice(self.statement));
         text
     }
+}
+
+/// The line that has the statement behind it stopped again when it has done so much.
+pub fn restored_stop(n_done: u64) -> String {
+    format!("restore stop = {n_done}\n")
 }
 
 /// How far a journal has been told.
