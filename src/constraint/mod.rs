@@ -29,6 +29,7 @@ pub use field::Field;
 pub use given::{Culprit, Declared, Given, Refusal};
 pub use kinds::*;
 pub use parts::bounds::Bounds;
+pub(crate) use parts::directions::directions;
 pub(crate) use parts::function::{length, limited_argument, power, value_of};
 #[doc(hidden)]
 pub use parts::geometry;
@@ -36,6 +37,8 @@ pub use parts::geometry::{Point, Vector};
 pub use parts::heading::Heading;
 #[doc(hidden)]
 pub use parts::jet::{Jet, Real};
+#[doc(hidden)]
+pub(crate) use parts::mesh::{Counts, Mesh};
 #[doc(hidden)]
 pub use parts::program::{Operation, Program, Register};
 pub use parts::row::PointIdx;

@@ -9,7 +9,7 @@
 use super::orientation::turning;
 use crate::constraint::parts::gearing::Gearing;
 use crate::constraint::parts::geometry::has_direction;
-use crate::constraint::parts::mesh::Mesh;
+use crate::constraint::parts::mesh::{Counts, Mesh};
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flag, Flaw, Given, Point,
     PointIdx, Quantity, Real, Refusal, Row, Stateful, Traits, Vec2, Vector,
@@ -101,6 +101,16 @@ impl Cog {
     /// The equation between the wheels.
     pub(crate) const fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// How far the wheels have turned.
+    pub(crate) const fn counts(&self) -> Counts {
+        self.mesh.counts()
+    }
+
+    /// They have turned so far.
+    pub(crate) const fn set_counts(&mut self, counts: Counts) {
+        self.mesh.set_counts(counts);
     }
 
     /// The angle at which the marker of the first or the second wheel belongs while everything else is

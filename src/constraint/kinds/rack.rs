@@ -3,6 +3,7 @@
 use super::orientation::turning;
 use crate::constraint::parts::content::add_all;
 use crate::constraint::parts::geometry::has_direction;
+use crate::constraint::parts::mesh::Counts;
 use crate::constraint::parts::winding::Winding;
 use crate::constraint::{
     Activity, Carried, ConstraintKind, Culprit, Declared, Field, Flaw, Given, Point, PointIdx,
@@ -99,13 +100,41 @@ impl Rack {
         self.pitch != Pitch::Height
     }
 
+    /// How far the wheel has turned against the line.
+    pub(crate) fn counts(&self) -> Counts {
+        Counts::of_one(self.lifted)
+    }
+
+    /// It has turned so far.
+    pub(crate) const fn set_counts(&mut self, counts: Counts) {
+        self.lifted = counts.lifted[0];
+    }
+
+    /// What so many whole turns contribute to the equation.
+    pub(crate) fn wound_by(&self, n_turns: i64) -> f64 {
+        self.radius * (n_turns as f64 * TAU)
+    }
+
+    /// The theta of the equation where whole turns contribute so much and the centre stands there.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
+    pub(crate) fn theta(&self, wound: f64, s: f64) -> f64 {
+        (self.k - wound - s) / self.radius
+    }
+
+    /// What is left of the equation there, length units, at an angle that was counted on.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops that vectors are made of")]
+    #[inline(always)]
+    pub(crate) fn value_where(&self, wound: f64, s: f64, theta: f64) -> f64 {
+        s + self.radius * theta + (wound - self.k)
+    }
+
     /// The direction of the rim point from its centre while everything else is at these places, radians; none
     /// while the line has none.
     pub fn rim_angle(&self, [o, _, p, q]: [Point; 4]) -> Option<f64> {
         let line = q - p;
         let s = line.dot(o - p) / line.norm();
-        let theta = (self.k - self.wound() - s) / self.radius;
-        has_direction(p, q).then(|| line.angle() + theta)
+        has_direction(p, q).then(|| line.angle() + self.theta(self.wound(), s))
     }
 
     /// What is left of the equation at these places, length units; none while something has no direction.
@@ -127,13 +156,13 @@ impl Rack {
 
     /// What whole turns contribute to the equation.
     fn wound(&self) -> f64 {
-        self.radius * (self.lifted.turns as f64 * TAU)
+        self.wound_by(self.lifted.turns)
     }
 
     fn value(&self, arms: &Arms) -> f64 {
         let theta = self.lifted.near(arms.line.angle_to(arms.spoke));
         let s = arms.line.dot(arms.centre) / arms.line.norm();
-        s + self.radius * theta + (self.wound() - self.k)
+        self.value_where(self.wound(), s, theta)
     }
 
     fn row(&self, arms: &Arms) -> Row<'static> {

@@ -147,10 +147,14 @@ impl Vector {
 }
 
 /// The angle equal to `phi` up to whole turns, in (-pi, pi].
+#[allow(clippy::inline_always, reason = "it becomes part of loops over frames")]
+#[inline(always)]
 pub fn wrap(phi: f64) -> f64 {
-    if phi > -PI && phi <= PI {
-        return phi;
-    }
+    if phi > -PI && phi <= PI { phi } else { without_whole_turns(phi) }
+}
+
+#[cold]
+fn without_whole_turns(phi: f64) -> f64 {
     let r = phi - TAU * (phi / TAU).round();
     if r <= -PI { r + TAU } else { r }
 }

@@ -3,6 +3,7 @@
 pub mod bounds;
 pub mod carried_crank;
 pub mod content;
+pub(crate) mod directions;
 pub(crate) mod drive;
 pub mod function;
 pub mod gearing;

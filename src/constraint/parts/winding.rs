@@ -20,6 +20,8 @@ impl Winding {
 
     /// The angle that `direction` stands for, radians, without the whole turns: less than
     /// half a turn from the accepted one.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops over frames")]
+    #[inline(always)]
     pub fn near(self, direction: f64) -> f64 {
         self.angle + wrap(direction - self.angle)
     }
@@ -40,10 +42,14 @@ impl Winding {
     }
 
     /// Takes over a direction, counting a turn where it passed pi.
+    #[allow(clippy::inline_always, reason = "it becomes part of loops over frames")]
+    #[inline(always)]
     pub fn follow(&mut self, direction: f64) {
         let angle = self.near(direction);
         self.angle = wrap(angle);
-        let turn = ((angle - self.angle) / std::f64::consts::TAU).round();
-        self.turns = self.turns.saturating_add(turn as i64);
+        if self.angle != angle {
+            let turn = ((angle - self.angle) / std::f64::consts::TAU).round();
+            self.turns = self.turns.saturating_add(turn as i64);
+        }
     }
 }

@@ -6,7 +6,7 @@
 
 use super::found::{Found, larger};
 use super::length::{Length, Timed};
-use crate::constraint::{Point, PointIdx, Vector};
+use crate::constraint::{Counts, Point, PointIdx, Vector};
 
 /// How many frames pass side by side, where they do.
 pub(crate) const WIDE: usize = 8;
@@ -105,6 +105,8 @@ pub(super) struct Abreast<const N: usize> {
     pub turned: Vec<Turned<N>>,
     /// The lengths that follow time.
     pub lengths: Vec<Timed<N>>,
+    /// How far each wheel has turned after each frame, where there are several.
+    pub counts: Vec<[Counts; N]>,
     /// The largest distance to satisfaction of each frame; not a number where a step could not say
     /// where its point is.
     worst: [f64; N],
@@ -119,6 +121,7 @@ impl<const N: usize> Abreast<N> {
             ways: vec![[0.0; N]; n_points],
             turned: vec![Turned::NOT; n_cranks],
             lengths: Vec::new(),
+            counts: Vec::new(),
             worst: [0.0; N],
             least_side_squared: [1.0; N],
         }

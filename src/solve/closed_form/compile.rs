@@ -112,7 +112,7 @@ impl<'a> Compiler<'a> {
             one: Abreast::new(x.len(), 0),
             n_constraints: constraints.len() as u32,
             extent: 0.0,
-            counts_turns: false,
+            wheels: Vec::new(),
             has_blocks: false,
             knows_pose: false,
             knows_lengths: false,
@@ -164,7 +164,9 @@ impl<'a> Compiler<'a> {
         let checks: Option<Vec<Step>> = checked.map(|c| self.check(c)).collect();
         let checks = checks?;
         self.n_driven += u32::from(matches!(step, Step::Direction(_) | Step::Place { .. }));
-        self.form.counts_turns |= matches!(step, Step::Wheel(_));
+        if let Step::Wheel(wheel) = &step {
+            self.form.wheels.push(wheel.by);
+        }
         self.form.steps.push(step);
         self.form.steps.extend(checks);
         Some(())
@@ -220,7 +222,8 @@ impl<'a> Compiler<'a> {
         let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
         match by {
             (_, Constraint::Cog(_) | Constraint::Rack(_)) => {
-                let wheel = Wheel::new(to, from, length.now, by)?;
+                let k = self.form.wheels.len() as u32;
+                let wheel = Wheel::new(to, from, length.now, by, k)?;
                 self.form.held.extend(length.bar());
                 Some(Step::Wheel(wheel))
             }

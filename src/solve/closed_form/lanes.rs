@@ -5,7 +5,8 @@ use super::abreast::{Abreast, Places, Turned, WIDE};
 use super::found::Found;
 use super::length::Timed;
 use super::run::make;
-use crate::constraint::{Constraint, Heading, Point, Turns};
+use super::wheel::set_counts;
+use crate::constraint::{Constraint, Counts, Heading, Point, Turns};
 use crate::solve::island::Island;
 use crate::world::{ConstraintId, World};
 
@@ -24,8 +25,8 @@ pub(crate) struct Lanes {
     origin: Vec<Point>,
     /// Where cranks pointed before the first, and how far each turns in a frame.
     before: Vec<(Heading, Turns)>,
-    /// Where the island set out: its free points, and how its cranks pointed.
-    start: (Vec<Point>, Vec<Heading>),
+    /// Where the island set out: its free points, how its cranks pointed, and how far its wheels had turned.
+    start: (Vec<Point>, Vec<Heading>, Vec<Counts>),
     /// Whether `places` are those at which the last of them ended.
     is_up_to_date: bool,
 }
@@ -40,13 +41,14 @@ impl Lanes {
             (0..WIDE).for_each(|l| to.set(l, turned.at(0).0, 0.0));
         }
         abreast.lengths = vec![Timed::NOT; form.timed_lengths().len()];
+        abreast.counts = vec![[Counts::default(); WIDE]; form.wheels.len()];
         Self {
             places: vec![Places::all(Point::ORIGIN); island.x.len()],
             abreast,
             all: Found::NOTHING,
             origin: Vec::with_capacity(island.n_free),
             before: Vec::with_capacity(n_cranks),
-            start: (Vec::with_capacity(island.n_free), Vec::with_capacity(n_cranks)),
+            start: (Vec::with_capacity(island.n_free), Vec::with_capacity(n_cranks), Vec::new()),
             is_up_to_date: false,
         }
     }
@@ -62,6 +64,10 @@ impl Lanes {
             self.origin.extend_from_slice(&island.x[..island.n_free]);
             self.places.clear();
             self.places.extend(island.x.iter().map(|&at| Places::all(at)));
+            for (to, counts) in self.abreast.counts.iter_mut().zip(form.counts(&island.constraints))
+            {
+                to[WIDE - 1] = counts;
+            }
         }
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx512f")
@@ -133,13 +139,20 @@ impl Lanes {
         })
     }
 
+    /// How far the wheels have turned at the end of a frame.
+    fn counts(&self, l: usize) -> impl Iterator<Item = Counts> + '_ {
+        self.abreast.counts.iter().map(move |counts| counts[l])
+    }
+
     /// Sets out from where an island is.
     pub fn set_out(&mut self, form: &mut ClosedForm, island: &Island) {
-        let (x, headings) = &mut self.start;
+        let (x, headings, counts) = &mut self.start;
         x.clear();
         x.extend_from_slice(&island.x[..island.n_free]);
         headings.clear();
         headings.extend(form.cranks.iter().filter_map(|crank| crank.heading(&island.constraints)));
+        counts.clear();
+        counts.extend(form.counts(&island.constraints));
         if let Some(schedule) = &mut form.schedule {
             schedule.set_out(&island.constraints);
         }
@@ -147,9 +160,10 @@ impl Lanes {
 
     /// Puts an island back where it set out.
     pub fn go_back(&mut self, form: &mut ClosedForm, island: &mut Island) {
-        let (x, headings) = &self.start;
+        let (x, headings, counts) = &self.start;
         island.x[..x.len()].copy_from_slice(x);
         point(form, &mut island.constraints, headings.iter().copied());
+        form.set_counts(&mut island.constraints, counts.iter().copied());
         if let Some(schedule) = &mut form.schedule {
             schedule.go_back(&mut island.constraints);
         }
@@ -191,15 +205,25 @@ impl Lanes {
             *to = places.at(l);
         }
         point(form, &mut island.constraints, self.headings(l));
+        self.count(l, form, island);
         if let Some(schedule) = &form.schedule {
             schedule.show(l, &mut island.constraints);
         }
     }
 
-    /// Tells the world how the cranks point at the end of a frame, and the values that follow time.
+    /// Wheels of an island have turned as far as at the end of a frame.
+    pub fn count(&self, l: usize, form: &ClosedForm, island: &mut Island) {
+        form.set_counts(&mut island.constraints, self.counts(l));
+    }
+
+    /// Tells the world how the cranks point at the end of a frame, how far wheels have turned, and the values that
+    /// follow time.
     pub fn hand_over(&self, l: usize, form: &ClosedForm, ids: &[ConstraintId], world: &mut World) {
         for (crank, heading) in form.cranks.iter().zip(self.headings(l)) {
             crank.point_in(world, ids, heading);
+        }
+        for (&by, counts) in form.wheels.iter().zip(self.counts(l)) {
+            set_counts(world.constraint_state_mut(ids[by as usize]), counts);
         }
         if let Some(schedule) = &form.schedule {
             schedule.hand_over(l, ids, world);

@@ -35,6 +35,7 @@ mod line;
 mod nearest;
 mod parts;
 mod ray;
+mod rolling;
 mod run;
 mod schedule;
 mod sum;
@@ -75,8 +76,8 @@ pub(crate) struct ClosedForm {
     n_constraints: u32,
     /// How large the island is at least, for the bodies in it.
     pub extent: f64,
-    /// Whether each frame counts turns on from the one before, so that none is found beside others.
-    counts_turns: bool,
+    /// The constraints that turn wheels, by the numbers of these.
+    wheels: Vec<u32>,
     /// Whether some steps begin where the frames before let points be expected.
     pub has_blocks: bool,
     /// Whether what steps know of the pose is of the present one.

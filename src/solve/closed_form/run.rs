@@ -80,7 +80,7 @@ impl ClosedForm {
 
     /// Whether frames may be found side by side.
     pub fn is_for_lanes(&self) -> bool {
-        !self.counts_turns && !self.has_blocks
+        !self.has_blocks
     }
 
     /// How many constraints a frame evaluates.

@@ -1,11 +1,13 @@
 //! Where the marker of a wheel is that another turns, or a line that it rolls along.
 
+use super::ClosedForm;
 use super::abreast::{Abreast, Places, Poses};
-use crate::constraint::{Cog, Constraint, Point, PointIdx, Rack, Vector};
+use super::rolling::Told;
+use crate::constraint::{Cog, Constraint, Counts, Point, PointIdx, Rack, Vector};
 
 /// A frame may turn a wheel, the wheel that turns it, and the line of their centres by less than half a
 /// turn; this is somewhat less, radians.
-const MOST: f64 = 3.0;
+pub(super) const MOST: f64 = 3.0;
 
 /// A point at a given distance from the centre of its wheel, at the angle that a wheel in mesh, a belt, or a
 /// rack leaves it.
@@ -15,21 +17,24 @@ pub(super) struct Wheel {
     /// The centre and the marker of the one wheel, those of the other or the ends of the line.
     points: [PointIdx; 4],
     /// Whether it is the marker of the other.
-    is_second: bool,
+    pub(super) is_second: bool,
     /// The distance from its centre.
-    radius: f64,
+    pub(super) radius: f64,
     /// The constraint that turns it.
-    by: u32,
+    pub(super) by: u32,
+    /// Its number among the wheels of its island.
+    pub(super) k: u32,
 }
 
 impl Wheel {
     /// A point at the distance `radius` from another, which the constraint of number `c` turns; none
-    /// where it does not.
+    /// where it does not. It is the wheel of number `k`.
     pub fn new(
         to: PointIdx,
         from: PointIdx,
         radius: f64,
         (c, by): (u32, &Constraint),
+        k: u32,
     ) -> Option<Self> {
         let (points, is_second) = match by {
             Constraint::Cog(cog) => (cog.points, cog.points[3] == to),
@@ -39,28 +44,45 @@ impl Wheel {
         let own = if is_second { [points[2], points[3]] } else { [points[0], points[1]] };
         let is_once = points.iter().filter(|&&p| p == to).count() == 1;
         let is_sound = is_once && own == [from, to] && radius > 0.0;
-        is_sound.then_some(Self { to, points, is_second, radius, by: c })
+        is_sound.then_some(Self { to, points, is_second, radius, by: c, k })
     }
 
-    /// Puts the marker where it belongs, if that is told without counting turns anew. Frames side by
-    /// side, each of which counts on from the one before, it does not find.
+    /// Puts the marker where it belongs, if that is told without counting turns anew.
+    #[inline(always)]
     pub fn run<const N: usize>(
         &self,
         x: &mut (impl Poses<N> + ?Sized),
         constraints: &[Constraint],
         abreast: &mut Abreast<N>,
     ) {
-        let places = self.points.map(|p| x.get(p).at(N - 1));
-        let ways = self.points.map(|p| abreast.ways[p as usize][N - 1]);
+        let places = self.points.map(|p| x.get(p));
+        let ways = self.points.map(|p| abreast.ways[p as usize]);
+        let (at, way, off) = if N == 1 {
+            self.run_one(&places, &ways, constraints)
+        } else {
+            self.run_each(&places, &ways, constraints, &mut abreast.counts[self.k as usize])
+        };
+        x.put(self.to, at);
+        abreast.ways[self.to as usize] = way;
+        abreast.check_each(|l| off[l]);
+    }
+
+    /// The same in one frame by itself, the constraints being as they were before it.
+    fn run_one<const N: usize>(
+        &self,
+        places: &[Places<N>; 4],
+        ways: &[[f64; N]; 4],
+        constraints: &[Constraint],
+    ) -> Told<N> {
+        let places = places.each_ref().map(|places| places.at(0));
+        let ways = ways.each_ref().map(|ways| ways[0]);
         let found = match &constraints[self.by as usize] {
-            Constraint::Cog(cog) if N == 1 => self.marker(cog, places, ways),
-            Constraint::Rack(rack) if N == 1 => self.rim_point(rack, places, ways),
+            Constraint::Cog(cog) => self.marker(cog, places, ways),
+            Constraint::Rack(rack) => self.rim_point(rack, places, ways),
             _ => None,
         };
         let (at, way, off) = found.unwrap_or((places[0], 0.0, f64::NAN));
-        x.put(self.to, Places::all(at));
-        abreast.ways[self.to as usize] = [way; N];
-        abreast.check_each(|_| off);
+        (Places::all(at), [way; N], [off; N])
     }
 
     /// Where the marker is, how far it went at most, and how far that is off.
@@ -100,6 +122,37 @@ impl Wheel {
         let off = rack.value_at(places)?;
         let is_told = [line, own_turn].iter().all(|turn| (0.0..MOST).contains(turn));
         is_told.then_some((places[1], ways[0] + self.radius * own_turn, off))
+    }
+}
+
+impl ClosedForm {
+    /// How far its wheels have turned.
+    pub(super) fn counts(&self, constraints: &[Constraint]) -> impl Iterator<Item = Counts> {
+        self.wheels.iter().map(|&by| match &constraints[by as usize] {
+            Constraint::Cog(cog) => cog.counts(),
+            Constraint::Rack(rack) => rack.counts(),
+            _ => Counts::default(),
+        })
+    }
+
+    /// They have turned so far.
+    pub(super) fn set_counts(
+        &self,
+        constraints: &mut [Constraint],
+        counts: impl Iterator<Item = Counts>,
+    ) {
+        for (&by, counts) in self.wheels.iter().zip(counts) {
+            set_counts(&mut constraints[by as usize], counts);
+        }
+    }
+}
+
+/// The wheels of a constraint have turned so far.
+pub(super) fn set_counts(of: &mut Constraint, counts: Counts) {
+    match of {
+        Constraint::Cog(cog) => cog.set_counts(counts),
+        Constraint::Rack(rack) => rack.set_counts(counts),
+        _ => {}
     }
 }
 

@@ -305,8 +305,7 @@ impl Rider {
         }
     }
 
-    /// Tells the world of a frame that was found beside others what is kept of it: nothing in it has a
-    /// state but its motors.
+    /// Tells the world of a frame that was found beside others what is kept of it.
     pub fn tell(&self, l: usize, world: &mut World, kept: Kept) {
         let Self { island, form, lanes: Some(lanes), traced, .. } = self else { return };
         if kept.is_measured {
@@ -328,11 +327,10 @@ impl Rider {
     pub fn end_side_by_side(&mut self, n: usize) {
         let Self { island, form, found, lanes: Some(lanes), .. } = self else { return };
         lanes.accept(n, form, island);
-        if n > 0 {
-            // Nothing counts turns here, and the side of an angle is that of the last pose.
-            island.accept_pose();
-        }
         if let Some(last) = n.checked_sub(1) {
+            // The side of an angle is that of the last pose; turns were counted already.
+            island.accept_pose();
+            lanes.count(last, form, island);
             *found = lanes.found(last);
         }
     }

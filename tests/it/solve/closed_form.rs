@@ -309,6 +309,38 @@ const TRAIN: &str = "point A = (0, 0) frozen, B = (3, 0) frozen, C = (9, 0) froz
     cog A a, B b teeth 20, 40
     belt B b, C c ratio 1/2";
 
+/// What holds a wheel whose centre goes along a coupler curve: another, turning it or turned, a belt, a line that turns.
+const WHEELS: [&str; 4] = [
+    "cog C c, O X teeth 30, 17 inside",
+    "cog O X, C c ratio 2/3",
+    "belt C c, O X ratio 0.3 crossed; trace c",
+    "motor L R speed 0.3rev; rack C c on L R radius 0.8",
+];
+
+fn wheels(held: &str) -> String {
+    format!(
+        "point O = (0, 0) frozen, X = (0, 1), L = (0, -3) frozen, R = (4, -3)
+         point A = (-4, 0) frozen, a = (-3, 0), E = (4, 1) frozen, C = (1.5, 3.9), c = (1.5, 4.9)
+         motor A a speed -1.7rev
+         motor O X speed 1.3rev
+         length a C = 6; length C E = 4; length C c = 1
+         {held}"
+    )
+}
+
+#[test]
+fn wheels_side_by_side_count_on_from_frame_to_frame() {
+    for held in WHEELS {
+        for dt in ["1/360", "1/50", "1/7"] {
+            let scene = format!("{}\nset dt {dt}", wheels(held));
+            check_same(held, &scene, 200);
+            check_same(held, &format!("{scene}\nmeasure turn = angle(C, c); measure fast = norm(velocity(c))"), 50);
+        }
+        let n = n_abreast(&format!("{}\nset dt 1/360", wheels(held)), 4000);
+        assert!(n >= 3900, "{held}: {n}");
+    }
+}
+
 #[test]
 fn wheels_that_others_turn_are_steps() {
     for dt in ["1/360", "1/24"] {
