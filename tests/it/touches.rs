@@ -38,7 +38,14 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
     (Kind::Coordinate, &["solve/closed_form/compile.rs", "solve/closed_form/schedule.rs"]),
     // A point on a line, and one on a wheel that rolls, has a closed form.
     (Kind::Aligned, &["solve/closed_form/compile.rs", "solve/closed_form/line.rs"]),
-    (Kind::Rack, &["solve/closed_form/compile.rs", "solve/closed_form/wheel.rs"]),
+    (
+        Kind::Rack,
+        &[
+            "solve/closed_form/compile.rs",
+            "solve/closed_form/rolling.rs",
+            "solve/closed_form/wheel.rs",
+        ],
+    ),
     // Points that are sums of others have a closed form.
     (Kind::Coincidence, &["solve/closed_form/sum.rs"]),
     (Kind::Equivalence, &["solve/closed_form/sum.rs"]),
@@ -159,6 +166,7 @@ const SHORTER_WAYS: &[(Kind, &[&str])] = &[
         Kind::Cog,
         &[
             "solve/closed_form/compile.rs",
+            "solve/closed_form/rolling.rs",
             "solve/closed_form/wheel.rs",
             "constraint/kinds/cog_velocity.rs",
             "session/commands/constrain.rs",

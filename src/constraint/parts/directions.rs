@@ -7,10 +7,11 @@
 #![allow(
     clippy::needless_bitwise_bool,
     clippy::manual_range_contains,
+    clippy::needless_range_loop,
     reason = "conditions without branches become part of vectors"
 )]
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 const ODD: [f64; 6] = [
     0.333_333_333_333_329_3,
@@ -31,9 +32,9 @@ const EVEN: [f64; 5] = [
 /// The angles whose tangents are 1/2, 1, 3/2, and a quarter turn, each in two parts.
 const KNOWN: [[f64; 2]; 4] = [
     [0.463_647_609_000_806_1, 2.269_877_745_296_168_7e-17],
-    [0.785_398_163_397_448_3, 3.061_616_997_868_383e-17],
-    [0.982_793_723_247_329_1, 1.390_331_103_123_099_8e-17],
-    [1.570_796_326_794_896_6, 6.123_233_995_736_766e-17],
+    [FRAC_PI_4, 3.061_616_997_868_383e-17],
+    [0.982_793_723_247_329, 1.390_331_103_123_099_8e-17],
+    [FRAC_PI_2, 6.123_233_995_736_766e-17],
 ];
 /// What is left of half a turn.
 const PI_REST: f64 = 1.224_646_799_147_353_2e-16;

@@ -44,6 +44,8 @@ pub(super) trait Poses<const N: usize> {
     fn get(&self, p: PointIdx) -> Places<N>;
     /// Puts a point elsewhere.
     fn put(&mut self, p: PointIdx, at: Places<N>);
+    /// The pose of a frame by itself; none where there are several.
+    fn one(&mut self) -> Option<&mut [Point]>;
 }
 
 impl Poses<1> for [Point] {
@@ -56,6 +58,11 @@ impl Poses<1> for [Point] {
     fn put(&mut self, p: PointIdx, at: Places<1>) {
         self[p as usize] = at.at(0);
     }
+
+    #[inline(always)]
+    fn one(&mut self) -> Option<&mut [Point]> {
+        Some(self)
+    }
 }
 
 impl<const N: usize> Poses<N> for [Places<N>] {
@@ -67,6 +74,11 @@ impl<const N: usize> Poses<N> for [Places<N>] {
     #[inline(always)]
     fn put(&mut self, p: PointIdx, at: Places<N>) {
         self[p as usize] = at;
+    }
+
+    #[inline(always)]
+    fn one(&mut self) -> Option<&mut [Point]> {
+        None
     }
 }
 

@@ -217,6 +217,14 @@ impl<'a> Compiler<'a> {
         }
     }
 
+    /// A constraint says where points are that are found together: what drives it is turned on in each frame.
+    pub fn note_driver(&mut self, c: u32) {
+        if let Constraint::Motor(motor) = &self.given.constraints[c as usize] {
+            let ([from, to], before) = (motor.crank(), motor.heading());
+            self.form.cranks.push(Crank { to, from, motor: c, before });
+        }
+    }
+
     /// The step that finds a point on a circle which a constraint turns.
     pub fn turned(&mut self, to: PointIdx, by: (u32, &Constraint), circle: &Locus) -> Option<Step> {
         let &Locus::Circle(from, Radius::Fixed(length)) = circle else { return None };
@@ -256,6 +264,11 @@ pub(super) fn may_have_a_step(constraint: &Constraint) -> bool {
             constraint,
             Constraint::Cog(_) | Constraint::Rack(_) | Constraint::Orientation(_)
         )
+}
+
+/// Whether a constraint says by itself what it holds; a motor that is measured from a line does not.
+pub(super) fn is_told(constraint: &Constraint) -> bool {
+    !matches!(constraint, Constraint::Motor(motor) if motor.measured_from().is_some())
 }
 
 /// The step that finds a point on two loci; as many points as that, the first, are free.
@@ -342,9 +355,12 @@ mod tests {
     }
 
     fn has_list(constraints: &[Constraint], n_free: usize, n_points: usize) -> bool {
-        let plan = Plan::new(constraints, n_free, n_points);
-        let (x, w) = (vec![Point::ORIGIN; n_points], vec![1.0; n_points]);
-        let (plan, x, w) = (&plan, &x, &w);
+        has_list_at(constraints, n_free, &vec![Point::ORIGIN; n_points])
+    }
+
+    fn has_list_at(constraints: &[Constraint], n_free: usize, x: &[Point]) -> bool {
+        let (plan, w) = (Plan::new(constraints, n_free, x.len()), vec![1.0; x.len()]);
+        let (plan, w) = (&plan, &w);
         ClosedForm::new(Given { plan, constraints, x, n_free, w, degree: 3 }).is_some()
     }
 
@@ -376,9 +392,14 @@ mod tests {
     }
 
     #[test]
-    fn a_link_on_a_slider_that_hangs_from_elsewhere_has_none() {
+    fn a_link_on_a_slider_that_hangs_from_elsewhere_is_found_with_its_slot() {
         let crank: Constraint = Motor::new([2, 0], 1.0, 0.0, 1.0).into();
         let slot: Constraint = Glider { points: [0, 1, 3], bounded: false }.into();
-        assert!(!has_list(&[crank, slot, bar([4, 1])], 2, 5));
+        let x = [(1.0, 0.0), (4.0, 3.0), (0.0, 0.0), (-2.0, -3.0), (4.0, 7.0)];
+        let x = x.map(|(x, y)| Point::new(x, y));
+        assert!(has_list_at(&[crank.clone(), slot.clone(), bar([4, 1])], 2, &x));
+        let cord: Constraint =
+            Length { points: [4, 1], bounds: Bounds { lo: 0.0, hi: 4.0 } }.into();
+        assert!(!has_list_at(&[crank, slot, cord], 2, &x));
     }
 }

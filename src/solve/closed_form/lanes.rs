@@ -5,7 +5,7 @@ use super::abreast::{Abreast, Places, Turned, WIDE};
 use super::found::Found;
 use super::length::Timed;
 use super::run::make;
-use super::wheel::set_counts;
+use super::wheel;
 use crate::constraint::{Constraint, Counts, Heading, Point, Turns};
 use crate::solve::island::Island;
 use crate::world::{ConstraintId, World};
@@ -168,7 +168,7 @@ impl Lanes {
             schedule.go_back(&mut island.constraints);
         }
         self.is_up_to_date = false;
-        form.look(&island.x);
+        form.look(&island.x, &island.constraints);
     }
 
     /// The worst of what all frames came to.
@@ -223,7 +223,7 @@ impl Lanes {
             crank.point_in(world, ids, heading);
         }
         for (&by, counts) in form.wheels.iter().zip(self.counts(l)) {
-            set_counts(world.constraint_state_mut(ids[by as usize]), counts);
+            wheel::set_counts(world.constraint_state_mut(ids[by as usize]), counts);
         }
         if let Some(schedule) = &form.schedule {
             schedule.hand_over(l, ids, world);
@@ -244,7 +244,7 @@ impl Lanes {
         }
         if n < WIDE {
             self.is_up_to_date = false;
-            form.look(&island.x);
+            form.look(&island.x, &island.constraints);
             if let Some(schedule) = &mut form.schedule {
                 schedule.take_back(WIDE - n, &island.constraints);
             }
@@ -261,6 +261,20 @@ fn point(
     for (crank, heading) in form.cranks.iter().zip(headings) {
         if let Some(motor) = crank.motor(constraints) {
             motor.set_heading(heading);
+        }
+    }
+}
+
+impl ClosedForm {
+    /// How far its wheels have turned.
+    fn counts(&self, constraints: &[Constraint]) -> impl Iterator<Item = Counts> {
+        self.wheels.iter().map(|&by| wheel::counts(&constraints[by as usize]))
+    }
+
+    /// They have turned so far.
+    fn set_counts(&self, constraints: &mut [Constraint], counts: impl Iterator<Item = Counts>) {
+        for (&by, counts) in self.wheels.iter().zip(counts) {
+            wheel::set_counts(&mut constraints[by as usize], counts);
         }
     }
 }

@@ -28,6 +28,7 @@ mod circles;
 mod cluster;
 mod compile;
 mod direction;
+mod equation;
 mod found;
 mod lanes;
 mod length;
@@ -139,6 +140,13 @@ enum Step {
     Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
+    /// Nowhere new: a constraint of so many rows whose points are found together, which is to hold there.
+    Equation {
+        /// The constraint.
+        c: u32,
+        /// How many rows it has at every pose.
+        n_rows: usize,
+    },
     /// On circles, where they are nearest to; nothing follows from these.
     Nearest(Vec<Nearest>),
 }

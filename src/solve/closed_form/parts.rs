@@ -23,6 +23,8 @@ pub(super) struct Assembly<'a> {
     pub is_placed: Vec<bool>,
     /// Whether a constraint is checked by a step.
     pub is_met: &'a mut [bool],
+    /// The checks of constraints that said where something is, for when all of it is found.
+    pub unchecked: Vec<Step>,
     /// Bodies that may be placed now, and points that may be found.
     next_bodies: VecDeque<usize>,
     next_points: VecDeque<PointIdx>,
@@ -94,6 +96,7 @@ impl Compiler<'_> {
                 anchors: vec![None; n],
                 is_placed: vec![false; n],
                 is_met: &mut is_met,
+                unchecked: Vec::new(),
                 next_bodies: (0..n).collect(),
                 next_points: part.points.iter().copied().collect(),
             };
@@ -126,6 +129,7 @@ impl Compiler<'_> {
             let check = self.check(c)?;
             self.form.steps.push(check);
         }
+        self.form.steps.append(&mut assembly.unchecked);
         assembly.unfile();
         Some(is_found)
     }

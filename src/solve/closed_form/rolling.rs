@@ -3,8 +3,13 @@
 //! All but the counts is the same in each frame, and done for all at once; the wheel's own count, which a frame
 //! needs of the one before, is taken not to change, and where it does the frames behind are found again.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one loop over all frames, that vectors are made of"
+)]
+
 use super::abreast::Places;
-use super::wheel::{MOST, Wheel};
+use super::wheel::{MOST, Told, Wheel};
 use crate::constraint::{
     Cog, Constraint, Counts, Mesh, Rack, Vector, Winding, directions, sines_and_cosines,
 };
@@ -47,10 +52,6 @@ struct ByRack<'a, const N: usize> {
     angle: [f64; N],
     s: [f64; N],
 }
-
-/// Where a marker is in each frame, how far it went at most, and how far that is off; not a number where it is not
-/// told.
-pub(super) type Told<const N: usize> = (Places<N>, [f64; N], [f64; N]);
 
 impl Wheel {
     /// Puts the marker where it belongs in each frame.

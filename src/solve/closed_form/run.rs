@@ -1,6 +1,7 @@
 //! Running the list of steps for a frame.
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
+use super::equation;
 use super::found::Found;
 use super::length::{Length, Values, bar};
 use super::nearest::{self, Nearest};
@@ -21,7 +22,7 @@ impl ClosedForm {
 
     /// Looks at a pose that counts. False if a body has another shape there than it had: the list is
     /// to be compiled anew.
-    pub fn look(&mut self, x: &[Point]) -> bool {
+    pub fn look(&mut self, x: &[Point], constraints: &[Constraint]) -> bool {
         let mut fits = true;
         for step in &mut self.steps {
             match step {
@@ -31,13 +32,14 @@ impl ClosedForm {
                 Step::Ray(ray) => ray.look(x),
                 Step::Direction(link) => link.look(x),
                 Step::Body(body) => fits &= body.fits(x),
-                Step::Block(block) => block.look(x),
+                Step::Block(block) => block.look(x, constraints),
                 Step::Crank(_)
                 | Step::Place { .. }
                 | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Bar(_)
+                | Step::Equation { .. }
                 | Step::Nearest(_) => {}
             }
         }
@@ -71,6 +73,7 @@ impl ClosedForm {
                 | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
+                | Step::Equation { .. }
                 | Step::Body(_) => {}
             }
         }
@@ -129,7 +132,7 @@ impl ClosedForm {
                 _ => {}
             }
         }
-        (self.knows_pose || self.look(x)).then_some(n_turning)
+        (self.knows_pose || self.look(x, constraints)).then_some(n_turning)
     }
 
     /// Turns the motors on by a frame.
@@ -238,6 +241,7 @@ impl ClosedForm {
                 | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
+                | Step::Equation { .. }
                 | Step::Body(_) => {}
             }
         }
@@ -335,7 +339,10 @@ pub(super) fn make<const N: usize>(
             Step::Wheel(wheel) => wheel.run(x, constraints, abreast),
             Step::Sum(sum) => sum.run(x, abreast),
             Step::Body(body) => body.run(x, abreast),
-            Step::Block(block) => block.run(x, abreast),
+            Step::Block(block) => block.run(x, constraints, abreast),
+            Step::Equation { c, n_rows } => {
+                equation::check(&constraints[*c as usize], *n_rows, x, abreast);
+            }
             Step::Bar(bar) => bar.check(x, abreast),
             Step::Place { to, drive, .. } => {
                 let Turned { x: at_x, y: at_y, way } = abreast.turned[*drive as usize];

@@ -1,11 +1,12 @@
 //! Which bodies and points of a part are found together, where none can be found by itself.
 
 use super::Step;
-use super::block::{Block, End, Leg, MOST, Turning};
-use super::compile::Compiler;
+use super::block::{Block, Leg, MOST, Turning};
+use super::compile::{Compiler, is_told};
+use super::equation::{End, Equation};
 use super::length::{Length, bar};
 use super::parts::Assembly;
-use crate::constraint::{PointIdx, Vector};
+use crate::constraint::{Constraint, PointIdx, Vector};
 use crate::solve::frame::decomposition::Part;
 
 /// In a part with more bodies and points than that none are looked for.
@@ -38,22 +39,32 @@ impl Compiler<'_> {
             return false;
         }
         let constraints = self.given.constraints;
-        let unmet = part.constraints.iter().filter(|&&c| !assembly.is_met[c as usize]);
-        let bars = unmet.filter_map(|&c| {
+        let unmet = || part.constraints.iter().filter(|&&c| !assembly.is_met[c as usize]);
+        let bars = unmet().filter_map(|&c| {
             let (ends, length) = bar(&constraints[c as usize])?;
             Some((ends, Length::of_bar(length, c)))
         });
         let bars: Vec<_> = bars.collect();
+        let others = unmet().map(|&c| (c, &constraints[c as usize]));
+        let others = others.filter(|(_, other)| bar(other).is_none() && is_told(other));
+        let others: Vec<_> = others.collect();
         let blocks =
             (1..1_u32 << units.len()).filter(|set| set.count_ones() as usize <= MOST_AT_ONCE);
         let blocks = blocks.filter_map(|set| {
             let members = units.iter().enumerate().filter(|(k, _)| set >> k & 1 == 1);
-            assembly.block(members.map(|(_, unit)| *unit).collect(), &bars)
+            assembly.block(members.map(|(_, unit)| *unit).collect(), &bars, &others)
         });
-        let Some(block) = blocks.min_by_key(|block| block.legs.len()) else { return false };
+        let Some(block) = blocks.min_by_key(Block::n_numbers) else { return false };
         let found: Vec<PointIdx> = block.finds().collect();
         self.form.has_blocks = true;
+        let equations: Vec<_> = block.equations.iter().map(|it| (it.c, it.n_rows)).collect();
         self.form.steps.push(Step::Block(Box::new(block)));
+        for (c, n_rows) in equations {
+            self.note_driver(c);
+            // Some of its points may be found after the block, with their body.
+            assembly.is_met[c as usize] = true;
+            assembly.unchecked.push(Step::Equation { c, n_rows });
+        }
         found.into_iter().for_each(|p| assembly.learn(self, p));
         true
     }
@@ -70,8 +81,14 @@ impl Assembly<'_> {
         bodies.chain(part.points.iter().filter(is_alone).map(|&p| Unit::Point(p))).collect()
     }
 
-    /// What finds these together; none if there are more numbers than bars, or than are found together.
-    fn block(&self, mut units: Vec<Unit>, bars: &[([PointIdx; 2], Length)]) -> Option<Block> {
+    /// What finds these together, by bars and other constraints; none if there are more numbers than these say, or
+    /// than are found together.
+    fn block(
+        &self,
+        mut units: Vec<Unit>,
+        bars: &[([PointIdx; 2], Length)],
+        others: &[(u32, &Constraint)],
+    ) -> Option<Block> {
         let mut draft = Draft::default();
         while !units.is_empty() {
             let is_held = |unit: &Unit| self.pivot(*unit, &draft).is_some();
@@ -107,7 +124,18 @@ impl Assembly<'_> {
             is_leg.then_some(Leg { ends, length })
         });
         let legs: Vec<Leg> = legs.take(n).collect();
-        (legs.len() == n).then(|| Block::new(draft.bases, draft.bodies, legs))
+        let mut n_left = n - legs.len();
+        let mut equations = Vec::new();
+        for (c, constraint) in others {
+            let end = |p: PointIdx| self.end(p, &draft);
+            if let Some(equation) =
+                Equation::new(*c, constraint, end).filter(|it| it.n_rows <= n_left)
+            {
+                n_left -= equation.n_rows;
+                equations.push(equation);
+            }
+        }
+        (n_left == 0).then(|| Block::new(draft.bases, draft.bodies, legs, equations))
     }
 
     /// The point of a body that is known, or is one of what has its numbers; none of others.

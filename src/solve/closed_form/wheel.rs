@@ -1,13 +1,15 @@
 //! Where the marker of a wheel is that another turns, or a line that it rolls along.
 
-use super::ClosedForm;
 use super::abreast::{Abreast, Places, Poses};
-use super::rolling::Told;
 use crate::constraint::{Cog, Constraint, Counts, Point, PointIdx, Rack, Vector};
 
 /// A frame may turn a wheel, the wheel that turns it, and the line of their centres by less than half a
 /// turn; this is somewhat less, radians.
 pub(super) const MOST: f64 = 3.0;
+
+/// Where a marker is in each frame, how far it went at most, and how far that is off; not a number where it is not
+/// told.
+pub(super) type Told<const N: usize> = (Places<N>, [f64; N], [f64; N]);
 
 /// A point at a given distance from the centre of its wheel, at the angle that a wheel in mesh, a belt, or a
 /// rack leaves it.
@@ -125,25 +127,12 @@ impl Wheel {
     }
 }
 
-impl ClosedForm {
-    /// How far its wheels have turned.
-    pub(super) fn counts(&self, constraints: &[Constraint]) -> impl Iterator<Item = Counts> {
-        self.wheels.iter().map(|&by| match &constraints[by as usize] {
-            Constraint::Cog(cog) => cog.counts(),
-            Constraint::Rack(rack) => rack.counts(),
-            _ => Counts::default(),
-        })
-    }
-
-    /// They have turned so far.
-    pub(super) fn set_counts(
-        &self,
-        constraints: &mut [Constraint],
-        counts: impl Iterator<Item = Counts>,
-    ) {
-        for (&by, counts) in self.wheels.iter().zip(counts) {
-            set_counts(&mut constraints[by as usize], counts);
-        }
+/// How far the wheels of a constraint have turned.
+pub(super) fn counts(of: &Constraint) -> Counts {
+    match of {
+        Constraint::Cog(cog) => cog.counts(),
+        Constraint::Rack(rack) => rack.counts(),
+        _ => Counts::default(),
     }
 }
 

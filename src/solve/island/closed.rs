@@ -29,7 +29,7 @@ impl Island {
         let mut form = self.take_closed_form().ok_or(NoStep::Open)?;
         if !form.knows_pose() {
             self.swap_inputs();
-            let fits = form.look(&self.x);
+            let fits = form.look(&self.x, &self.constraints);
             self.swap_inputs();
             if !fits {
                 form = self.take_closed_form().ok_or(NoStep::Open)?;
@@ -187,7 +187,7 @@ impl Island {
             degree: self.highest_degree(),
         });
         let form = form.map(|mut form| {
-            form.look(&self.x);
+            form.look(&self.x, &self.constraints);
             Box::new(form)
         });
         self.swap_inputs();

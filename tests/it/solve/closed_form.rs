@@ -334,7 +334,11 @@ fn wheels_side_by_side_count_on_from_frame_to_frame() {
         for dt in ["1/360", "1/50", "1/7"] {
             let scene = format!("{}\nset dt {dt}", wheels(held));
             check_same(held, &scene, 200);
-            check_same(held, &format!("{scene}\nmeasure turn = angle(C, c); measure fast = norm(velocity(c))"), 50);
+            check_same(
+                held,
+                &format!("{scene}\nmeasure turn = angle(C, c); measure fast = norm(velocity(c))"),
+                50,
+            );
         }
         let n = n_abreast(&format!("{}\nset dt 1/360", wheels(held)), 4000);
         assert!(n >= 3900, "{held}: {n}");
@@ -414,6 +418,87 @@ fn wheels_that_roll_are_steps() {
         }
         let counts = talking.session.frame_counts();
         assert!(counts.closed >= 5 * 31 - 1 && counts.open == 0, "{pitch}: {counts:?}");
+    }
+}
+
+/// A link whose edge slides on a pivot S and whose corner A a crank carries: none of its points is found by itself.
+const SLIDING: &str =
+    "point O = (0, 0) frozen, A = (1, 0), S = (3, 3) frozen, B = (4, 0), C = (2, 6)
+    motor O A speed 1rev
+    length A B = 3; length B C = 7; length C A = 6.2
+    glider S on B C";
+
+/// A crank's end slides in a slot whose link turns about D and hangs from a rod at its other end.
+const SLOT_ON_A_ROD: &str =
+    "point O = (0, 0) frozen, A = (1, 0), D = (-2, -3) frozen, E = (4, 7) frozen, B = (3.5, 2)
+    motor O A speed 1rev
+    glider A on D B unbounded; length E B = 5";
+
+/// A pinion that a motor turns moves the rack below it, and with it a rocker.
+const STEERING: &str = "point O = (0, 0.5) frozen, A = (0, 0.63)
+    motor O A radius 0.13 speed -20deg
+    point G = (-9, 0.2) frozen, H = (9, 0.2) frozen, P = (-0.3, 0.2), Q = (0.3, 0.2)
+    glider P on G H; glider Q on G H; length P Q = 0.6
+    rack O A on P Q radius 0.13
+    point K = (0.75, 0) frozen, R = (0.7, 0.3)
+    length K R; length Q R";
+
+/// A wheel that a motor turns rolls along a line; its centre keeps to another.
+const CREEPING: &str = "point P = (-2, 0) frozen, Q = (99, 0) frozen, O = (0, 1), A = (0, 0)
+    point H1 = (-2, 1) frozen, H2 = (99, 1) frozen
+    glider O on H1 H2
+    motor O A radius 1 speed -1rev phase -90deg
+    rack O A on P Q";
+
+#[test]
+fn what_slides_or_rolls_and_hangs_from_elsewhere_is_found_together() {
+    for scene in [SLIDING, SLOT_ON_A_ROD, STEERING, CREEPING] {
+        for dt in ["1/360", "1/90"] {
+            check_same(scene, &format!("{scene}\nset dt {dt}"), 100);
+        }
+        let mut talking = Talking::after(&format!("{scene}\nset dt 1/360\nstep 3"));
+        let before = talking.session.frame_counts().closed;
+        talking.run("step 300");
+        let n = talking.session.frame_counts().closed - before;
+        assert!(n >= 295, "{scene}: {n}");
+    }
+    // The height of the corner over the edge, and its foot there.
+    let area = f64::sqrt(8.1 * (8.1 - 3.0) * (8.1 - 7.0) * (8.1 - 6.2));
+    let height = 2.0 * area / 7.0;
+    let [to_b, to_c] = [3.0_f64, 6.2].map(|side| (side * side - height * height).sqrt());
+    let mut talking = Talking::after(&format!("{SLIDING}\nset dt 1/360"));
+    for k in 1..=9 {
+        talking.run("step 77");
+        let turn = std::f64::consts::TAU * f64::from(77 * k) / 360.0;
+        let (x, y) = (libm::cos(turn), libm::sin(turn));
+        let towards = libm::atan2(3.0 - y, 3.0 - x);
+        let across = towards - libm::acos(height / libm::hypot(3.0 - x, 3.0 - y));
+        let (s, c) = libm::sincos(across);
+        let foot = [x + height * c, y + height * s];
+        talking.run(&format!(
+            "assert B = ({}, {}) within 1e-10; assert C = ({}, {}) within 1e-10",
+            foot[0] + to_b * s,
+            foot[1] - to_b * c,
+            foot[0] - to_c * s,
+            foot[1] + to_c * c
+        ));
+    }
+    let mut talking = Talking::after(&format!("{STEERING}\nset dt 1/360"));
+    for k in 1..=5 {
+        // It rolls off its arc.
+        talking.run("step 50");
+        let way = 0.13 * f64::from(50 * k) / 360.0 * 20_f64.to_radians();
+        talking.run(&format!("assert P = ({}, 0.2) within 1e-11", -0.3 - way));
+    }
+    let mut talking = Talking::after(&format!("{CREEPING}\nset dt 1/360"));
+    for k in 1..=9 {
+        talking.run("step 77");
+        let t = f64::from(77 * k).to_radians();
+        talking.run(&format!(
+            "assert A = ({}, {}) within 1e-10",
+            t - libm::sin(t),
+            1.0 - libm::cos(t)
+        ));
     }
 }
 
