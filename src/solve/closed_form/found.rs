@@ -1,5 +1,6 @@
 //! What running the list of steps came to.
 
+use crate::constraint::Vector;
 use crate::solve::frame::branch::SENSITIVE;
 
 /// What a frame came to.
@@ -42,6 +43,13 @@ pub(super) fn over_sine(sine_squared: f64) -> f64 {
     const MORE: f64 = 1.0 + 1e-6;
     let over = MORE * f64::from(1.0 / (sine_squared as f32).sqrt());
     if sine_squared <= MORE { over } else { f64::NAN }
+}
+
+/// How long a vector is, with the bits of [`Vector::norm`]; not a number where its square is none that can be held.
+#[inline(always)]
+pub(super) fn plain_length(v: Vector) -> f64 {
+    let squared = v.norm_squared();
+    if (squared > 1e-280) & (squared < 1e280) { squared.sqrt() } else { f64::NAN }
 }
 
 #[cfg(test)]

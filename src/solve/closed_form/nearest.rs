@@ -1,8 +1,11 @@
 //! Points on circles that nothing else holds: each stays as near as it can to where it was.
 
+#![allow(clippy::needless_range_loop, reason = "loops over all frames, that vectors are made of")]
+
 use super::abreast::{Abreast, Places, Poses, put_each};
+use super::found::plain_length;
 use super::length::{Length, Timed};
-use crate::constraint::{Point, PointIdx};
+use crate::constraint::{Point, PointIdx, Vector};
 
 /// A point on a circle, where it is nearest to.
 pub(super) struct Nearest {
@@ -51,40 +54,55 @@ pub(super) fn run<const N: usize>(
     x: &mut (impl Poses<N> + ?Sized),
     abreast: &mut Abreast<N>,
 ) {
-    let mut centres = [Places::all(Point::ORIGIN); FEW];
-    let mut radii = [[0.0; N]; FEW];
-    let mut last = [Point::ORIGIN; FEW];
-    let mut found = [[(Point::ORIGIN, 0.0, 0.0); N]; FEW];
+    let (mut centres, mut radii) = ([Places::all(Point::ORIGIN); FEW], [[0.0; N]; FEW]);
+    let (mut last_x, mut last_y) = ([0.0; FEW], [0.0; FEW]);
     let n = points.len().min(FEW);
     for (k, point) in points[..n].iter().enumerate() {
         (centres[k], radii[k]) = (x.get(point.from), point.radius.of(x, &abreast.lengths));
-        last[k] = x.get(point.to).at(N - 1);
+        let last = x.get(point.to).at(N - 1);
+        (last_x[k], last_y[k]) = (last.x, last.y);
     }
+    let mut found = [Places::<N>::all(Point::ORIGIN); FEW];
     for l in 0..N {
-        for k in 0..n {
-            let (centre, radius) = (centres[k].at(l), radii[k][l]);
-            let arm = last[k] - centre;
-            let at = centre + arm * (radius / arm.norm());
-            let off = (at - centre).norm() - radius;
-            // How far it went is not said: nothing follows from where it is.
-            found[k][l] = (at, 0.0, if radius >= 0.0 { off } else { f64::NAN });
-            last[k] = at;
+        for k in 0..FEW {
+            let centre = centres[k].at(l);
+            let arm = Point::new(last_x[k], last_y[k]) - centre;
+            let at = centre + arm * (radii[k][l] / length::<N>(arm));
+            (last_x[k], last_y[k]) = (at.x, at.y);
+            found[k].set(l, at);
         }
     }
-    for (point, found) in points.iter().zip(&found) {
-        put_each(point.to, x, abreast, |l| found[l]);
+    for (k, point) in points[..n].iter().enumerate() {
+        let (centre, radius, found) = (centres[k], radii[k], found[k]);
+        put_each(point.to, x, abreast, |l| {
+            let at = found.at(l);
+            let off = length::<N>(at - centre.at(l)) - radius[l];
+            // How far it went is not said: nothing follows from where it is.
+            (at, 0.0, if radius[l] >= 0.0 { off } else { f64::NAN })
+        });
     }
+}
+
+/// How long a vector is; not a number, in frames side by side, where its square is none that can be held.
+#[inline(always)]
+fn length<const N: usize>(v: Vector) -> f64 {
+    if N == 1 { v.norm() } else { plain_length(v) }
 }
 
 impl Radius {
     /// How long it is in each frame.
+    #[inline(always)]
     fn of<const N: usize>(&self, x: &(impl Poses<N> + ?Sized), lengths: &[Timed<N>]) -> [f64; N] {
         match *self {
             Self::Fixed(radius) if N > 1 => radius.each(lengths).now,
             Self::Fixed(radius) => [radius.now; N],
             Self::Measured { between, factor, offset } => {
                 let [p, q] = between.map(|p| x.get(p));
-                std::array::from_fn(|l| factor * p.at(l).distance(q.at(l)) + offset)
+                let mut radii = [0.0; N];
+                for l in 0..N {
+                    radii[l] = factor * length::<N>(q.at(l) - p.at(l)) + offset;
+                }
+                radii
             }
         }
     }

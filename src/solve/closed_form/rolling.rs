@@ -9,6 +9,7 @@
 )]
 
 use super::abreast::Places;
+use super::found::plain_length;
 use super::wheel::{MOST, Told, Wheel};
 use crate::constraint::{
     Cog, Constraint, Counts, Mesh, Rack, Vector, Winding, directions, sines_and_cosines,
@@ -35,8 +36,9 @@ struct ByWheel<'a, const N: usize> {
     mesh: &'a Mesh,
     is_second: bool,
     radius: f64,
-    /// The contribution of whole turns before the first frame, and before another with the same turns; these.
+    /// What whole turns contribute before the first frame, and before another with the same turns.
     wound: [f64; 2],
+    /// These turns.
     turns: [i64; 3],
     /// The other wheel's direction and that of the line of centres: counted on in each frame, and after it.
     angles: [[f64; N]; 2],
@@ -139,10 +141,10 @@ impl Wheel {
         for l in 0..N {
             let along = Vector::new(line[0][l], line[1][l]);
             let towards = Vector::new(centre[0][l], centre[1][l]);
-            s[l] = along.dot(towards) / length(along);
+            s[l] = along.dot(towards) / plain_length(along);
             // How far it rolls: what the centre and the line go past each other.
             let past = ways[0][l] + ways[2][l];
-            let rolled = past + (length(towards) + past) * turn[l];
+            let rolled = past + (plain_length(towards) + past) * turn[l];
             let own_turn = turn[l] + rolled / rack.radius().abs();
             is_told[l] &= (turn[l] >= 0.0) & (turn[l] < MOST);
             is_told[l] &= (own_turn >= 0.0) & (own_turn < MOST);
@@ -295,13 +297,6 @@ fn between<const N: usize>(from: &Places<N>, to: &Places<N>) -> [[f64; N]; 2] {
     ways
 }
 
-/// How long a vector is; not a number where its square is none that can be held.
-#[inline(always)]
-fn length(v: Vector) -> f64 {
-    let squared = v.x * v.x + v.y * v.y;
-    if (squared > 1e-280) & (squared < 1e280) { squared.sqrt() } else { f64::NAN }
-}
-
 /// Whether two places are far enough apart to have a direction; no where their distance cannot be held.
 #[inline(always)]
 fn and_apart<const N: usize>(all: &mut [bool; N], a: &Places<N>, b: &Places<N>) {
@@ -309,7 +304,7 @@ fn and_apart<const N: usize>(all: &mut [bool; N], a: &Places<N>, b: &Places<N>) 
         let larger = |one: f64, two: f64| if one > two { one } else { two };
         let largest =
             larger(larger(a.x[l].abs(), a.y[l].abs()), larger(b.x[l].abs(), b.y[l].abs()));
-        let far = length(Vector::new(b.x[l] - a.x[l], b.y[l] - a.y[l]));
+        let far = plain_length(Vector::new(b.x[l] - a.x[l], b.y[l] - a.y[l]));
         all[l] &= far > 4.0 * f64::EPSILON * largest;
     }
 }
@@ -325,7 +320,7 @@ fn turned_each<const N: usize>(
     let mut all = [0.0; N];
     for l in 0..N {
         let way = ways[from][l] + ways[to][l];
-        let turned = way / (length(Vector::new(b.x[l] - a.x[l], b.y[l] - a.y[l])) - way);
+        let turned = way / (plain_length(Vector::new(b.x[l] - a.x[l], b.y[l] - a.y[l])) - way);
         all[l] = if way == 0.0 { 0.0 } else { turned };
     }
     all
