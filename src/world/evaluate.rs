@@ -22,7 +22,7 @@ impl World {
         formula: &Formula,
         rates: Option<&Rates>,
     ) -> Result<Value, Diagnostic> {
-        if formula.depends().on_parameters {
+        if formula.depends().looks_up_parameters() {
             self.refresh_parameters();
         }
         formula.evaluate(&Here::new(self, rates))
@@ -53,7 +53,7 @@ impl World {
         undo: &mut Vec<Edit>,
     ) -> Result<(), Diagnostic> {
         let depends = self.depends(&formula);
-        if depends.on_parameters {
+        if depends.looks_up_parameters() {
             self.refresh_parameters();
         }
         let value = self.parameter_value(&formula, depends)?;
@@ -98,7 +98,7 @@ impl World {
         undo: &mut Vec<Edit>,
     ) {
         let depends = self.depends(&formula);
-        if depends.on_parameters {
+        if depends.looks_up_parameters() {
             self.refresh_parameters();
         }
         let value = self.parameter_value(&formula, depends).unwrap_or_default();

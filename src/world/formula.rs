@@ -109,6 +109,12 @@ impl Depends {
             || self.on_measures
     }
 
+    /// Whether parameters are looked up for its value: those that it mentions, or those that drive a constraint by
+    /// how much of which is missed.
+    pub const fn looks_up_parameters(self) -> bool {
+        self.on_parameters || self.on_constraints
+    }
+
     /// Whether nothing can change it.
     pub const fn is_constant(self) -> bool {
         !self.is_live() && !self.on_parameters

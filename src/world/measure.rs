@@ -96,7 +96,7 @@ impl World {
             return Ok(());
         }
         let depends = self.depends(&measure.formula);
-        if depends.on_parameters {
+        if depends.looks_up_parameters() {
             self.refresh_parameters();
         }
         if depends.on_rates {

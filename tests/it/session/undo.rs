@@ -244,3 +244,33 @@ fn a_freeze_that_is_taken_back_gives_what_measures_the_point_its_values_back() {
         check_same(&talking.script(), &plain.script(), &format!("after {freeze}"));
     }
 }
+
+#[test]
+fn how_much_a_bar_is_missed_by_is_told_with_the_values_of_now() {
+    // At time 0 its length is 3, and so far apart are its ends.
+    let scene = "point A = (0, 0) frozen, B = (3, 0); let r = 3; bar: length A B = r
+        let q = 3 + time; let r = q; measure m = bar.residual";
+    for (then, first) in [
+        (&["step 2", "undo"][..], 0.0),
+        (&["for i in 1..2 { step; length B nowhere }"], 0.0),
+        (&["step 2", "reset"], 0.0),
+        (&["step 2", "let r = q + 1", "undo 2"], 0.0),
+        // The other way round it is longer by 1 before the first frame.
+        (&["let r = q + 1", "step 2", "undo"], -1.0),
+    ] {
+        let after = || {
+            let mut talking = Talking::after(scene);
+            // What fails is one of those.
+            then.iter().for_each(|statement| drop(talking.execute(statement)));
+            talking
+        };
+        assert_eq!(after().ask("bar.residual"), [first.to_string()], "{then:?}");
+        let mut talking = after();
+        talking.run("let missed = bar.residual");
+        assert_eq!(talking.ask("missed"), [first.to_string()], "{then:?}");
+        // It is solved before it is measured.
+        let mut talking = after();
+        talking.run("step");
+        assert_eq!(talking.ask("m.first"), ["0"], "{then:?}");
+    }
+}
