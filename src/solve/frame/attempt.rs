@@ -1,7 +1,6 @@
 //! An attempt at a pose from an expected one: block by block, then the parts that are solved as a
 //! whole.
 
-use super::branch::PartSide;
 use super::dyad;
 use super::expected::{NO_MOTION, SURPRISE};
 use crate::constraint::{ConstraintKind, Point};
@@ -207,21 +206,19 @@ fn attempt_rest(
         }
         let correction =
             workspaces.iter().map(|workspace| workspace.correction(&island.x)).fold(0.0, f64::max);
-        if island.is_smooth() {
-            for (k, workspace) in workspaces.iter().enumerate() {
-                let now = PartSide::of(&workspace.equations, &workspace.rows);
-                island.watch.next_part_sides[k] = now;
-                if let (Some(before), Some(now)) = (island.watch.part_sides[k], now)
-                    && before.is_like(now)
-                {
-                    let part = &island.plan.rest[k];
-                    let lengths = part.constraints.iter();
-                    let lengths = lengths.map(|&c| island.constraints[c as usize].nominal_length());
-                    let shortest = lengths.filter(|l| *l > 0.0).fold(limits.size, f64::min);
-                    let sides = [before.value, now.value];
-                    let apart_squared = 4.0 * shortest * shortest;
-                    sum.compare(sides, workspace.correction(&island.x), apart_squared);
-                }
+        for (k, workspace) in workspaces.iter().enumerate() {
+            let now = island.part_side(workspace);
+            island.watch.next_part_sides[k] = now;
+            if let (Some(before), Some(now)) = (island.watch.part_sides[k], now)
+                && before.is_like(now)
+            {
+                let part = &island.plan.rest[k];
+                let lengths = part.constraints.iter();
+                let lengths = lengths.map(|&c| island.constraints[c as usize].nominal_length());
+                let shortest = lengths.filter(|l| *l > 0.0).fold(limits.size, f64::min);
+                let sides = [before.value, now.value];
+                let apart_squared = 4.0 * shortest * shortest;
+                sum.compare(sides, workspace.correction(&island.x), apart_squared);
             }
         }
         // What is free to choose where it goes has no branch to lose.

@@ -5,7 +5,7 @@ use super::known_sides::{KnownSides, WatchedSides};
 use crate::constraint::PointIdx;
 use crate::solve::frame::branch::{FLAT, PartSide};
 use crate::solve::frame::decomposition::Side;
-use crate::solve::method::Pose;
+use crate::solve::method::{Pose, Workspace};
 use crate::solve::report::Counters;
 
 /// And this near it counts as singular: rounding leaves open on which side of it the pose is.
@@ -60,6 +60,11 @@ impl Island {
         }
     }
 
+    /// On which side a part is where its rows were evaluated; none of what has freedom left, which may be on any.
+    pub fn part_side(&self, workspace: &Workspace) -> Option<PartSide> {
+        self.is_smooth().then(|| PartSide::of(&workspace.equations, &workspace.rows))?
+    }
+
     /// Works out on which side the parts are at the present pose, where they are not known.
     pub fn measure_part_sides(&mut self, work: &mut Counters) {
         if self.watch.knows_part_sides || self.plan.is_complete() {
@@ -69,7 +74,7 @@ impl Island {
         for (k, workspace) in workspaces.iter_mut().enumerate() {
             let pose = Pose { constraints: &self.constraints, x: &mut self.x };
             workspace.evaluate(&pose, work);
-            self.watch.part_sides[k] = PartSide::of(&workspace.equations, &workspace.rows);
+            self.watch.part_sides[k] = self.part_side(workspace);
         }
         self.part_workspaces = workspaces;
         self.watch.knows_part_sides = true;

@@ -300,3 +300,19 @@ fn a_ratio_takes_the_place_of_teeth_that_come_to_the_same() {
     let loaded = Talking::after(&talking.script());
     assert_eq!(loaded.script(), talking.script());
 }
+
+#[test]
+fn a_joint_that_is_flat_for_good_goes_on_from_a_file_as_it_would_have() {
+    // Both bars of X together are as long as the motor's arm, which is measured from a link.
+    let flat = "point P = (5, 3), X = (4, 3); motor C P radius 2 from A D speed 0.3rev
+        length C X = 1; length X P = 1; set dt 1/30";
+    for carried in [
+        "point A = (0, 0) frozen, D = (1, 0) frozen, C = (3, 3) frozen",
+        "point A = (0, 0) frozen, D = (1, 0), C = (3, 3); motor A D speed 1rev; length D C; length A C",
+    ] {
+        for n in 1..8 {
+            let mut talking = Talking::after(&format!("{carried}\n{flat}\nstep {n}"));
+            talking.assert_goes_on_from_its_file("step 2");
+        }
+    }
+}
