@@ -37,7 +37,6 @@ pub use parts::geometry::{Point, Vector};
 pub use parts::heading::Heading;
 #[doc(hidden)]
 pub use parts::jet::{Jet, Real};
-#[doc(hidden)]
 pub(crate) use parts::mesh::{Counts, Mesh};
 #[doc(hidden)]
 pub use parts::program::{Operation, Program, Register};

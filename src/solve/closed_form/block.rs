@@ -2,9 +2,9 @@
 //!
 //! A body with a known point, or with one of another body, has one number, its angle; a point by itself, of
 //! a body or not, has two. As many bars and [equations of constraints](Equation) as there are numbers say what they
-//! are. They are found by Newton's method from where the last poses let the points be expected, and count by the same rules as the parts
-//! of islands that are [solved as a whole](crate::solve::frame::predict): the pose is near to where it was
-//! expected, and far from the other places where the bars hold.
+//! are. They are found by Newton's method from where the last poses let the points be expected, and count by the
+//! same rules as the parts of islands that are [solved as a whole](crate::solve::frame::predict): the pose is near
+//! to where it was expected, and far from the other places where all of them hold.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ use crate::solve::island::history::History;
 pub(super) const MOST: usize = 4;
 /// A pose whose least pivot is below this is left to others.
 const NEAR: f64 = 1e-2;
-/// A step that is so much shorter than the shortest bar ends it: what is left is the square of that.
+/// A step that is so much shorter than the shortest bar or segment ends it: what is left is the square of that.
 const SHORT: f64 = 1e-8;
 const MOST_STEPS: u32 = 6;
 /// How what is known moves with each number.
@@ -189,7 +189,7 @@ impl Block {
                 x[p as usize] = at;
                 *to = (p, by);
             }
-            equation.rows(x, constraints, |of| {
+            equation.firm.rows(x, constraints, |of| {
                 worst = larger(worst, of.f);
                 let row = square.row(r);
                 let mut alone = 0.0;
@@ -248,8 +248,7 @@ impl Block {
             // Where it turned back on the way it is taken to have gone no farther than in the frame before.
             abreast.ways[p as usize] = [places[k].distance(before[k]) + self.last_ways[k]; N];
         }
-        let way = |p: PointIdx| abreast.ways[p as usize][0];
-        self.equations.iter().all(|equation| equation.is_counted(x, way)).then_some(side)
+        Some(side)
     }
 
     /// Where its points are, and on which side of a singular pose that is; none if they are not where
@@ -263,7 +262,7 @@ impl Block {
         let mut pose = self.expected?;
         let expected = self.places(&pose, x);
         let lengths = self.legs.iter().map(|leg| leg.length.now);
-        let spans = self.equations.iter().flat_map(|equation| equation.spans(x));
+        let spans = self.equations.iter().flat_map(|equation| equation.firm.spans(x));
         let shortest = lengths.chain(spans).fold(f64::INFINITY, f64::min);
         let mut n_steps = 0;
         let side = loop {

@@ -22,15 +22,23 @@ pub(super) enum End {
 
 /// A constraint that says numbers of points and bodies.
 pub(super) struct Equation {
-    /// Its number.
-    pub c: u32,
-    /// How many numbers it says.
-    pub n_rows: usize,
+    /// Its rows.
+    pub firm: Firm,
     /// Its points that are found together, or with a body that is.
     pub ends: Vec<(PointIdx, End)>,
-    /// Segments between its points: no shorter than what its curvature has to do with.
+}
+
+/// A constraint by the rows that bind at every pose, in frames by themselves.
+#[derive(Clone)]
+pub(super) struct Firm {
+    /// Its number.
+    pub c: u32,
+    /// How many rows there are.
+    pub n_rows: usize,
+    /// Segments between its points: where points move across these, or turn, by as much as they are long, the rows are
+    /// others.
     segments: Vec<[PointIdx; 2]>,
-    /// Whether it counts turns of these segments.
+    /// Whether it counts turns of the segments.
     is_wheel: bool,
 }
 
@@ -42,18 +50,25 @@ impl Equation {
         constraint: &Constraint,
         end: impl Fn(PointIdx) -> Option<End>,
     ) -> Option<Self> {
-        let traits = constraint.traits();
-        let (n_rows, points) = (traits.n_firm_rows, constraint.points());
-        // Beyond a stop it has more rows, and is left to others.
-        if n_rows == 0 || traits.activity == Activity::Outside || points.len() > MOST_POINTS {
-            return None;
-        }
-        let mut ends: Vec<(PointIdx, End)> = Vec::with_capacity(points.len());
-        for &p in points {
+        let firm = Firm::new(c, constraint)?;
+        let mut ends: Vec<(PointIdx, End)> = Vec::with_capacity(MOST_POINTS);
+        for &p in constraint.points() {
             let end = end(p)?;
             if !matches!(end, End::Known(_)) && ends.iter().all(|(q, _)| *q != p) {
                 ends.push((p, end));
             }
+        }
+        (!ends.is_empty()).then_some(Self { firm, ends })
+    }
+}
+
+impl Firm {
+    fn new(c: u32, constraint: &Constraint) -> Option<Self> {
+        let (traits, points) = (constraint.traits(), constraint.points());
+        let n_rows = traits.n_firm_rows;
+        // Beyond a stop it has more rows, and is left to others.
+        if n_rows == 0 || traits.activity == Activity::Outside || points.len() > MOST_POINTS {
+            return None;
         }
         let turns_with_centres = traits.is_wheel && traits.quantity == Quantity::Angle;
         let segments: &[[usize; 2]] = match points.len() {
@@ -64,8 +79,7 @@ impl Equation {
             _ => &[],
         };
         let segments = segments.iter().map(|segment| segment.map(|k| points[k])).collect();
-        let is_wheel = traits.is_wheel;
-        (!ends.is_empty()).then_some(Self { c, n_rows, ends, segments, is_wheel })
+        Some(Self { c, n_rows, segments, is_wheel: traits.is_wheel })
     }
 
     /// Calls `visit` for each of its rows at a pose; none where there are more or less than it has at every pose.
@@ -73,9 +87,18 @@ impl Equation {
         &self,
         x: &[Point],
         constraints: &[Constraint],
-        visit: impl FnMut(&Row),
+        mut visit: impl FnMut(&Row),
     ) -> Option<()> {
-        rows(&constraints[self.c as usize], x, self.n_rows, visit)
+        let mut n_active = 0;
+        constraints[self.c as usize].jacobian(x, &mut |row| {
+            if row.is_active {
+                n_active += 1;
+                if n_active <= self.n_rows {
+                    visit(&row);
+                }
+            }
+        });
+        (n_active == self.n_rows).then_some(())
     }
 
     /// How long its segments are.
@@ -83,9 +106,28 @@ impl Equation {
         self.segments.iter().map(|[a, b]| x[*a as usize].distance(x[*b as usize]))
     }
 
+    /// Checks that it holds once all of its points are found, and that the turns which it counts are told by where
+    /// these are.
+    pub fn check<const N: usize>(
+        &self,
+        x: &mut (impl Poses<N> + ?Sized),
+        constraints: &[Constraint],
+        abreast: &mut Abreast<N>,
+    ) {
+        let off = x.one().and_then(|x| {
+            let mut worst = 0.0;
+            self.rows(x, constraints, |row| {
+                let steepest = row.terms().fold(0.0, |sum, (_, g)| sum + g.norm_squared());
+                worst = larger(worst, row.f / steepest.sqrt());
+            })?;
+            self.is_counted(x, |p| abreast.ways[p as usize][0]).then_some(worst)
+        });
+        abreast.check_each(|_| off.unwrap_or(f64::NAN));
+    }
+
     /// Whether the turns that it counts are told by where points are at the end of a frame in which they went no
     /// farther than `way` says.
-    pub fn is_counted(&self, x: &[Point], way: impl Fn(PointIdx) -> f64) -> bool {
+    fn is_counted(&self, x: &[Point], way: impl Fn(PointIdx) -> f64) -> bool {
         let mut segments = self.segments.iter().zip(self.spans(x));
         let is_told = |([a, b], span): (&[PointIdx; 2], f64)| {
             let way = way(*a) + way(*b);
@@ -93,40 +135,4 @@ impl Equation {
         };
         !self.is_wheel || segments.all(is_told)
     }
-}
-
-/// Calls `visit` for each row of a constraint that has so many at every pose; none where it has more or less.
-fn rows(
-    constraint: &Constraint,
-    x: &[Point],
-    n_rows: usize,
-    mut visit: impl FnMut(&Row),
-) -> Option<()> {
-    let mut n_active = 0;
-    constraint.jacobian(x, &mut |row| {
-        if row.is_active {
-            n_active += 1;
-            if n_active <= n_rows {
-                visit(&row);
-            }
-        }
-    });
-    (n_active == n_rows).then_some(())
-}
-
-/// Checks a constraint of so many rows in a frame by itself.
-pub(super) fn check<const N: usize>(
-    constraint: &Constraint,
-    n_rows: usize,
-    x: &mut (impl Poses<N> + ?Sized),
-    abreast: &mut Abreast<N>,
-) {
-    let mut worst = 0.0;
-    let found = x.one().and_then(|x| {
-        rows(constraint, x, n_rows, |row| {
-            let steepest = row.terms().fold(0.0, |sum, (_, g)| sum + g.norm_squared());
-            worst = larger(worst, row.f / steepest.sqrt());
-        })
-    });
-    abreast.check_each(|_| if found.is_some() { worst } else { f64::NAN });
 }

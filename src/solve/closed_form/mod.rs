@@ -51,6 +51,7 @@ use body::{Bar, Body};
 use circles::Circles;
 pub(crate) use compile::Given;
 use direction::Direction;
+use equation::Firm;
 pub(crate) use found::Found;
 pub(crate) use lanes::Lanes;
 use length::Length;
@@ -140,13 +141,8 @@ enum Step {
     Block(Box<Block>),
     /// Nowhere new: a bar between points that are found, which is to hold there.
     Bar(Bar),
-    /// Nowhere new: a constraint of so many rows whose points are found together, which is to hold there.
-    Equation {
-        /// The constraint.
-        c: u32,
-        /// How many rows it has at every pose.
-        n_rows: usize,
-    },
+    /// Nowhere new: a constraint whose points are found together, which is to hold there.
+    Firm(Firm),
     /// On circles, where they are nearest to; nothing follows from these.
     Nearest(Vec<Nearest>),
 }

@@ -202,7 +202,7 @@ impl Wheel {
 
 impl<const N: usize> ByWheel<'_, N> {
     /// What whole turns contribute to the equation, after those of the other wheel and of the line of centres in a
-    /// frame, where those of the wheel are that many; and all three.
+    /// frame, where those of the wheel are that many.
     #[inline(always)]
     fn wound_after(&self, l: usize, n_turns: i64) -> f64 {
         let [other, centres] = [self.after[0][l].turns, self.after[1][l].turns];

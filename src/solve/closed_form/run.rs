@@ -1,7 +1,6 @@
 //! Running the list of steps for a frame.
 
 use super::abreast::{Abreast, Meeting as _, Places, Poses, Turned, put_each};
-use super::equation;
 use super::found::Found;
 use super::length::{Length, Values, bar};
 use super::nearest::{self, Nearest};
@@ -39,7 +38,7 @@ impl ClosedForm {
                 | Step::Wheel(_)
                 | Step::Sum(_)
                 | Step::Bar(_)
-                | Step::Equation { .. }
+                | Step::Firm(_)
                 | Step::Nearest(_) => {}
             }
         }
@@ -73,7 +72,7 @@ impl ClosedForm {
                 | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Equation { .. }
+                | Step::Firm(_)
                 | Step::Body(_) => {}
             }
         }
@@ -241,7 +240,7 @@ impl ClosedForm {
                 | Step::Crossing(_)
                 | Step::Wheel(_)
                 | Step::Sum(_)
-                | Step::Equation { .. }
+                | Step::Firm(_)
                 | Step::Body(_) => {}
             }
         }
@@ -340,9 +339,7 @@ pub(super) fn make<const N: usize>(
             Step::Sum(sum) => sum.run(x, abreast),
             Step::Body(body) => body.run(x, abreast),
             Step::Block(block) => block.run(x, constraints, abreast),
-            Step::Equation { c, n_rows } => {
-                equation::check(&constraints[*c as usize], *n_rows, x, abreast);
-            }
+            Step::Firm(firm) => firm.check(x, constraints, abreast),
             Step::Bar(bar) => bar.check(x, abreast),
             Step::Place { to, drive, .. } => {
                 let Turned { x: at_x, y: at_y, way } = abreast.turned[*drive as usize];

@@ -57,14 +57,14 @@ impl Compiler<'_> {
         let Some(block) = blocks.min_by_key(Block::n_numbers) else { return false };
         let found: Vec<PointIdx> = block.finds().collect();
         self.form.has_blocks = true;
-        let equations: Vec<_> = block.equations.iter().map(|it| (it.c, it.n_rows)).collect();
-        self.form.steps.push(Step::Block(Box::new(block)));
-        for (c, n_rows) in equations {
-            self.note_driver(c);
+        for equation in &block.equations {
+            let firm = equation.firm.clone();
+            self.note_driver(firm.c);
             // Some of its points may be found after the block, with their body.
-            assembly.is_met[c as usize] = true;
-            assembly.unchecked.push(Step::Equation { c, n_rows });
+            assembly.is_met[firm.c as usize] = true;
+            assembly.unchecked.push(Step::Firm(firm));
         }
+        self.form.steps.push(Step::Block(Box::new(block)));
         found.into_iter().for_each(|p| assembly.learn(self, p));
         true
     }
@@ -129,9 +129,9 @@ impl Assembly<'_> {
         for (c, constraint) in others {
             let end = |p: PointIdx| self.end(p, &draft);
             if let Some(equation) =
-                Equation::new(*c, constraint, end).filter(|it| it.n_rows <= n_left)
+                Equation::new(*c, constraint, end).filter(|it| it.firm.n_rows <= n_left)
             {
-                n_left -= equation.n_rows;
+                n_left -= equation.firm.n_rows;
                 equations.push(equation);
             }
         }

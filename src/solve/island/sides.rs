@@ -60,9 +60,11 @@ impl Island {
         }
     }
 
-    /// On which side a part is where its rows were evaluated; none of what has freedom left, which may be on any.
+    /// On which side a part is where its rows were evaluated; none of what is known to have freedom left, which may be
+    /// on any.
     pub fn part_side(&self, workspace: &Workspace) -> Option<PartSide> {
-        self.is_smooth().then(|| PartSide::of(&workspace.equations, &workspace.rows))?
+        let may_be_on_any = self.has_degree && !self.is_smooth();
+        if may_be_on_any { None } else { PartSide::of(&workspace.equations, &workspace.rows) }
     }
 
     /// Works out on which side the parts are at the present pose, where they are not known.
