@@ -49,6 +49,11 @@ pub struct ProcessHost {
     view: Option<View>,
 }
 
+thread_local! {
+    /// Says whether the user wants to stop; each statement asks for it.
+    static WISH: Wish = Rc::new(interrupt::is_asked);
+}
+
 /// Where what an example includes is looked for: no folder, it comes with the program.
 pub const EXAMPLES_FOLDER: &str = "<examples>";
 
@@ -196,7 +201,7 @@ impl Host for ProcessHost {
     }
 
     fn wish_to_stop(&self) -> Option<Wish> {
-        Some(Rc::new(interrupt::is_asked))
+        Some(WISH.with(Clone::clone))
     }
 
     fn forget_stop(&mut self) {

@@ -204,10 +204,20 @@ fn line_end(bytes: &[u8], from: usize) -> usize {
     bytes[from..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |at| from + at)
 }
 
-/// How many bytes there are of those that names and numbers mostly consist of.
+/// Whether a byte is one of those that names and numbers mostly consist of.
+const IS_PLAIN: [bool; 256] = {
+    let mut is_plain = [false; 256];
+    let mut byte = 0_u8;
+    while byte < 128 {
+        is_plain[byte as usize] = byte.is_ascii_alphanumeric() || byte == b'.';
+        byte += 1;
+    }
+    is_plain
+};
+
+/// How many of those there are.
 fn plain(bytes: &[u8]) -> usize {
-    let is_plain = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'.';
-    bytes.iter().take_while(is_plain).count()
+    bytes.iter().take_while(|byte| IS_PLAIN[usize::from(**byte)]).count()
 }
 
 /// Where the text goes on, if the `\` at `at` is the last of its line.

@@ -28,8 +28,9 @@ impl Deadline {
     /// What says within a long piece of work that it is to be left: the user wants that, or the
     /// moment has passed.
     pub fn wish(self, host: &dyn Host) -> Option<Wish> {
-        let (asked, clock) = (host.wish_to_stop(), host.clock());
-        let Some((deadline, now)) = self.0.zip(clock) else { return asked };
+        let asked = host.wish_to_stop();
+        let Some(deadline) = self.0 else { return asked };
+        let Some(now) = host.clock() else { return asked };
         Some(Rc::new(move || asked.as_ref().is_some_and(|asked| asked()) || now() >= deadline))
     }
 }

@@ -153,15 +153,15 @@ impl<'a> Execution<'a> {
     pub fn complete(&mut self, statement: &Statement) {
         self.history.last_motion.end(self.state.world.revision());
         self.report_run();
-        let label = self.input.label(statement.span);
-        self.input.is_change = self.history.commit(self.state, &label, &self.input.quotas);
+        let label = || self.input.label(statement.span);
+        self.input.is_change = self.history.commit(self.state, label, &self.input.quotas);
     }
 
     /// Ends recordings that still run and writes them.
     pub fn finish(mut self) -> Result<(), Diagnostic> {
         self.stop_recording();
         self.flush_outbox(self.is_asked_to_stop())?;
-        self.history.commit(self.state, "", &self.input.quotas);
+        self.history.commit(self.state, String::new, &self.input.quotas);
         Ok(())
     }
 

@@ -101,6 +101,9 @@ impl Execution<'_> {
     /// Writes the files of a command that succeeded. One that cannot be written keeps no
     /// other back. Who stopped a run still wants what it recorded: it is written whatever is asked.
     pub fn flush_outbox(&mut self, was_stopped: bool) -> Result<(), Diagnostic> {
+        if self.outbox.is_empty() {
+            return Ok(());
+        }
         let parcels = std::mem::take(&mut self.outbox);
         let write = |parcel: &Parcel| {
             let Parcel { file, content, span, kind } = parcel;

@@ -77,7 +77,7 @@ const HOMES: [(&str, &[&str]); 26] = [
     ("rustyline", &["repl/"]),
     ("lsp_server", &["cli/language_server/"]),
     ("serde_json", &["cli/language_server/", "live/", "session/json/"]),
-    ("smallvec", &["mobility/system.rs", "solve/frame/motion.rs"]),
+    ("smallvec", &["mobility/system.rs", "session/resolve/scopes.rs", "solve/frame/motion.rs"]),
     ("svg", &["render/"]),
     ("tempfile", &["cli/files.rs"]),
     ("ttf_parser", &["render/pixels/letters.rs"]),

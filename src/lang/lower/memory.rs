@@ -92,22 +92,23 @@ impl Memory {
     fn look_at(&mut self, text: &str, head: &Range<usize>) {
         self.text.clear();
         self.places.clear();
-        let n_most = head.len().min(LONGEST_SHAPE);
-        self.text.reserve(n_most);
-        self.places.reserve(n_most + 1);
-        let mut was_digit = false;
-        for (at, &byte) in text.as_bytes()[head.clone()].iter().enumerate() {
-            let is_digit = byte.is_ascii_digit();
-            if is_digit && was_digit {
-                continue;
-            }
-            was_digit = is_digit;
-            if self.text.len() == LONGEST_SHAPE {
+        let bytes = &text.as_bytes()[..head.end];
+        let mut at = head.start;
+        while at < head.end {
+            let is_digit = |byte: &u8| byte.is_ascii_digit();
+            let n = bytes[at..].iter().position(is_digit).unwrap_or(head.end - at);
+            if self.text.len() + n > LONGEST_SHAPE {
                 self.text.clear();
                 return;
             }
-            self.text.push(if is_digit { b'0' } else { byte });
-            self.places.push((head.start + at) as u32);
+            self.text.extend_from_slice(&bytes[at..at + n]);
+            self.places.extend(at as u32..(at + n) as u32);
+            at += n;
+            if at < head.end {
+                self.text.push(b'0');
+                self.places.push(at as u32);
+                at += bytes[at..].iter().take_while(|byte| is_digit(byte)).count();
+            }
         }
         self.places.push(head.end as u32);
         let mut hasher = DefaultHasher::new();

@@ -15,6 +15,9 @@ pub const RESERVED: [&str; 3] = ["pi", "tau", "time"];
 /// The word for every point.
 pub const ALL: &str = "all";
 
+/// Few names have more bytes.
+const USUAL_NAME: usize = 24;
+
 /// What names and expressions mean where a statement stands.
 pub struct Resolver<'a> {
     /// What the names are names of. The solver is asked for velocities; what it takes in for
@@ -75,6 +78,7 @@ impl<'a> Resolver<'a> {
         // A loop spells millions of names: each in the room of the one before.
         let mut text = std::mem::take(&mut self.scopes.spelling);
         text.clear();
+        text.reserve(USUAL_NAME);
         text.push_str(&name.head.text);
         for part in &name.parts[..n_parts] {
             match &part.kind {

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use smallvec::{SmallVec, smallvec};
+
 use crate::diag::{Diagnostic, Span};
 use crate::errors;
 use crate::terms::Unit;
@@ -11,7 +13,7 @@ use crate::world::{Formula, PointId, Turning, World};
 #[derive(Debug)]
 pub struct Scopes {
     /// The innermost last; the outermost is never left.
-    stack: Vec<Scope>,
+    stack: SmallVec<[Scope; 1]>,
     /// Room for the text of a name.
     pub(super) spelling: String,
     /// What the statement under way wants counted.
@@ -20,7 +22,7 @@ pub struct Scopes {
 
 impl Default for Scopes {
     fn default() -> Self {
-        Self { stack: vec![Scope::default()], spelling: String::new(), turnings: Vec::new() }
+        Self { stack: smallvec![Scope::default()], spelling: String::new(), turnings: Vec::new() }
     }
 }
 

@@ -133,17 +133,19 @@ pub struct Journal {
     n_commands: u64,
 }
 
+/// A command of no more changes is taken back from a copy.
+const FEW_CHANGES: usize = 16;
+
 impl Journal {
     /// Ends the command under way; what was undone before can no longer be redone.
-    pub fn commit(&mut self, label: &str, quotas: &Quotas) {
-        let mut changes = self.take_current();
+    pub fn commit(&mut self, label: String, quotas: &Quotas) {
+        let changes = self.take_current();
         if !changes.is_empty() {
             self.n_bytes -= self.undone.drain(..).map(|(_, n_bytes)| n_bytes).sum::<usize>();
-            changes.shrink_to_fit();
             let number = self.n_commands;
             self.n_commands += 1;
             let handles = self.handles;
-            self.keep(Entry { number, label: label.to_owned(), changes, told: None, handles });
+            self.keep(Entry { number, label, changes, told: None, handles });
             self.forget_oldest(quotas);
         }
     }
@@ -189,10 +191,16 @@ impl Journal {
         back.or_else(|| Some((0, place(&self.undone)?)))
     }
 
-    /// Ends the command under way without a trace; gives what takes it back.
+    /// Ends the command under way without a trace; gives what takes it back, in no more room than it needs.
     pub fn take_current(&mut self) -> Vec<Change> {
         self.covered.clear();
-        std::mem::take(&mut self.current)
+        if self.current.len() <= FEW_CHANGES && self.current.capacity() <= 4 * FEW_CHANGES {
+            // The room stays for the next one.
+            return self.current.drain(..).collect();
+        }
+        let mut changes = std::mem::take(&mut self.current);
+        changes.shrink_to_fit();
+        changes
     }
 
     /// Keeps a command as the last one done.

@@ -239,9 +239,14 @@ impl History {
         }
     }
 
-    /// Ends the command under way; whether it changed something. One that left everything as it was is
-    /// none to be taken back.
-    pub fn commit(&mut self, state: &mut State, label: &str, quotas: &Quotas) -> bool {
+    /// Ends the command under way, whose text is that; whether it changed something. One that left
+    /// everything as it was is none to be taken back.
+    pub fn commit(
+        &mut self,
+        state: &mut State,
+        label: impl FnOnce() -> String,
+        quotas: &Quotas,
+    ) -> bool {
         self.gather(state);
         let changes = &self.journal.current;
         // What was changed of a world that is gone is not to be looked for in this one.
@@ -250,7 +255,7 @@ impl History {
         let is_change =
             changes.iter().any(is_another) || !changes.iter().all(|change| state.is_at(change));
         if is_change {
-            self.journal.commit(label, quotas);
+            self.journal.commit(label(), quotas);
         } else {
             self.journal.take_current();
         }
