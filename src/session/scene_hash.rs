@@ -10,11 +10,10 @@ use super::summary::Summary;
 use crate::diag::{format_number, format_rounded};
 use crate::interrupt::tick;
 use crate::render::Options;
+use crate::solve::verdict;
 
 /// What the writing of a line takes, in ticks.
 const LINE: usize = 500;
-/// What a look at a constraint takes.
-const LOOK: usize = 20;
 
 impl State {
     /// A hash of the scene: the same for the same settings, points at the start, parameters
@@ -57,20 +56,12 @@ impl State {
         fnv_1a(text.as_bytes())
     }
 
-    /// The largest distance to satisfaction of a constraint, relative to the scene's size.
-    fn residual_now(&self) -> f64 {
-        let ids = self.world.constraints().filter(|(_, r)| r.is_on).map(|(id, _)| id);
-        let violations = ids.map(|id| {
-            tick(LOOK);
-            self.solver.violation(&self.world, id)
-        });
-        violations.fold(0.0, f64::max) / self.solver.size(&self.world)
-    }
-
-    /// What pictures of the present scene carry along, if this was the last run.
+    /// What pictures of the present scene carry along, if this was the last run. The largest residual is that
+    /// of the run, or of the present pose where that was changed since.
     pub(super) fn picture_options(&self, run: Option<&Summary>) -> Options {
         let tolerance = run.map_or(self.preferences.solve.tolerance, |run| run.tolerance);
-        let residual = run.map_or_else(|| self.residual_now(), |run| run.worst_residual);
+        let now = verdict(&self.world, &self.preferences.solve).residual;
+        let residual = run.map_or(now, |run| run.worst_residual.max(now));
         let receipt = [
             ("tolerance", format_number(tolerance)),
             ("largest residual", format_rounded(residual)),

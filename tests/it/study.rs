@@ -381,6 +381,22 @@ fn pictures_say_where_they_come_from() {
 }
 
 #[test]
+fn a_picture_says_how_far_its_own_pose_is_off() {
+    // A bar of 90 between points that are 100 apart.
+    let scene = "point A = (0, 0) frozen, B = (100, 0); bar: length A B = 90;";
+    let off = |text: &str| {
+        let (_, _, record) = said(&format!("{scene} {text} svg \"now.svg\""));
+        let picture = record.files[Path::new("now.svg")].clone();
+        let (_, rest) = picture.split_once("largest residual: ").expect("it has a receipt");
+        rest.split_once('\n').expect("its end").0.to_owned()
+    };
+    for moved in ["", "solve; move B to (100, 0);", "step 2; move B to (100, 0);"] {
+        assert_eq!(off(moved), "0.1", "after {moved}");
+    }
+    assert_eq!(off("step 2; move B to (100, 0); step;"), "0");
+}
+
+#[test]
 fn series_are_undone_saved_and_plotted() {
     let (mut session, mut notebook) = (Session::new(), notebook());
     run(
