@@ -346,7 +346,7 @@ impl Session {
 
     /// What pictures of the present scene say besides the drawing.
     fn picture_options(&self) -> crate::render::Options {
-        self.state.picture_options(self.history.last_run.as_ref())
+        self.state.picture_options(self.history.run_to(&self.state.world))
     }
 
     /// What was typed and carried out, statement by statement.

@@ -47,7 +47,7 @@ impl Execution<'_> {
             _ if summary.n_frames > 0 && !is_taken => self.note(line),
             _ => {}
         }
-        self.history.last_run = Some(summary);
+        self.history.note_run(summary, &self.state.world);
     }
 
     /// Sees to it that a receipt says converged only of a pose that is, where looking costs

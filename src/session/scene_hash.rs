@@ -56,8 +56,8 @@ impl State {
         fnv_1a(text.as_bytes())
     }
 
-    /// What pictures of the present scene carry along, if this was the last run. The largest residual is that
-    /// of the run, or of the present pose where that was changed since.
+    /// What pictures of the present scene carry along, if this run led to it. The largest residual is that
+    /// of the run, or of the present pose where that is larger.
     pub(super) fn picture_options(&self, run: Option<&Summary>) -> Options {
         let tolerance = run.map_or(self.preferences.solve.tolerance, |run| run.tolerance);
         let now = verdict(&self.world, &self.preferences.solve).residual;

@@ -394,6 +394,9 @@ fn a_picture_says_how_far_its_own_pose_is_off() {
         assert_eq!(off(moved), "0.1", "after {moved}");
     }
     assert_eq!(off("step 2; move B to (100, 0); step;"), "0");
+    // The run before was of another scene.
+    let missed = "freeze B; step; clear; point C = (0, 0) frozen, D = (9, 0); length C D = 9;";
+    assert_eq!(off(missed), "0");
 }
 
 #[test]

@@ -28,7 +28,7 @@ impl Execution<'_> {
             problem.help(format!("`record \"{}\"` writes a folder of frames", path.value))
         })?;
         let look = self.look(parts)?;
-        let run = self.run.as_ref().or(self.history.last_run.as_ref());
+        let run = self.run.as_ref().or_else(|| self.history.run_to(&self.state.world));
         let options = Options { receipt: self.state.picture_options(run).receipt, ..look };
         let picture = svg(&self.state.scene(), &options);
         self.queue_still(file, kind, picture, &options, path.span)

@@ -279,8 +279,8 @@ impl Execution<'_> {
         if self.state.recorders.is_empty() {
             return;
         }
-        let options =
-            self.state.picture_options(self.run.as_ref().or(self.history.last_run.as_ref()));
+        let run = self.run.as_ref().or_else(|| self.history.run_to(&self.state.world));
+        let options = self.state.picture_options(run);
         for mut recorder in self.state.recorders.clone() {
             recorder.name_columns(&self.state.world);
             if recorder.format == Format::Table && recorder.has_times_only() {
