@@ -97,7 +97,8 @@ impl Memory {
         while at < head.end {
             let is_digit = |byte: &u8| byte.is_ascii_digit();
             let n = bytes[at..].iter().position(is_digit).unwrap_or(head.end - at);
-            if self.text.len() + n > LONGEST_SHAPE {
+            let n_more = n + usize::from(at + n < head.end);
+            if self.text.len() + n_more > LONGEST_SHAPE {
                 self.text.clear();
                 return;
             }
